@@ -1,0 +1,62 @@
+// A camera calibration through the page: photos, targets, marks of an earlier job, control points, adjustment.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { join } from 'node:path';
+
+import { open } from './browser.mjs';
+import { adjust, data, detect, downloads, drop, figure, files, go, idle, parameter, photos, rows } from './desk.mjs';
+
+const folder = data('camcal');
+
+test('21 photos become a calibration', { skip: folder ? false : 'skipped, no data', timeout: 600_000 }, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await photos(page, files(join(folder, 'photos'), '.jpg'));
+    assert.equal(await page.locator('.tile').count(), 21);
+    // EXIF names the camera and the focal length but not the sensor.
+    assert.match(await page.textContent('.side'), /C4040Z/);
+    await page.fill('[data-field=pitch]', String((5.43764 / 1704) * 1000));
+    await page.press('[data-field=pitch]', 'Tab');
+    assert.equal(await page.inputValue('[data-field=c]'), '7.3');
+
+    await detect(page, { polarity: 'dark on bright', channel: 'green', codes: 'none' });
+    await go(page, 'identities');
+    await drop(page, [join(folder, 'markpts.txt')]);
+    await page.waitForSelector('.marks .primary');
+    const [good, all] = (await page.textContent('.marks .hint')).replaceAll('\u2009', '').match(/\d+/g).map(Number);
+    assert.equal(all, 2074);
+    assert.ok(good >= 2050, `${good} of ${all} marks snap`);
+    await page.click('.marks .primary');
+
+    await go(page, 'control');
+    await drop(page, [join(folder, 'camcal-fixed.txt')]);
+    await page.waitForSelector('.preview tr.new');
+    assert.equal(await page.locator('.preview tr.new').count(), 4);
+    await page.click('.columns .primary');
+    await adjust(page);
+
+    const c = await parameter(page, 'C4040Z', 'c');
+    assert.equal(c.unit, 'mm');
+    assert.ok(Math.abs(c.value - 7.457) <= 0.006, `c ${c.value}`);
+    assert.ok((await figure(page, 'rms-px')) <= 0.25);
+    assert.equal(await figure(page, 'redundancy'), 2 * good - 422 + 0);
+
+    const exported = await downloads(page, 4, () => page.click('.hero-action .button'));
+    const points = Object.entries(exported).find(([name]) => name.includes('points'));
+    assert.equal(rows(points[1]).length, 100);
+
+    // A changed input shows no number until it is adjusted again; undoing it brings the numbers back.
+    await go(page, 'identities');
+    await page.click('tr[data-key="5"]');
+    await page.click('.panel.point input[type=checkbox]');
+    await go(page, 'results');
+    assert.equal(await page.locator('[data-result]').count(), 0);
+    assert.match(await page.textContent('.out-of-date'), /point 5 in photo/);
+    await page.keyboard.press('Control+z');
+    assert.ok((await figure(page, 'rms-px')) <= 0.25);
+    await idle(page);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});

@@ -1,0 +1,523 @@
+//! Cofactors of all unknowns and of all adjusted observations, without the full inverse.
+//!
+//! With Z = GᵀB per point (see [`super::normal`]), Q = S⁻¹ and T = Q·Z:
+//!
+//! ```text
+//! Q_pp = L⁻ᵀ(I + ZᵀT)L⁻¹,   Q_cp = -T·L⁻¹
+//! ```
+//!
+//! so that only the blocks of Q between photos that share a point are needed. The cofactor of an adjusted observation is
+//! its row times these; the datum of the unknowns is set by the S-transformation of [`super::datum`].
+
+use nalgebra::{DMatrix, Matrix3, Matrix6, SMatrix};
+
+use super::datum::{FreeDatum, SIMILARITY, at_photo, at_point};
+use super::full::Elimination;
+use super::kernel::TILE;
+use super::layout::Layout;
+use super::network::Network;
+use super::normal::{Normal, backward3, bar_row, forward3, with_interior_size};
+use super::parameters::State;
+use super::rows::{Row, Weighting, linearise, models};
+use super::tiles::TileMatrix;
+
+/// Cofactors in the scaled unknowns of the frame of the adjustment.
+#[derive(Clone, Debug, Default)]
+pub struct Cofactors {
+    /// Per photo: turn, centre.
+    pub photos: Vec<Matrix6<f64>>,
+    /// Per photo: its six unknowns by those of its interior orientation.
+    pub photo_interior: Vec<DMatrix<f64>>,
+    /// Per interior orientation.
+    pub interiors: Vec<DMatrix<f64>>,
+    /// Per point.
+    pub points: Vec<Matrix3<f64>>,
+    /// Per ray and side: cofactor of the weighted adjusted observation, 1 - r. Empty unless wanted.
+    pub rays: Vec<[f64; 2]>,
+    /// Per ray and side: shift of its own point by a unit of weighted observation error. Empty unless wanted.
+    pub influence: Vec<[f64; 2]>,
+    /// Per distance: cofactor of the weighted adjusted distance.
+    pub bars: Vec<f64>,
+    /// Per point and axis before the S-transformation, for given coordinates.
+    pub given_points: Vec<[f64; 3]>,
+}
+
+/// The datum's S-transformation at reduced unknowns: V = (DᵀG)⁻¹DᵀQ, and (DᵀG)⁻¹DᵀQD(DᵀG)⁻ᵀ.
+struct Transformation {
+    defect: usize,
+    /// One vector over the reduced unknowns per direction.
+    v: Vec<Vec<f64>>,
+    /// D per carrier, times the inverse: one row a carrier.
+    d: DMatrix<f64>,
+    square: SMatrix<f64, SIMILARITY, SIMILARITY>,
+}
+
+/// Computes cofactors from undamped, factored equations at `state`; none where a projection does not exist.
+pub fn cofactors(
+    normal: &Normal,
+    network: &Network,
+    layout: &Layout,
+    state: &State,
+    weighting: Weighting<'_>,
+    datum: Option<&FreeDatum>,
+    full: bool,
+) -> Option<Cofactors> {
+    with_interior_size!(network, compute(normal, network, layout, state, weighting, datum, full))
+}
+
+/// A block of the inverse: numbers of the first index side by side, or of the second.
+struct Block<'a> {
+    data: &'a [f64],
+    turned: bool,
+}
+
+impl Block<'_> {
+    #[inline(always)]
+    fn get(&self, i: usize, j: usize) -> f64 {
+        if self.turned { self.data[i * TILE + j] } else { self.data[j * TILE + i] }
+    }
+}
+
+fn block(q: &TileMatrix, row: usize, column: usize) -> Block<'_> {
+    let turned = row < column;
+    let at = if turned { q.place(column, row) } else { q.place(row, column) };
+    Block { data: &q.data()[at..], turned }
+}
+
+/// t += Q(row, column)·z, of sizes R and C with the first `rows` and `columns` in use.
+#[inline(always)]
+fn multiply<const R: usize, const C: usize>(
+    q: &TileMatrix,
+    (row, rows): (usize, usize),
+    (column, columns): (usize, usize),
+    z: &[[f64; C]; 3],
+    t: &mut [[f64; R]; 3],
+) {
+    let block = block(q, row, column);
+    for j in 0..columns {
+        for i in 0..rows {
+            let value = block.get(i, j);
+            for m in 0..3 {
+                t[m][i] += value * z[m][j];
+            }
+        }
+    }
+}
+
+/// The inner loop among photos: t_i += Q_ik z_k and, for i ≠ k, t_k += Q_ikᵀ z_i; place i is not before place k.
+#[inline(always)]
+fn multiply_pair(q: &[f64], zi: &[[f64; 6]; 3], zk: &[[f64; 6]; 3], ti: &mut [[f64; 6]; 3], tk: &mut [[f64; 6]; 3]) {
+    for (c, column) in q.chunks(TILE).take(6).enumerate() {
+        let column: &[f64; 6] = column[..6].try_into().unwrap_or(&[0.0; 6]);
+        for m in 0..3 {
+            let factor = zk[m][c];
+            let mut sum = 0.0;
+            for r in 0..6 {
+                ti[m][r] += column[r] * factor;
+                sum += column[r] * zi[m][r];
+            }
+            tk[m][c] += sum;
+        }
+    }
+}
+
+fn product<const C: usize>(z: &[[f64; C]; 3], t: &[[f64; C]; 3], sum: &mut Matrix3<f64>) {
+    for a in 0..3 {
+        for b in 0..3 {
+            sum[(a, b)] += z[a].iter().zip(&t[b]).map(|(z, t)| z * t).sum::<f64>();
+        }
+    }
+}
+
+fn compute<const N: usize>(
+    normal: &Normal,
+    network: &Network,
+    layout: &Layout,
+    state: &State,
+    weighting: Weighting<'_>,
+    datum: Option<&FreeDatum>,
+    full: bool,
+) -> Option<Cofactors> {
+    let models = models(state)?;
+    let inverse = normal.matrix.inverse();
+    let transformation = match datum {
+        Some(datum) => Some(transformation::<N>(normal, network, layout, state, weighting, datum)?),
+        None => None,
+    };
+    let mut result = Cofactors {
+        rays: if full { vec![[0.0; 2]; network.rays.len()] } else { Vec::new() },
+        influence: if full { vec![[0.0; 2]; network.rays.len()] } else { Vec::new() },
+        ..Cofactors::default()
+    };
+    reduced_blocks(&mut result, network, layout, state, &inverse, transformation.as_ref());
+
+    let mut rows: Vec<Row<N>> = Vec::new();
+    let mut elimination = Elimination::<N>::new();
+    let mut t_photos: Vec<[[f64; 6]; 3]> = Vec::new();
+    let mut behind = 0;
+    for (point, network_point) in network.points.iter().enumerate() {
+        if !linearise(network, state, &models, weighting, point, &mut rows, &mut behind) {
+            return None;
+        }
+        if network_point.kept {
+            let q = kept_point(&mut result, network, layout, &inverse, point, &rows, full);
+            push_point(&mut result, network, layout, state, point, q, transformation.as_ref(), |at, v| v[at]);
+            continue;
+        }
+        let l = normal.points[point].l;
+        elimination.fill(network, layout, &l, &rows);
+        let Elimination { photos: z, places, interiors } = &elimination;
+        t_photos.clear();
+        t_photos.resize(z.len(), [[0.0; 6]; 3]);
+        for i in 0..z.len() {
+            for k in 0..i {
+                let data = &inverse.data()[inverse.place(places[i], places[k])..];
+                let (before, after) = t_photos.split_at_mut(i);
+                multiply_pair(data, &z[i], &z[k], &mut after[0], &mut before[k]);
+            }
+            multiply(&inverse, (places[i], 6), (places[i], 6), &z[i], &mut t_photos[i]);
+        }
+        let mut t_interiors = vec![[[0.0; N]; 3]; interiors.len()];
+        for ((q, at, u), t) in interiors.iter().zip(&mut t_interiors) {
+            let length = network.interiors[*q].estimated.len();
+            for (i, place) in places.iter().enumerate() {
+                multiply(&inverse, (*at, length), (*place, 6), &z[i], t);
+                multiply(&inverse, (*place, 6), (*at, length), u, &mut t_photos[i]);
+            }
+            for (other, other_at, v) in interiors {
+                let other_length = network.interiors[*other].estimated.len();
+                multiply(&inverse, (*at, length), (*other_at, other_length), v, t);
+            }
+        }
+        let mut k = Matrix3::identity();
+        z.iter().zip(&t_photos).for_each(|(z, t)| product(z, t, &mut k));
+        interiors.iter().zip(&t_interiors).for_each(|((.., u), t)| product(u, t, &mut k));
+        if full {
+            for (n, row) in rows.iter().enumerate() {
+                let interior = interiors.iter().position(|(q, ..)| *q == row.interior);
+                let t_interior = interior.map(|at| &t_interiors[at]);
+                let fixed = &network_point.fixed;
+                let ray = network_point.rays.start + n;
+                for side in 0..2 {
+                    let (g, c) = (&row.pose[side], &row.interior_rows[side]);
+                    let b = forward3(&l, row.point[side]);
+                    let own = reduced_square(network, layout, &inverse, row, side);
+                    // L⁻¹ Q_p,row = K b - TᵀG
+                    let cross: [f64; 3] = std::array::from_fn(|m| {
+                        let photo: f64 = t_photos[n][m].iter().zip(g).map(|(t, g)| t * g).sum();
+                        let interior: f64 = t_interior.map_or(0.0, |t| t[m].iter().zip(c).map(|(t, c)| t * c).sum());
+                        photo + interior
+                    });
+                    let kb: [f64; 3] = std::array::from_fn(|m| (0..3).map(|j| k[(m, j)] * b[j]).sum::<f64>());
+                    result.rays[ray][side] = own + (0..3).map(|m| b[m] * (kb[m] - 2.0 * cross[m])).sum::<f64>();
+                    let shift = backward3(&l, std::array::from_fn(|m| kb[m] - cross[m]));
+                    let shift = (0..3).filter(|a| !fixed[*a]).map(|a| shift[a].powi(2)).sum::<f64>();
+                    result.influence[ray][side] = shift.sqrt();
+                }
+            }
+        }
+        // Columns of L⁻ᵀ.
+        let columns: [[f64; 3]; 3] = std::array::from_fn(|m| {
+            let mut unit = [0.0; 3];
+            unit[m] = 1.0;
+            backward3(&l, unit)
+        });
+        let lower = Matrix3::from_fn(|i, j| columns[j][i]);
+        let mut q = lower * k * lower.transpose();
+        for a in (0..3).filter(|a| network_point.fixed[*a]) {
+            q.row_mut(a).fill(0.0);
+            q.column_mut(a).fill(0.0);
+        }
+        let z_with = |v: &[f64]| -> [f64; 3] {
+            std::array::from_fn(|m| {
+                let photos: f64 = z
+                    .iter()
+                    .zip(places)
+                    .map(|(z, at)| z[m].iter().zip(&v[*at..]).map(|(z, v)| z * v).sum::<f64>())
+                    .sum();
+                let interiors: f64 = interiors
+                    .iter()
+                    .map(|(q, at, u)| {
+                        let length = network.interiors[*q].estimated.len();
+                        u[m].iter().zip(&v[*at..*at + length]).map(|(u, v)| u * v).sum::<f64>()
+                    })
+                    .sum();
+                photos + interiors
+            })
+        };
+        let at_this_point = transformation.as_ref().map(|t| {
+            let own = carried(t, datum, point);
+            let v = (0..t.defect).map(|j| {
+                let from_reduced = z_with(&t.v[j]);
+                let direct = forward3(&l, own[j]);
+                backward3(&l, std::array::from_fn(|m| direct[m] - from_reduced[m]))
+            });
+            v.collect::<Vec<_>>()
+        });
+        push_point(&mut result, network, layout, state, point, q, transformation.as_ref(), |_, _| 0.0);
+        if let (Some(t), Some(v)) = (&transformation, at_this_point) {
+            let rows = at_point(&state.points[point]);
+            let v = SMatrix::<f64, SIMILARITY, 3>::from_fn(|j, a| v.get(j).map_or(0.0, |v| v[a]));
+            if let Some(last) = result.points.last_mut() {
+                *last = transformed(&q, &SMatrix::<f64, 3, SIMILARITY>::from_fn(|a, j| rows[a][j]), &v, t);
+            }
+        }
+    }
+    for &(point, axis) in datum.iter().filter(|d| d.minimal).flat_map(|d| &d.carriers) {
+        // What is held has no error, not even that of rounding.
+        result.points[point].row_mut(axis).fill(0.0);
+        result.points[point].column_mut(axis).fill(0.0);
+    }
+    for bar in &network.bars {
+        let (_, rows) = bar_row(network, state, bar);
+        let places = [layout.point[bar.from], layout.point[bar.to]];
+        let at = |k: usize| places[k / 3] + k % 3;
+        let sum = (0..36).map(|n| rows[n / 6] * rows[n % 6] * block(&inverse, at(n / 6), at(n % 6)).data[0]);
+        result.bars.push(sum.sum());
+    }
+    Some(result)
+}
+
+/// (DᵀG)⁻¹ᵀ-weighted constraint of the datum at one point: per direction a vector over its axes.
+fn carried(t: &Transformation, datum: Option<&FreeDatum>, point: usize) -> Vec<[f64; 3]> {
+    let mut own = vec![[0.0; 3]; t.defect];
+    // Carriers are sorted by point under inner constraints and few under minimal ones.
+    let carriers = datum.map_or(&[][..], |d| &d.carriers[..]);
+    let range = t.range(carriers, point);
+    for k in range {
+        for (j, own) in own.iter_mut().enumerate() {
+            own[carriers[k].1] += t.d[(k, j)];
+        }
+    }
+    own
+}
+
+impl Transformation {
+    fn range(&self, carriers: &[(usize, usize)], point: usize) -> Vec<usize> {
+        if carriers.len() <= SIMILARITY {
+            return (0..carriers.len()).filter(|k| carriers[*k].0 == point).collect();
+        }
+        let first = carriers.partition_point(|(p, _)| *p < point);
+        (first..carriers.len()).take_while(|k| carriers[*k].0 == point).collect()
+    }
+}
+
+/// Q' = Q - G V - VᵀGᵀ + G (…) Gᵀ for one block.
+fn transformed<const K: usize>(
+    q: &SMatrix<f64, K, K>,
+    g: &SMatrix<f64, K, SIMILARITY>,
+    v: &SMatrix<f64, SIMILARITY, K>,
+    t: &Transformation,
+) -> SMatrix<f64, K, K> {
+    let gv = g * v;
+    q - gv - gv.transpose() + g * t.square * g.transpose()
+}
+
+#[allow(clippy::too_many_arguments)] // the block and everything it is transformed with
+fn push_point(
+    result: &mut Cofactors,
+    network: &Network,
+    layout: &Layout,
+    state: &State,
+    point: usize,
+    q: Matrix3<f64>,
+    transformation: Option<&Transformation>,
+    reduced: impl Fn(usize, &[f64]) -> f64,
+) {
+    result.given_points.push([q[(0, 0)], q[(1, 1)], q[(2, 2)]]);
+    let q = match transformation {
+        Some(t) if network.points[point].kept => {
+            let rows = at_point(&state.points[point]);
+            let at = layout.point[point];
+            let v = SMatrix::<f64, SIMILARITY, 3>::from_fn(|j, a| t.v.get(j).map_or(0.0, |v| reduced(at + a, v)));
+            transformed(&q, &SMatrix::<f64, 3, SIMILARITY>::from_fn(|a, j| rows[a][j]), &v, t)
+        }
+        _ => q,
+    };
+    result.points.push(q);
+}
+
+/// Cofactor of the photo and interior part of a row.
+#[inline(always)]
+fn reduced_square<const N: usize>(
+    network: &Network,
+    layout: &Layout,
+    inverse: &TileMatrix,
+    row: &Row<N>,
+    side: usize,
+) -> f64 {
+    let (photo, interior) = (layout.photo[row.photo], layout.interior[row.interior]);
+    let (g, c) = (&row.pose[side], &row.interior_rows[side]);
+    let length = network.interiors[row.interior].estimated.len();
+    let mut sum = 0.0;
+    let own = block(inverse, photo, photo);
+    for j in 0..6 {
+        sum += g[j] * (0..6).map(|i| own.get(i, j) * g[i]).sum::<f64>();
+    }
+    if length > 0 {
+        let own = block(inverse, interior, interior);
+        let cross = block(inverse, interior, photo);
+        for j in 0..length {
+            sum += c[j] * (0..length).map(|i| own.get(i, j) * c[i]).sum::<f64>();
+            sum += 2.0 * c[j] * (0..6).map(|i| cross.get(j, i) * g[i]).sum::<f64>();
+        }
+    }
+    sum
+}
+
+/// Cofactor of a kept point, and of its rays.
+fn kept_point<const N: usize>(
+    result: &mut Cofactors,
+    network: &Network,
+    layout: &Layout,
+    inverse: &TileMatrix,
+    point: usize,
+    rows: &[Row<N>],
+    full: bool,
+) -> Matrix3<f64> {
+    let place = layout.point[point];
+    let own = block(inverse, place, place);
+    let mut q = Matrix3::from_fn(|i, j| own.get(i, j));
+    let fixed = &network.points[point].fixed;
+    for a in (0..3).filter(|a| fixed[*a]) {
+        q.row_mut(a).fill(0.0);
+        q.column_mut(a).fill(0.0);
+    }
+    if full {
+        for (n, row) in rows.iter().enumerate() {
+            let ray = network.points[point].rays.start + n;
+            let photo = block(inverse, place, layout.photo[row.photo]);
+            let length = network.interiors[row.interior].estimated.len();
+            for side in 0..2 {
+                let a = nalgebra::Vector3::from(row.point[side]);
+                let mut shift = q * a;
+                for k in (0..3).filter(|k| !fixed[*k]) {
+                    shift[k] += (0..6).map(|j| photo.get(k, j) * row.pose[side][j]).sum::<f64>();
+                    if length > 0 {
+                        let interior = block(inverse, place, layout.interior[row.interior]);
+                        shift[k] += (0..length).map(|j| interior.get(k, j) * row.interior_rows[side][j]).sum::<f64>();
+                    }
+                }
+                let own = reduced_square(network, layout, inverse, row, side);
+                result.rays[ray][side] = own + 2.0 * a.dot(&shift) - a.dot(&(q * a));
+                result.influence[ray][side] = shift.norm();
+            }
+        }
+    }
+    q
+}
+
+/// Blocks of photos and interior orientations, in the datum.
+fn reduced_blocks(
+    result: &mut Cofactors,
+    network: &Network,
+    layout: &Layout,
+    state: &State,
+    inverse: &TileMatrix,
+    transformation: Option<&Transformation>,
+) {
+    for (k, block_of_photo) in network.photos.iter().enumerate() {
+        let place = layout.photo[k];
+        let own = block(inverse, place, place);
+        let mut q = Matrix6::from_fn(|i, j| own.get(i, j));
+        let at = layout.interior[block_of_photo.interior];
+        let length = network.interiors[block_of_photo.interior].estimated.len();
+        let mut cross = DMatrix::zeros(6, length);
+        if length > 0 {
+            let with_interior = block(inverse, place, at);
+            cross = DMatrix::from_fn(6, length, |i, j| with_interior.get(i, j));
+        }
+        if let Some(t) = transformation {
+            let rows = at_photo(&state.poses[k].m, &state.poses[k].centre);
+            let g = SMatrix::<f64, 6, SIMILARITY>::from_fn(|i, j| rows[i][j]);
+            let v = |at: usize, j: usize| t.v.get(j).map_or(0.0, |v| v[at]);
+            q = transformed(&q, &g, &SMatrix::<f64, SIMILARITY, 6>::from_fn(|j, i| v(place + i, j)), t);
+            for i in 0..6 {
+                for n in 0..length {
+                    cross[(i, n)] -= (0..t.defect).map(|j| g[(i, j)] * v(at + n, j)).sum::<f64>();
+                }
+            }
+        }
+        result.photos.push(q);
+        result.photo_interior.push(cross);
+    }
+    for (interior, &at) in network.interiors.iter().zip(&layout.interior) {
+        let length = interior.estimated.len();
+        result.interiors.push(if length == 0 {
+            DMatrix::zeros(0, 0)
+        } else {
+            let own = block(inverse, at, at);
+            DMatrix::from_fn(length, length, |i, j| own.get(i, j))
+        });
+    }
+}
+
+/// Solves the equations for the datum's constraints as right-hand sides.
+fn transformation<const N: usize>(
+    normal: &Normal,
+    network: &Network,
+    layout: &Layout,
+    state: &State,
+    weighting: Weighting<'_>,
+    datum: &FreeDatum,
+) -> Option<Transformation> {
+    let models = models(state)?;
+    // D (DᵀG)⁻ᵀ, so that everything below is already multiplied by the inverse.
+    let d = datum.constraint_rows(state) * datum.inverse_of_constrained(state)?.transpose();
+    let mut t = Transformation {
+        defect: datum.defect,
+        v: vec![vec![0.0; layout.size]; datum.defect],
+        d,
+        square: SMatrix::zeros(),
+    };
+    let mut rows: Vec<Row<N>> = Vec::new();
+    let mut elimination = Elimination::<N>::new();
+    let mut behind = 0;
+    let mut eliminated = Vec::new();
+    let mut carriers: Vec<usize> = datum.carriers.iter().map(|(point, _)| *point).collect();
+    carriers.dedup();
+    carriers.sort_unstable();
+    carriers.dedup();
+    for &point in &carriers {
+        let own = carried(&t, Some(datum), point);
+        if network.points[point].kept {
+            let at = layout.point[point];
+            own.iter().zip(&mut t.v).for_each(|(own, v)| (0..3).for_each(|a| v[at + a] += own[a]));
+            continue;
+        }
+        if !linearise(network, state, &models, weighting, point, &mut rows, &mut behind) {
+            return None;
+        }
+        let l = normal.points[point].l;
+        elimination.fill(network, layout, &l, &rows);
+        for (own, v) in own.iter().zip(&mut t.v) {
+            let direct = forward3(&l, *own);
+            for (z, at) in elimination.photos.iter().zip(&elimination.places) {
+                for k in 0..6 {
+                    v[at + k] -= (0..3).map(|m| z[m][k] * direct[m]).sum::<f64>();
+                }
+            }
+            for (q, at, u) in &elimination.interiors {
+                for k in 0..network.interiors[*q].estimated.len() {
+                    v[at + k] -= (0..3).map(|m| u[m][k] * direct[m]).sum::<f64>();
+                }
+            }
+        }
+        eliminated.push((point, own));
+    }
+    let right_hand_sides = t.v.clone();
+    t.v.iter_mut().for_each(|v| normal.matrix.solve(v));
+    // Square: Σ over carriers of own·x at the carrier = rᵀQr of the reduced part + what the eliminated points add.
+    for i in 0..t.defect {
+        for j in 0..t.defect {
+            let mut sum: f64 = right_hand_sides[i].iter().zip(&t.v[j]).map(|(r, x)| r * x).sum();
+            for (point, own) in &eliminated {
+                let l = &normal.points[*point].l;
+                let (a, b) = (forward3(l, own[i]), forward3(l, own[j]));
+                sum += a.iter().zip(&b).map(|(a, b)| a * b).sum::<f64>();
+            }
+            t.square[(i, j)] = sum;
+        }
+    }
+    Some(t)
+}

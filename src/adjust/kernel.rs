@@ -1,0 +1,243 @@
+//! Products of square tiles, the inner loop of factorisation and inversion.
+//!
+//! A tile is [`TILE`] × [`TILE`] numbers, column after column. The loops run over fixed-size arrays so that the
+//! compiler turns them into two-lane SIMD (wasm simd128, SSE2) without unsafe code; [`plain`] holds the same operations
+//! as textbook loops, against which the tests compare them.
+
+/// Rows and columns of a tile: eight photos of six parameters.
+pub const TILE: usize = 48;
+/// Numbers in a tile.
+pub const AREA: usize = TILE * TILE;
+
+/// Tile data.
+pub type Tile = [f64; AREA];
+
+/// Register block: four rows by four columns.
+const R: usize = 4;
+
+/// c[0..4 rows from i, 4 columns from j] -= a[rows i.., 0..depth] · b[rows j.., 0..depth]ᵀ.
+#[inline(always)]
+fn block(c: &mut Tile, a: &Tile, b: &Tile, i: usize, j: usize, depth: usize) {
+    let mut sum = [[0.0; R]; R];
+    for (a, b) in a.chunks_exact(TILE).zip(b.chunks_exact(TILE)).take(depth) {
+        let a: &[f64; R] = a[i..i + R].try_into().unwrap_or(&[0.0; R]);
+        let b: &[f64; R] = b[j..j + R].try_into().unwrap_or(&[0.0; R]);
+        for (sum, &b) in sum.iter_mut().zip(b) {
+            for (sum, &a) in sum.iter_mut().zip(a) {
+                *sum += a * b;
+            }
+        }
+    }
+    for (k, sum) in sum.iter().enumerate() {
+        let start = (j + k) * TILE + i;
+        for (c, sum) in c[start..start + R].iter_mut().zip(sum) {
+            *c -= sum;
+        }
+    }
+}
+
+/// C -= A·Bᵀ.
+pub fn subtract_product(c: &mut Tile, a: &Tile, b: &Tile) {
+    for j in (0..TILE).step_by(R) {
+        for i in (0..TILE).step_by(R) {
+            block(c, a, b, i, j, TILE);
+        }
+    }
+}
+
+/// The lower triangle of C -= A·Aᵀ (the strip above the diagonal within a register block is changed too).
+pub fn subtract_square(c: &mut Tile, a: &Tile) {
+    for j in (0..TILE).step_by(R) {
+        for i in (j..TILE).step_by(R) {
+            block(c, a, a, i, j, TILE);
+        }
+    }
+}
+
+/// A := A·L⁻ᵀ with the lower triangle L.
+pub fn solve_right(a: &mut Tile, l: &Tile) {
+    for j in (0..TILE).step_by(R) {
+        // Columns j.. less what the finished columns contribute, then the small triangle.
+        let (done, rest) = a.split_at_mut(j * TILE);
+        for i in (0..TILE).step_by(R) {
+            let mut sum = [[0.0; R]; R];
+            for (a, l) in done.chunks_exact(TILE).zip(l.chunks_exact(TILE)) {
+                let a: &[f64; R] = a[i..i + R].try_into().unwrap_or(&[0.0; R]);
+                let l: &[f64; R] = l[j..j + R].try_into().unwrap_or(&[0.0; R]);
+                for (sum, &l) in sum.iter_mut().zip(l) {
+                    for (sum, &a) in sum.iter_mut().zip(a) {
+                        *sum += a * l;
+                    }
+                }
+            }
+            for column in 0..R {
+                let inverse = 1.0 / l[(j + column) * TILE + j + column];
+                for row in 0..R {
+                    let mut value = rest[column * TILE + i + row] - sum[column][row];
+                    for k in 0..column {
+                        value -= rest[k * TILE + i + row] * l[(j + k) * TILE + j + column];
+                    }
+                    rest[column * TILE + i + row] = value * inverse;
+                }
+            }
+        }
+    }
+}
+
+/// Cholesky factor of a tile in its lower triangle; `pivot` sees index and value of every pivot and returns the one used.
+pub fn factor(a: &mut Tile, mut pivot: impl FnMut(usize, f64) -> f64) {
+    for j in (0..TILE).step_by(R) {
+        let (done, rest) = a.split_at_mut(j * TILE);
+        for i in (j..TILE).step_by(R) {
+            let mut sum = [[0.0; R]; R];
+            for column in done.chunks_exact(TILE) {
+                let a: &[f64; R] = column[i..i + R].try_into().unwrap_or(&[0.0; R]);
+                let b: &[f64; R] = column[j..j + R].try_into().unwrap_or(&[0.0; R]);
+                for (sum, &b) in sum.iter_mut().zip(b) {
+                    for (sum, &a) in sum.iter_mut().zip(a) {
+                        *sum += a * b;
+                    }
+                }
+            }
+            for (k, sum) in sum.iter().enumerate() {
+                for (row, sum) in sum.iter().enumerate() {
+                    rest[k * TILE + i + row] -= sum;
+                }
+            }
+        }
+        for column in 0..R {
+            let at = j + column;
+            for k in 0..column {
+                let (left, right) = rest.split_at_mut(column * TILE);
+                let factor = left[k * TILE + at];
+                for (value, left) in right[at..TILE].iter_mut().zip(&left[k * TILE + at..(k + 1) * TILE]) {
+                    *value -= factor * left;
+                }
+            }
+            let diagonal = pivot(at, rest[column * TILE + at]).sqrt();
+            rest[column * TILE + at] = diagonal;
+            let inverse = 1.0 / diagonal;
+            for value in &mut rest[column * TILE + at + 1..(column + 1) * TILE] {
+                *value *= inverse;
+            }
+        }
+    }
+}
+
+/// Transposed copy.
+pub fn transpose(from: &Tile, to: &mut Tile) {
+    for (j, column) in from.chunks_exact(TILE).enumerate() {
+        for (i, value) in column.iter().enumerate() {
+            to[i * TILE + j] = *value;
+        }
+    }
+}
+
+/// Inverse of the lower triangle L, full tile with zeros above the diagonal.
+pub fn inverse_of_lower(l: &Tile) -> Box<Tile> {
+    // L⁻ᵀ = I·L⁻ᵀ, transposed.
+    let mut upper = identity();
+    solve_right(&mut upper, l);
+    let mut inverse = Box::new([0.0; AREA]);
+    transpose(&upper, &mut inverse);
+    inverse
+}
+
+/// The unit tile.
+pub fn identity() -> Box<Tile> {
+    let mut tile = Box::new([0.0; AREA]);
+    for k in 0..TILE {
+        tile[k * TILE + k] = 1.0;
+    }
+    tile
+}
+
+/// The same operations as plain loops, the oracle of the tests.
+#[cfg(test)]
+mod plain {
+    use super::{TILE, Tile};
+
+    pub fn subtract_product(c: &mut Tile, a: &Tile, b: &Tile) {
+        for j in 0..TILE {
+            for i in 0..TILE {
+                for k in 0..TILE {
+                    c[j * TILE + i] -= a[k * TILE + i] * b[k * TILE + j];
+                }
+            }
+        }
+    }
+
+    pub fn factor(a: &mut Tile) {
+        for j in 0..TILE {
+            for i in j..TILE {
+                let mut value = a[j * TILE + i];
+                for k in 0..j {
+                    value -= a[k * TILE + i] * a[k * TILE + j];
+                }
+                a[j * TILE + i] = if i == j { value.sqrt() } else { value / a[j * TILE + j] };
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    fn tile(seed: u64) -> Box<Tile> {
+        let mut state = seed;
+        let mut tile = Box::new([0.0; AREA]);
+        for value in tile.iter_mut() {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            *value = (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5;
+        }
+        tile
+    }
+
+    fn positive() -> Box<Tile> {
+        let a = tile(5);
+        let mut c = identity();
+        c.iter_mut().for_each(|x| *x *= -3.0);
+        plain::subtract_product(&mut c, &a, &a);
+        c.iter_mut().for_each(|x| *x = -*x);
+        c
+    }
+
+    #[test]
+    fn products_agree_with_the_plain_loops() {
+        let (a, b, c) = (tile(1), tile(2), tile(3));
+        let (mut fast, mut slow) = (c.clone(), c.clone());
+        subtract_product(&mut fast, &a, &b);
+        plain::subtract_product(&mut slow, &a, &b);
+        assert!(fast.iter().zip(slow.iter()).all(|(x, y)| (x - y).abs() < 1e-13));
+        let (mut fast, mut slow) = (c.clone(), c);
+        subtract_square(&mut fast, &a);
+        plain::subtract_product(&mut slow, &a, &a);
+        for j in 0..TILE {
+            assert!((j..TILE).all(|i| (fast[j * TILE + i] - slow[j * TILE + i]).abs() < 1e-13));
+        }
+    }
+
+    #[test]
+    fn factor_and_triangular_solutions_agree_with_the_plain_loops() {
+        let (mut fast, mut slow) = (positive(), positive());
+        factor(&mut fast, |_, pivot| pivot);
+        plain::factor(&mut slow);
+        for j in 0..TILE {
+            assert!((j..TILE).all(|i| (fast[j * TILE + i] - slow[j * TILE + i]).abs() < 1e-12));
+        }
+        // (A L⁻ᵀ) Lᵀ = A, with the upper part of L's tile out of the way.
+        let mut lower = slow.clone();
+        for j in 0..TILE {
+            lower[j * TILE..j * TILE + j].fill(0.0);
+        }
+        let a = tile(9);
+        let mut x = a.clone();
+        solve_right(&mut x, &fast);
+        let mut rest = a;
+        subtract_product(&mut rest, &x, &lower);
+        assert!(rest.iter().all(|x| x.abs() < 1e-12));
+    }
+}

@@ -1,0 +1,404 @@
+//! The adjustment's result in the user's units, from states and cofactors in the frame of the adjustment.
+
+use nalgebra::{Matrix3, Matrix6};
+
+use crate::adjustment::{
+    AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Adjustment, CheckPoint, CheckStatistics,
+    Correlation, Given, GivenObservation, GlobalTest, Precision,
+};
+use crate::camera;
+use crate::project::{Camera, Project, Role};
+use crate::rotation;
+use crate::statistics::distribution::{GLOBAL_ALPHA, chi_squared_quantile};
+use crate::statistics::reliability::Reliability;
+
+use super::cofactor::Cofactors;
+use super::network::Network;
+use super::parameters::{Frame, State};
+use super::rows::Weighting;
+
+/// What a result is made of.
+pub struct Solved<'a> {
+    /// The document.
+    pub project: &'a Project,
+    /// The network.
+    pub network: &'a Network,
+    /// Adjusted values.
+    pub state: &'a State,
+    /// Cofactors, unless without statistics.
+    pub cofactors: Option<&'a Cofactors>,
+    /// Weights and place of the residuals.
+    pub weighting: Weighting<'a>,
+    /// vᵀPv.
+    pub cost: f64,
+    /// Datum constraints.
+    pub constraints: usize,
+    /// n - u + d.
+    pub redundancy: usize,
+}
+
+/// Derivative of the turn by omega, phi, kappa: t = -(Mκ Mφ e1, Mκ e2, e3)·(dω, dφ, dκ).
+fn turn_by_angles([_, phi, kappa]: [f64; 3]) -> Matrix3<f64> {
+    let (sp, cp) = phi.sin_cos();
+    let (sk, ck) = kappa.sin_cos();
+    Matrix3::new(-cp * ck, -sk, 0.0, cp * sk, -ck, 0.0, -sp, 0.0, -1.0)
+}
+
+/// Square root of a variance, 0 where rounding made it negative.
+fn root(variance: f64) -> f64 {
+    variance.max(0.0).sqrt()
+}
+
+fn correlation(names: Vec<String>, covariance: impl Fn(usize, usize) -> f64) -> Correlation {
+    let n = names.len();
+    let sigma: Vec<f64> = (0..n).map(|k| root(covariance(k, k))).collect();
+    let value = |i: usize, j: usize| {
+        if i == j {
+            return 1.0;
+        }
+        let product = sigma[i] * sigma[j];
+        if product > 0.0 { (covariance(i, j) / product).clamp(-1.0, 1.0) } else { 0.0 }
+    };
+    let matrix = (0..n).map(|i| (0..n).map(|j| value(i, j)).collect()).collect();
+    Correlation { names, matrix }
+}
+
+impl Solved<'_> {
+    /// σ0², or 1 where nothing determines it.
+    fn variance_factor(&self) -> f64 {
+        if self.redundancy > 0 { self.cost / self.redundancy as f64 } else { 1.0 }
+    }
+
+    fn frame(&self) -> &Frame {
+        &self.network.frame
+    }
+
+    /// Fills in everything that follows from the solution; iterations, termination and advice are the caller's.
+    pub fn adjustment(&self) -> Adjustment {
+        let redundancy = self.redundancy;
+        let tested = redundancy > 0;
+        let test = tested.then(|| {
+            let lower = chi_squared_quantile(GLOBAL_ALPHA / 2.0, redundancy);
+            let upper = chi_squared_quantile(1.0 - GLOBAL_ALPHA / 2.0, redundancy);
+            GlobalTest { statistic: self.cost, lower, upper, passed: (lower..=upper).contains(&self.cost) }
+        });
+        let points = self.points();
+        let observations = self.observations();
+        let check_points = self.check_points();
+        Adjustment {
+            observations_count: self.network.observations_count(),
+            unknowns: self.network.unknowns(),
+            constraints: self.constraints,
+            redundancy,
+            sigma0: tested.then(|| (self.cost / redundancy as f64).sqrt()),
+            global_test: test,
+            cameras: self.cameras(),
+            photos: self.photos(&observations),
+            precision: self.precision(&points),
+            points,
+            observations,
+            check_statistics: check_statistics(&check_points),
+            check_points,
+            given: self.given(),
+            ..Adjustment::default()
+        }
+    }
+
+    fn adjusted_camera(&self, k: usize) -> Camera {
+        let mut camera = self.project.cameras[self.network.interiors[k].camera].clone();
+        camera.interior = self.state.interiors[k];
+        camera
+    }
+
+    fn cameras(&self) -> Vec<AdjustedCamera> {
+        let factor = self.variance_factor();
+        (0..self.network.interiors.len())
+            .map(|k| {
+                let block = &self.network.interiors[k];
+                let mut adjusted = AdjustedCamera {
+                    camera: self.adjusted_camera(k),
+                    photo: block.photo.map(|p| self.project.photos[self.network.photos[p].index].id.clone()),
+                    sigma: Default::default(),
+                    correlation: Correlation::default(),
+                };
+                if let Some(cofactors) = self.cofactors {
+                    let q = &cofactors.interiors[k];
+                    let names = block.estimated.iter().map(|e| e.parameter.name().to_owned()).collect();
+                    adjusted.correlation = correlation(names, |i, j| q[(i, j)]);
+                    for (n, estimated) in block.estimated.iter().enumerate() {
+                        let sigma = root(factor * q[(n, n)]) * estimated.scale;
+                        adjusted.sigma.insert(estimated.parameter, sigma);
+                    }
+                }
+                adjusted
+            })
+            .collect()
+    }
+
+    fn photos(&self, observations: &[AdjustedObservation]) -> Vec<AdjustedPhoto> {
+        let mut squares = vec![[0.0; 2]; self.network.photos.len()];
+        for ray in &self.network.rays {
+            let o = &observations[ray.row];
+            squares[ray.photo][0] += o.vx * o.vx;
+            squares[ray.photo][1] += o.vy * o.vy;
+        }
+        let factor = self.variance_factor();
+        let scale = self.frame().scale;
+        let photo = |k: usize| {
+            let block = &self.network.photos[k];
+            let pose = &self.state.poses[k];
+            let angles = rotation::angles(&pose.matrix());
+            let count = block.rays.max(1) as f64;
+            let mut adjusted = AdjustedPhoto {
+                id: self.project.photos[block.index].id.clone(),
+                position: self.frame().outside(pose.centre),
+                rotation: angles,
+                rms_x: (squares[k][0] / count).sqrt(),
+                rms_y: (squares[k][1] / count).sqrt(),
+                points: block.rays,
+                ..AdjustedPhoto::default()
+            };
+            let Some(cofactors) = self.cofactors else { return adjusted };
+            let q = &cofactors.photos[k];
+            adjusted.sigma_position = Some(std::array::from_fn(|a| root(factor * q[(3 + a, 3 + a)]) * scale));
+            let by_angles = turn_by_angles(angles);
+            let inverse = if angles[1].cos().abs() > 1e-6 { by_angles.try_inverse() } else { None };
+            if let Some(inverse) = inverse {
+                // From (turn, centre) to (centre, angles).
+                let mut change = Matrix6::zeros();
+                change.fixed_view_mut::<3, 3>(0, 3).fill_with_identity();
+                change.fixed_view_mut::<3, 3>(3, 0).copy_from(&inverse);
+                let own = change * q * change.transpose();
+                adjusted.sigma_rotation = Some(std::array::from_fn(|a| root(factor * own[(3 + a, 3 + a)])));
+                let interior = &cofactors.interiors[block.interior];
+                let cross = change * &cofactors.photo_interior[k];
+                let mut names: Vec<String> = ["X", "Y", "Z", "omega", "phi", "kappa"].map(String::from).into();
+                let estimated = &self.network.interiors[block.interior].estimated;
+                names.extend(estimated.iter().map(|e| e.parameter.name().to_owned()));
+                adjusted.correlation = Some(correlation(names, |i, j| match (i < 6, j < 6) {
+                    (true, true) => own[(i, j)],
+                    (true, false) => cross[(i, j - 6)],
+                    (false, true) => cross[(j, i - 6)],
+                    (false, false) => interior[(i - 6, j - 6)],
+                }));
+            }
+            adjusted
+        };
+        (0..self.network.photos.len()).map(photo).collect()
+    }
+
+    fn points(&self) -> Vec<AdjustedPoint> {
+        let factor = self.variance_factor() * self.frame().scale.powi(2);
+        let point = |k: usize| {
+            let block = &self.network.points[k];
+            let covariance = self.cofactors.map(|c| c.points[k] * factor);
+            AdjustedPoint {
+                id: self.project.points[block.index].id.clone(),
+                xyz: self.point(k),
+                sigma: covariance.map(|c| std::array::from_fn(|a| root(c[(a, a)]))),
+                covariance: covariance.map(|c| [c.m11, c.m12, c.m13, c.m22, c.m23, c.m33]),
+                rays: block.rays.len(),
+            }
+        };
+        (0..self.network.points.len()).map(point).collect()
+    }
+
+    /// Coordinates outside; held axes return exactly as given.
+    fn point(&self, k: usize) -> [f64; 3] {
+        let block = &self.network.points[k];
+        let mut xyz = self.frame().outside(self.state.points[k]);
+        if let Some(given) = self.project.points[block.index].xyz {
+            (0..3).filter(|a| block.fixed[*a]).for_each(|a| xyz[a] = given[a]);
+        }
+        xyz
+    }
+
+    /// Residuals of every image observation of the document whose photo and point took part.
+    fn observations(&self) -> Vec<AdjustedObservation> {
+        let photos: std::collections::HashMap<&str, usize> = (self.network.photos.iter().enumerate())
+            .map(|(k, p)| (self.project.photos[p.index].id.as_str(), k))
+            .collect();
+        let points: std::collections::HashMap<&str, usize> = (self.network.points.iter().enumerate())
+            .map(|(k, p)| (self.project.points[p.index].id.as_str(), k))
+            .collect();
+        let mut ray_of_row = vec![usize::MAX; self.project.observations.len()];
+        self.network.rays.iter().enumerate().for_each(|(k, ray)| ray_of_row[ray.row] = k);
+        let models: Vec<_> = self.state.interiors.iter().map(camera::Model::new).collect();
+        let scale = self.frame().scale;
+        let one = |(row, o): (usize, &crate::project::Observation)| {
+            let mut adjusted = AdjustedObservation {
+                photo: o.photo.clone(),
+                point: o.point.clone(),
+                ..AdjustedObservation::default()
+            };
+            let (Some(&photo), Some(&point)) = (photos.get(o.photo.as_str()), points.get(o.point.as_str())) else {
+                return adjusted;
+            };
+            let interior = self.network.photos[photo].interior;
+            let ray = ray_of_row[row];
+            let mut measured = match self.network.rays.get(ray) {
+                Some(ray) => ray.measured,
+                None => camera::measurement_from_pixel(
+                    &self.project.cameras[self.network.interiors[interior].camera],
+                    [o.u, o.v],
+                ),
+            };
+            if let Some(shift) = self.weighting.shift.get(ray) {
+                (0..2).for_each(|s| measured[s] -= shift[s]);
+            }
+            let p = self.state.poses[photo].camera_point(&self.state.points[point]);
+            let linear = models[interior].and_then(|m| m.linearise(measured, p, self.weighting.place));
+            let Some(linear) = linear.filter(|l| l.residual.iter().all(|v| v.is_finite())) else { return adjusted };
+            [adjusted.vx, adjusted.vy] = linear.residual;
+            let Some(network_ray) = self.network.rays.get(ray) else { return adjusted };
+            adjusted.enabled = true;
+            let robust = self.weighting.robust.get(ray);
+            adjusted.weight = robust.map(|w| w[0] * w[0]).filter(|w| *w < 1.0);
+            if let Some(cofactors) = self.cofactors.filter(|c| !c.rays.is_empty()) {
+                let side = |s: usize| {
+                    let weight = network_ray.weight[s] * robust.map_or(1.0, |w| w[s]);
+                    // An observation without weight checks nothing and is not in the sums.
+                    if weight == 0.0 {
+                        return (Reliability { redundancy: 1.0, ..Reliability::default() }, None);
+                    }
+                    let test = Reliability::new(linear.residual[s] * weight, cofactors.rays[ray][s], 1.0 / weight);
+                    (test, test.mdb.map(|mdb| mdb * weight * cofactors.influence[ray][s] * scale))
+                };
+                let ((x, effect_x), (y, effect_y)) = (side(0), side(1));
+                (adjusted.rx, adjusted.wx, adjusted.mdb_x) = (Some(x.redundancy), x.w, x.mdb);
+                (adjusted.ry, adjusted.wy, adjusted.mdb_y) = (Some(y.redundancy), y.w, y.mdb);
+                (adjusted.effect_x, adjusted.effect_y) = (effect_x, effect_y);
+            }
+            adjusted
+        };
+        self.project.observations.iter().enumerate().map(one).collect()
+    }
+
+    fn given(&self) -> Vec<GivenObservation> {
+        let mut list = Vec::new();
+        let full = self.cofactors.filter(|c| !c.rays.is_empty());
+        let scale = self.frame().scale;
+        // `unit` is the size of the scaled unknown's unit in the observation's own unit.
+        let mut add = |what: Given, residual: f64, weight: f64, unit: f64, cofactor: Option<f64>| {
+            let sigma = unit / weight;
+            let reliability = cofactor.map(|q| Reliability::new(residual * weight, q * weight * weight, sigma));
+            list.push(GivenObservation { what, residual: residual * unit, sigma, reliability });
+        };
+        for (k, block) in self.network.points.iter().enumerate() {
+            for axis in (0..3).filter(|a| block.prior[*a].1 > 0.0) {
+                let (given, weight) = block.prior[axis];
+                let what = Given::Control { point: self.project.points[block.index].id.clone(), axis };
+                let q = full.map(|c| c.given_points[k][axis]);
+                add(what, self.state.points[k][axis] - given, weight, scale, q);
+            }
+        }
+        for (k, block) in self.network.photos.iter().enumerate() {
+            for axis in (0..3).filter(|a| block.prior[*a].1 > 0.0) {
+                let (given, weight) = block.prior[axis];
+                let what = Given::Position { photo: self.project.photos[block.index].id.clone(), axis };
+                let q = full.map(|c| c.photos[k][(3 + axis, 3 + axis)]);
+                add(what, self.state.poses[k].centre[axis] - given, weight, scale, q);
+            }
+        }
+        for (k, bar) in self.network.bars.iter().enumerate() {
+            let distance = &self.project.distances[bar.index];
+            let what = Given::Distance { from: distance.from.clone(), to: distance.to.clone() };
+            let (e, _) = super::normal::bar_row(self.network, self.state, bar);
+            let q = full.map(|c| c.bars[k] / (bar.weight * bar.weight));
+            add(what, e / bar.weight, bar.weight, scale, q);
+        }
+        for (k, block) in self.network.interiors.iter().enumerate() {
+            for (n, estimated) in block.estimated.iter().enumerate().filter(|(_, e)| e.prior.1 > 0.0) {
+                let (given, weight) = estimated.prior;
+                let value = self.state.interiors[k].get(estimated.parameter).unwrap_or_default();
+                let what = Given::Parameter {
+                    camera: self.project.cameras[block.camera].id.clone(),
+                    photo: block.photo.map(|p| self.project.photos[self.network.photos[p].index].id.clone()),
+                    parameter: estimated.parameter,
+                };
+                let q = full.map(|c| c.interiors[k][(n, n)] * estimated.scale * estimated.scale);
+                add(what, value - given, weight, 1.0, q);
+            }
+        }
+        list
+    }
+
+    fn check_points(&self) -> Vec<CheckPoint> {
+        let mut place = vec![None; self.project.points.len()];
+        self.network.points.iter().enumerate().for_each(|(k, p)| place[p.index] = Some(k));
+        let checks = self.project.points.iter().enumerate().filter(|(_, p)| p.role == Role::Check);
+        checks
+            .map(|(k, point)| {
+                let difference = place[k].zip(point.xyz).map(|(at, given)| {
+                    let adjusted = self.point(at);
+                    std::array::from_fn(|a| adjusted[a] - given[a])
+                });
+                CheckPoint { id: point.id.clone(), difference }
+            })
+            .collect()
+    }
+
+    fn precision(&self, points: &[AdjustedPoint]) -> Option<Precision> {
+        let cofactors = self.cofactors?;
+        let scale = self.frame().scale;
+        let mut precision = Precision::default();
+        let mut count = 0.0;
+        for ((block, point), q) in self.network.points.iter().zip(points).zip(&cofactors.points) {
+            if self.project.points[block.index].role == Role::Tie {
+                count += 1.0;
+                for a in 0..3 {
+                    precision.rms_sigma[a] += point.sigma.map_or(0.0, |s| s[a] * s[a]);
+                    precision.mean_q[a] += root(q[(a, a)]) * scale;
+                }
+            }
+        }
+        if count > 0.0 {
+            precision.rms_sigma.iter_mut().for_each(|s| *s = (*s / count).sqrt());
+            precision.mean_q.iter_mut().for_each(|q| *q /= count);
+        }
+        precision.largest_dimension = largest_dimension(points);
+        let mean = precision.rms_sigma.iter().sum::<f64>() / 3.0;
+        precision.relative = (mean > 0.0).then(|| precision.largest_dimension / mean);
+        Some(precision)
+    }
+}
+
+/// Largest distance between two points; for many points that of the extreme ones in thirteen directions.
+fn largest_dimension(points: &[AdjustedPoint]) -> f64 {
+    let mut extremes: Vec<[f64; 3]> = points.iter().map(|p| p.xyz).collect();
+    if extremes.len() > 400 {
+        let all = std::mem::take(&mut extremes);
+        for direction in 1..27_u32 {
+            let d: [f64; 3] = std::array::from_fn(|a| f64::from(direction / 3_u32.pow(a as u32) % 3) - 1.0);
+            let along = |p: &[f64; 3]| p[0] * d[0] + p[1] * d[1] + p[2] * d[2];
+            extremes.extend(all.iter().copied().max_by(|a, b| along(a).total_cmp(&along(b))));
+        }
+    }
+    let distance = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2]);
+    extremes.iter().flat_map(|a| extremes.iter().map(move |b| distance(a, b))).fold(0.0, f64::max)
+}
+
+fn check_statistics(points: &[CheckPoint]) -> Option<CheckStatistics> {
+    let differences: Vec<[f64; 3]> = points.iter().filter_map(|p| p.difference).collect();
+    let count = differences.len();
+    if count == 0 {
+        return None;
+    }
+    let n = count as f64;
+    let over = |f: &dyn Fn(&mut dyn Iterator<Item = f64>) -> f64| -> [f64; 3] {
+        std::array::from_fn(|a| f(&mut differences.iter().map(|d| d[a])))
+    };
+    let mean = over(&|axis| axis.sum::<f64>() / n);
+    let deviation = std::array::from_fn(|a| {
+        let squares: f64 = differences.iter().map(|d| (d[a] - mean[a]).powi(2)).sum();
+        (squares / (n - 1.0)).sqrt()
+    });
+    Some(CheckStatistics {
+        count,
+        min: over(&|axis| axis.fold(f64::INFINITY, f64::min)),
+        max: over(&|axis| axis.fold(f64::NEG_INFINITY, f64::max)),
+        mean,
+        standard_deviation: (count > 1).then_some(deviation),
+        rms: over(&|axis| (axis.map(|d| d * d).sum::<f64>() / n).sqrt()),
+    })
+}

@@ -1,0 +1,396 @@
+//! One network on its way to a solution: iteration, gross errors, cofactors.
+
+use nalgebra::DMatrix;
+
+use crate::adjustment::{
+    AdjustOptions, Covariance, GrossError, GrossErrorAction, Iteration, Robust, StatisticsChoice, Termination,
+};
+use crate::error::{Error, Place, Result};
+use crate::project::Project;
+
+use super::cofactor::{Cofactors, cofactors};
+use super::datum::{self, FreeDatum, at_point};
+use super::doctor;
+use super::full::{Full, solve_all};
+use super::iteration::{Outcome, Setting, iterate};
+use super::layout::{Layout, layout};
+use super::network::Network;
+use super::normal::{self, Normal};
+use super::parameters::State;
+use super::result::Solved;
+use super::robust::reweight;
+use super::rows::Weighting;
+use super::snooping::{Decision, VANISHING, consequences, decide};
+
+/// Rounds of a search for gross errors.
+const MOST_ROUNDS: usize = 500;
+/// Robust weights that change less are settled.
+const SETTLED: f64 = 1e-6;
+
+/// A step of this part of the standard errors changes no digit of the statistics.
+const POLISHED: f64 = 1e-7;
+
+/// Progress to the caller: the iterations so far and whether to go on.
+pub struct Log<'a> {
+    /// Iterations so far.
+    pub iterations: Vec<Iteration>,
+    /// Sees every iteration; false stops.
+    pub on_iteration: &'a mut dyn FnMut(&Iteration) -> bool,
+}
+
+/// The network with its values.
+pub struct Session<'a> {
+    project: &'a Project,
+    /// The network.
+    pub network: Network,
+    layout: Layout,
+    initial: State,
+    /// Present values.
+    pub state: State,
+    datum: Option<FreeDatum>,
+    redundancy: usize,
+    normal: Normal,
+    /// Square roots of robust factors, per ray; empty for none.
+    weights: Vec<[f64; 2]>,
+    /// Eccentricity corrections, per ray; empty for none.
+    shift: Vec<[f64; 2]>,
+}
+
+/// What is known at the end.
+pub struct Solution {
+    /// vᵀPv.
+    cost: f64,
+    cofactors: Option<Cofactors>,
+    /// Covariance of the points asked for.
+    pub covariance: Option<Covariance>,
+}
+
+fn unsound() -> Error {
+    Error::Invalid {
+        detail: "the iteration ended where a point has no image: improve the initial values".into(),
+        at: Place::default(),
+    }
+}
+
+impl<'a> Session<'a> {
+    /// Numbers the document without the observations in `removed`.
+    ///
+    /// # Errors
+    /// As [`super::adjust`].
+    pub fn new(project: &'a Project, removed: &[bool]) -> Result<Self> {
+        let (mut network, state) = Network::new(project, removed)?;
+        let layout = layout(&mut network);
+        doctor::structure(project, &network, &state)?;
+        let datum = datum::free_datum(&network, &state)?;
+        let constraints = datum.as_ref().map_or(0, |d| d.defect);
+        let (n, u) = (network.observations_count() + constraints, network.unknowns());
+        let normal = Normal::new(&network, &layout);
+        let (weights, shift) = (Vec::new(), Vec::new());
+        let initial = state.clone();
+        let mut session =
+            Self { project, network, layout, initial, state, datum, redundancy: 0, normal, weights, shift };
+        match n.checked_sub(u) {
+            Some(redundancy) => session.redundancy = redundancy,
+            None => return Err(session.rank_defect()),
+        }
+        Ok(session)
+    }
+
+    fn pins(&self) -> Vec<usize> {
+        self.datum.as_ref().map_or_else(Vec::new, |d| datum::pins(&self.layout, &self.state, d.defect))
+    }
+
+    /// Iterates to the end; a rank defect is an error.
+    ///
+    /// # Errors
+    /// [`Error::RankDefect`].
+    pub fn iterate(&mut self, options: &AdjustOptions, log: &mut Log<'_>) -> Result<Termination> {
+        let pins = self.pins();
+        let setting = Setting {
+            network: &self.network,
+            layout: &self.layout,
+            pins: &pins,
+            weighting: Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift },
+            redundancy: self.redundancy,
+            max_iterations: options.max_iterations,
+        };
+        let mut each = |iteration: Iteration| {
+            let going = (log.on_iteration)(&iteration);
+            log.iterations.push(iteration);
+            going
+        };
+        let Outcome { state, termination, singular } =
+            iterate(&setting, &mut self.normal, self.state.clone(), &mut each);
+        self.state = state;
+        self.state.orthonormalise();
+        if !singular.is_empty() && termination != Termination::Stopped {
+            return Err(self.rank_defect());
+        }
+        if let Some(datum) = &self.datum {
+            datum.align(&mut self.state, &self.initial);
+        }
+        Ok(termination)
+    }
+
+    fn residuals(&self, options: &AdjustOptions) -> Result<Vec<[f64; 2]>> {
+        let weighting = Weighting { place: options.residuals, robust: &[], shift: &self.shift };
+        normal::weighted_residuals(&self.network, &self.state, weighting).ok_or_else(unsound)
+    }
+
+    fn gross_error(
+        &self,
+        ray: usize,
+        action: GrossErrorAction,
+        statistic: f64,
+        limit: f64,
+        round: usize,
+    ) -> GrossError {
+        let observation = &self.project.observations[self.network.rays[ray].row];
+        let (photo, point) = (observation.photo.clone(), observation.point.clone());
+        GrossError { photo, point, action, statistic, limit, round }
+    }
+
+    /// Data snooping from a converged state. Marks what is taken out in `removed` (by place in the document) and returns
+    /// whether the search came to an end.
+    ///
+    /// # Errors
+    /// As [`Self::iterate`].
+    pub fn snoop(
+        &mut self,
+        options: &AdjustOptions,
+        log: &mut Log<'_>,
+        removed: &mut [bool],
+        record: &mut Vec<GrossError>,
+    ) -> Result<bool> {
+        let full = AdjustOptions { statistics: StatisticsChoice::Full, covariance_of: Vec::new(), ..options.clone() };
+        let n = self.network.rays.len();
+        let (mut out, mut settled, mut restored) = (vec![false; n], vec![false; n], vec![0; n]);
+        let all = self.redundancy;
+        self.weights = vec![[1.0; 2]; n];
+        let mut ended = false;
+        for round in 1..=MOST_ROUNDS {
+            let solution = self.finish(&full, false)?;
+            let Some(cofactors) = &solution.cofactors else { break };
+            self.redundancy = all.saturating_sub(2 * out.iter().filter(|o| **o).count());
+            let sigma0 = (solution.cost / self.redundancy.max(1) as f64).sqrt();
+            let residuals = self.residuals(options)?;
+            let decision = decide(&self.network, &residuals, &cofactors.rays, &out, &settled, self.redundancy, sigma0);
+            match decision {
+                Decision::Done => {
+                    ended = true;
+                    break;
+                }
+                Decision::Remove { ray, statistic, limit } => {
+                    let Some(together) = consequences(&self.network, &out, ray) else {
+                        settled[ray] = true;
+                        continue;
+                    };
+                    for ray in together {
+                        out[ray] = true;
+                        self.weights[ray] = [VANISHING; 2];
+                        record.push(self.gross_error(ray, GrossErrorAction::Removed, statistic, limit, round));
+                    }
+                }
+                Decision::Restore { ray, statistic, limit } => {
+                    out[ray] = false;
+                    restored[ray] += 1;
+                    // What comes back a second time stays.
+                    settled[ray] = restored[ray] > 1;
+                    self.weights[ray] = [1.0; 2];
+                    record.push(self.gross_error(ray, GrossErrorAction::Restored, statistic, limit, round));
+                }
+            }
+            self.redundancy = all.saturating_sub(2 * out.iter().filter(|o| **o).count());
+            if self.iterate(options, log)? != Termination::Converged {
+                break;
+            }
+        }
+        self.redundancy = all;
+        for (ray, _) in out.iter().enumerate().filter(|(_, out)| **out) {
+            removed[self.network.rays[ray].row] = true;
+        }
+        self.weights = Vec::new();
+        Ok(ended)
+    }
+
+    /// Robust weights from a converged state; returns whether they settled.
+    ///
+    /// # Errors
+    /// As [`Self::iterate`].
+    pub fn reweight(
+        &mut self,
+        kind: Robust,
+        options: &AdjustOptions,
+        log: &mut Log<'_>,
+        record: &mut Vec<GrossError>,
+    ) -> Result<bool> {
+        self.weights = vec![[1.0; 2]; self.network.rays.len()];
+        let mut settled = false;
+        let stages: &[Robust] = if kind == Robust::Tukey { &[Robust::Huber, Robust::Tukey] } else { &[Robust::Huber] };
+        let mut round = 0;
+        'stages: for stage in stages {
+            settled = false;
+            for _ in 0..60 {
+                round += 1;
+                let residuals = self.residuals(options)?;
+                if reweight(*stage, &residuals, &mut self.weights) < SETTLED {
+                    settled = true;
+                    break;
+                }
+                if self.iterate(options, log)? != Termination::Converged {
+                    settled = false;
+                    break 'stages;
+                }
+            }
+        }
+        for (ray, weights) in self.weights.iter().enumerate() {
+            let factor = weights[0].min(weights[1]).powi(2);
+            if factor < 0.5 {
+                record.push(self.gross_error(ray, GrossErrorAction::Downweighted, factor, 0.5, round));
+            }
+        }
+        Ok(settled)
+    }
+
+    /// A new session without the observations in `removed`, from this one's values.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn without(&self, removed: &[bool]) -> Result<Self> {
+        let mut session = Self::new(self.project, removed)?;
+        session.state.adopt(&session.network, &self.state, &self.network);
+        Ok(session)
+    }
+
+    /// Weighted squares and cofactors at the present values, which a converged iteration has polished by a last step.
+    ///
+    /// # Errors
+    /// [`Error::RankDefect`]; [`Error::Invalid`] where a point has no image.
+    pub fn finish(&mut self, options: &AdjustOptions, polish: bool) -> Result<Solution> {
+        let pins = self.pins();
+        let mut last = None;
+        let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
+        if options.statistics == StatisticsChoice::None {
+            let (cost, _) = normal::cost(&self.network, &self.state, weighting).ok_or_else(unsound)?;
+            return Ok(Solution { cost, cofactors: None, covariance: None });
+        }
+        // The equations are factored for the statistics anyway: further steps, until the unknowns keep all their digits.
+        for _ in 0..4 {
+            let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
+            if !self.normal.build(&self.network, &self.layout, &self.state, weighting, 0.0, &pins) {
+                return Err(unsound());
+            }
+            if !self.normal.factor().is_empty() {
+                return Err(self.rank_defect());
+            }
+            if !polish {
+                break;
+            }
+            let solution = self.normal.solve(&self.network, &self.layout, &self.state, weighting);
+            let mut polished = self.state.stepped(&self.network, &solution.step);
+            polished.orthonormalise();
+            if let Some(datum) = &self.datum {
+                datum.align(&mut polished, &self.initial);
+            }
+            if !polished.is_sound() {
+                break;
+            }
+            let unit = self.normal.cost / self.redundancy.max(1) as f64;
+            if solution.decrement <= POLISHED * POLISHED * unit {
+                last = Some(polished);
+                break;
+            }
+            self.state = polished;
+        }
+        let cost = self.normal.cost;
+        let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
+        let full = options.statistics == StatisticsChoice::Full;
+        let (network, layout, state) = (&self.network, &self.layout, &self.state);
+        let cofactors = cofactors(&self.normal, network, layout, state, weighting, self.datum.as_ref(), full);
+        let cofactors = Some(cofactors.ok_or_else(unsound)?);
+        let variance = if self.redundancy > 0 { cost / self.redundancy as f64 } else { 1.0 };
+        let covariance = if options.covariance_of.is_empty() {
+            None
+        } else {
+            Some(self.covariance_of(&options.covariance_of, weighting, variance)?)
+        };
+        if let Some(last) = last {
+            self.state = last;
+        }
+        Ok(Solution { cost, cofactors, covariance })
+    }
+
+    /// Full covariance of chosen points: Q' e = S Q Sᵀ e for every axis e, S the datum's S-transformation.
+    fn covariance_of(&self, ids: &[String], weighting: Weighting<'_>, variance: f64) -> Result<Covariance> {
+        let places = ids.iter().map(|id| {
+            let at = self.network.points.iter().position(|p| self.project.points[p.index].id == *id);
+            let missing =
+                || Error::Unknown { kind: "point".into(), name: id.clone(), at: Place::field("covariance_of") };
+            at.ok_or_else(missing)
+        });
+        let places: Vec<usize> = places.collect::<Result<_>>()?;
+        let axes: Vec<(usize, usize)> = places.iter().flat_map(|p| (0..3).map(move |a| (*p, a))).collect();
+        let direction = |(point, axis): (usize, usize)| at_point(&self.state.points[point])[axis];
+        let constraint = match &self.datum {
+            Some(datum) => {
+                let inverse = datum.inverse_of_constrained(&self.state).ok_or_else(unsound)?;
+                Some((datum, datum.constraint_rows(&self.state) * inverse.transpose()))
+            }
+            None => None,
+        };
+        let mut vectors: Vec<Full> = Vec::with_capacity(axes.len());
+        for &(point, axis) in &axes {
+            let mut e = Full::zeros(&self.network, &self.layout);
+            if !self.network.points[point].fixed[axis] {
+                e.add_at_point(&self.layout, point, axis, 1.0);
+            }
+            if let Some((datum, d)) = &constraint {
+                let g = direction((point, axis));
+                for (k, &(carrier, carrier_axis)) in datum.carriers.iter().enumerate() {
+                    let product: f64 = (0..datum.defect).map(|j| d[(k, j)] * g[j]).sum();
+                    e.add_at_point(&self.layout, carrier, carrier_axis, -product);
+                }
+            }
+            vectors.push(e);
+        }
+        if !solve_all(&self.normal, &self.network, &self.layout, &self.state, weighting, &mut vectors) {
+            return Err(unsound());
+        }
+        let factor = variance * self.network.frame.scale.powi(2);
+        let value = |column: usize, (point, axis): (usize, usize)| {
+            let x = &vectors[column];
+            let mut value = x.at_point(&self.layout, point, axis);
+            if let Some((datum, d)) = &constraint {
+                let g = direction((point, axis));
+                for (k, &(carrier, carrier_axis)) in datum.carriers.iter().enumerate() {
+                    let product: f64 = (0..datum.defect).map(|j| d[(k, j)] * g[j]).sum();
+                    value -= product * x.at_point(&self.layout, carrier, carrier_axis);
+                }
+            }
+            if self.network.points[point].fixed[axis] { 0.0 } else { value * factor }
+        };
+        let matrix = DMatrix::from_fn(axes.len(), axes.len(), |i, j| value(j, axes[i]));
+        let symmetric = (&matrix + matrix.transpose()) * 0.5;
+        let rows = symmetric.row_iter().map(|row| row.iter().copied().collect()).collect();
+        Ok(Covariance { points: ids.to_vec(), matrix: rows })
+    }
+
+    /// The result's view of this session.
+    pub fn solved<'b>(&'b self, options: &AdjustOptions, solution: &'b Solution) -> Solved<'b> {
+        Solved {
+            project: self.project,
+            network: &self.network,
+            state: &self.state,
+            cofactors: solution.cofactors.as_ref(),
+            weighting: Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift },
+            cost: solution.cost,
+            constraints: self.datum.as_ref().map_or(0, |d| d.defect),
+            redundancy: self.redundancy,
+        }
+    }
+
+    fn rank_defect(&mut self) -> Error {
+        let pins = self.pins();
+        doctor::rank_defect(self.project, &self.network, &self.layout, &self.state, &mut self.normal, &pins)
+    }
+}

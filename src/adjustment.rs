@@ -1,0 +1,439 @@
+//! The one result: what a bundle adjustment found, with its statistics.
+//!
+//! Sigmas and covariances include σ0²; lengths are in the project's unit, angles in radians, residuals in photo units
+//! (brown model) or pixels (opencv model). No number is NaN or infinite.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::project::{Camera, Parameter};
+use crate::statistics::reliability::Reliability;
+
+/// How the iteration ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Termination {
+    /// The step fell below its limit.
+    #[default]
+    Converged,
+    /// The largest number of iterations was reached.
+    IterationLimit,
+    /// No step lowered the weighted squares and the gradient is not zero.
+    Diverged,
+    /// The caller stopped it.
+    Stopped,
+}
+
+/// Which statistics are computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StatisticsChoice {
+    /// Coordinates and sigma0 only.
+    None,
+    /// Sigmas and covariances too.
+    Precision,
+    /// Redundancy numbers, tests, detectable biases too.
+    #[default]
+    Full,
+}
+
+/// Robust weights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Robust {
+    /// Huber's weights.
+    Huber,
+    /// Tukey's biweight.
+    Tukey,
+}
+
+/// Where the brown model's residuals are taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ResidualPlace {
+    /// At the corrected place, weighted with the measurement's own sigma (the practice of the field).
+    #[default]
+    Corrected,
+    /// In the measurement, rigorously.
+    Measured,
+}
+
+/// Options of the adjustment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct AdjustOptions {
+    /// Largest number of iterations.
+    pub max_iterations: usize,
+    /// Which statistics are computed.
+    pub statistics: StatisticsChoice,
+    /// Robust weights, if any.
+    pub robust: Option<Robust>,
+    /// Whether gross errors are searched by data snooping.
+    pub snooping: bool,
+    /// Where residuals are taken.
+    pub residuals: ResidualPlace,
+    /// Points whose full covariance matrix is wanted.
+    pub covariance_of: Vec<String>,
+}
+
+impl Default for AdjustOptions {
+    fn default() -> Self {
+        Self {
+            max_iterations: 50,
+            statistics: StatisticsChoice::Full,
+            robust: None,
+            snooping: false,
+            residuals: ResidualPlace::Corrected,
+            covariance_of: Vec::new(),
+        }
+    }
+}
+
+/// One iteration.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Iteration {
+    /// Square root of weighted squares over redundancy before the step.
+    pub sigma0: f64,
+    /// Largest change of an object or projection-centre coordinate, in the project's unit.
+    pub step: f64,
+    /// Damping of the step (Levenberg-Marquardt), 0 for a full Gauss-Newton step.
+    pub damping: f64,
+}
+
+/// χ² test of sigma0 against its a priori value of 1, two-sided at 5 %.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GlobalTest {
+    /// vᵀPv.
+    pub statistic: f64,
+    /// Lower limit.
+    pub lower: f64,
+    /// Upper limit.
+    pub upper: f64,
+    /// Whether the statistic lies between.
+    pub passed: bool,
+}
+
+/// Correlations between named parameters.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Correlation {
+    /// Names in the order of the matrix.
+    pub names: Vec<String>,
+    /// Symmetric, ones on the diagonal.
+    pub matrix: Vec<Vec<f64>>,
+}
+
+/// An adjusted camera.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AdjustedCamera {
+    /// The camera with its adjusted parameters.
+    #[serde(flatten)]
+    pub camera: Camera,
+    /// The photo whose own interior orientation this is, for cameras with one per photo.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub photo: Option<String>,
+    /// Standard errors of the estimated parameters.
+    pub sigma: BTreeMap<Parameter, f64>,
+    /// Correlations of the estimated parameters.
+    pub correlation: Correlation,
+}
+
+/// An adjusted photo.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AdjustedPhoto {
+    /// Photo identifier.
+    pub id: String,
+    /// Projection centre.
+    pub position: [f64; 3],
+    /// Omega, phi, kappa in radians.
+    pub rotation: [f64; 3],
+    /// Standard errors of the projection centre.
+    pub sigma_position: Option<[f64; 3]>,
+    /// Standard errors of the angles; null where the attitude leaves them undefined (phi of ±90°).
+    pub sigma_rotation: Option<[f64; 3]>,
+    /// Rms of the residuals in x, photo units.
+    pub rms_x: f64,
+    /// Rms of the residuals in y, photo units.
+    pub rms_y: f64,
+    /// Number of points measured in it that took part.
+    pub points: usize,
+    /// Correlations of X, Y, Z, omega, phi, kappa and the camera's estimated parameters; null without statistics or where
+    /// the angles are undefined.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub correlation: Option<Correlation>,
+}
+
+/// An adjusted point.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AdjustedPoint {
+    /// Point identifier.
+    pub id: String,
+    /// Coordinates.
+    pub xyz: [f64; 3],
+    /// Standard errors.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sigma: Option<[f64; 3]>,
+    /// xx, xy, xz, yy, yz, zz.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub covariance: Option<[f64; 6]>,
+    /// Number of photos it was measured in.
+    pub rays: usize,
+}
+
+/// An image observation after the adjustment.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct AdjustedObservation {
+    /// Photo identifier.
+    pub photo: String,
+    /// Point identifier.
+    pub point: String,
+    /// Residual in x.
+    pub vx: f64,
+    /// Residual in y.
+    pub vy: f64,
+    /// Redundancy number of x.
+    pub rx: Option<f64>,
+    /// Redundancy number of y.
+    pub ry: Option<f64>,
+    /// Baarda's w in x; null where the redundancy number is 0.
+    pub wx: Option<f64>,
+    /// Baarda's w in y.
+    pub wy: Option<f64>,
+    /// Minimal detectable bias in x; null where the redundancy number is 0.
+    pub mdb_x: Option<f64>,
+    /// Minimal detectable bias in y.
+    pub mdb_y: Option<f64>,
+    /// External reliability: how far the detectable bias in x, undetected, moves the point, in the project's unit.
+    #[serde(default)]
+    pub effect_x: Option<f64>,
+    /// External reliability of y.
+    #[serde(default)]
+    pub effect_y: Option<f64>,
+    /// Factor on the weight from robust weighting; null where it is 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight: Option<f64>,
+    /// Whether it took part.
+    pub enabled: bool,
+}
+
+/// Difference at a check point, adjusted minus given.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CheckPoint {
+    /// Point identifier.
+    pub id: String,
+    /// Differences per axis; null where the point could not be determined.
+    pub difference: Option<[f64; 3]>,
+}
+
+/// Differences of all check points per axis.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CheckStatistics {
+    /// Number of compared points.
+    pub count: usize,
+    /// Smallest difference.
+    pub min: [f64; 3],
+    /// Largest difference.
+    pub max: [f64; 3],
+    /// Mean.
+    pub mean: [f64; 3],
+    /// Standard deviation about the mean; null with fewer than two points.
+    pub standard_deviation: Option<[f64; 3]>,
+    /// Root mean square.
+    pub rms: [f64; 3],
+}
+
+/// An observation of another kind than image coordinates, after the adjustment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GivenObservation {
+    /// What was observed.
+    #[serde(flatten)]
+    pub what: Given,
+    /// Residual, adjusted minus given, in the observation's own unit.
+    pub residual: f64,
+    /// A priori standard error.
+    pub sigma: f64,
+    /// Redundancy number, w and minimal detectable bias; null without full statistics.
+    #[serde(default)]
+    pub reliability: Option<Reliability>,
+}
+
+/// Kinds of observations besides image coordinates.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Given {
+    /// A control coordinate.
+    Control {
+        /// Point identifier.
+        point: String,
+        /// 0, 1, 2 for X, Y, Z.
+        axis: usize,
+    },
+    /// A projection centre's coordinate.
+    Position {
+        /// Photo identifier.
+        photo: String,
+        /// 0, 1, 2 for X, Y, Z.
+        axis: usize,
+    },
+    /// A distance.
+    Distance {
+        /// One end.
+        from: String,
+        /// Other end.
+        to: String,
+    },
+    /// A parameter of an interior orientation.
+    Parameter {
+        /// Camera identifier.
+        camera: String,
+        /// Photo identifier, for cameras with an interior orientation per photo.
+        photo: Option<String>,
+        /// Which parameter.
+        parameter: Parameter,
+    },
+}
+
+/// What search for gross errors did with an observation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GrossErrorAction {
+    /// Taken out by data snooping.
+    Removed,
+    /// Taken back by data snooping.
+    Restored,
+    /// Weighted down by less than half.
+    Downweighted,
+}
+
+/// One entry of the record that the search for gross errors leaves.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GrossError {
+    /// Photo identifier.
+    pub photo: String,
+    /// Point identifier.
+    pub point: String,
+    /// What was done.
+    pub action: GrossErrorAction,
+    /// Test statistic that led to it (Pope's τ, as normalised residual over sigma0), or the robust weight.
+    pub statistic: f64,
+    /// Limit it was compared with.
+    pub limit: f64,
+    /// Round of the search, from 1.
+    pub round: usize,
+}
+
+/// What a solvable network is weak in, as data; the desk says it in its user's language.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Advice {
+    /// Two parameters are hardly told apart: correlation beyond 0.95.
+    HighCorrelation {
+        /// Camera identifier.
+        camera: String,
+        /// Photo identifier, where one parameter is the photo's.
+        photo: Option<String>,
+        /// Name of one parameter.
+        first: String,
+        /// Name of the other.
+        second: String,
+        /// Their correlation.
+        correlation: f64,
+    },
+    /// Observations that are hardly checked by others: redundancy numbers below 0.1.
+    LowRedundancy {
+        /// Photo and point of each.
+        observations: Vec<(String, String)>,
+    },
+    /// Points with two rays: a gross error along the epipolar line stays unseen.
+    TwoRays {
+        /// The points.
+        points: Vec<String>,
+    },
+    /// Points whose rays meet under less than 5°.
+    NarrowIntersection {
+        /// Point and largest angle between its rays in radians.
+        points: Vec<(String, f64)>,
+    },
+    /// Points behind the camera that is said to see them.
+    BehindCamera {
+        /// Photo and point of each.
+        observations: Vec<(String, String)>,
+    },
+    /// Distances left out because an end is not measured.
+    DistanceUnused {
+        /// Ends of each.
+        distances: Vec<(String, String)>,
+    },
+    /// The robust weighting or the search for gross errors came to no end.
+    GrossErrorsUnsettled,
+}
+
+/// Precision of the whole object.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Precision {
+    /// Rms of the tie points' standard errors per axis.
+    pub rms_sigma: [f64; 3],
+    /// Mean of the tie points' geometric standard errors √q per axis.
+    pub mean_q: [f64; 3],
+    /// Largest dimension of the object.
+    pub largest_dimension: f64,
+    /// Largest dimension over mean sigma, the N of 1 : N; null where sigma is 0.
+    pub relative: Option<f64>,
+}
+
+/// Result of a bundle adjustment.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Adjustment {
+    /// How the iteration ended.
+    pub termination: Termination,
+    /// The iterations.
+    pub iterations: Vec<Iteration>,
+    /// Scalar observations of every kind.
+    pub observations_count: usize,
+    /// Estimated parameters.
+    pub unknowns: usize,
+    /// Datum constraints.
+    pub constraints: usize,
+    /// observations_count - unknowns + constraints.
+    pub redundancy: usize,
+    /// Standard deviation of unit weight; null where the redundancy is 0.
+    pub sigma0: Option<f64>,
+    /// χ² test of sigma0; null where the redundancy is 0.
+    pub global_test: Option<GlobalTest>,
+    /// Cameras.
+    pub cameras: Vec<AdjustedCamera>,
+    /// Enabled photos.
+    pub photos: Vec<AdjustedPhoto>,
+    /// Points that took part.
+    pub points: Vec<AdjustedPoint>,
+    /// Image observations in the project's order.
+    pub observations: Vec<AdjustedObservation>,
+    /// Check points.
+    pub check_points: Vec<CheckPoint>,
+    /// Precision of the object; null without statistics.
+    pub precision: Option<Precision>,
+    /// Check points together; null without any.
+    #[serde(default)]
+    pub check_statistics: Option<CheckStatistics>,
+    /// Observations of other kinds: control, projection centres, distances, parameters.
+    #[serde(default)]
+    pub given: Vec<GivenObservation>,
+    /// Record of the search for gross errors.
+    #[serde(default)]
+    pub gross_errors: Vec<GrossError>,
+    /// What the network is weak in.
+    #[serde(default)]
+    pub advice: Vec<Advice>,
+    /// Covariance matrix of the points asked for, three rows each in their order; null when none were.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub covariance: Option<Covariance>,
+}
+
+/// Covariance matrix of chosen points.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Covariance {
+    /// Points, three rows and columns each.
+    pub points: Vec<String>,
+    /// Symmetric, squared unit of the project.
+    pub matrix: Vec<Vec<f64>>,
+}

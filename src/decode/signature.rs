@@ -1,0 +1,131 @@
+//! What kind of file it is, from its first bytes: the three formats that are read, and the common ones that are not.
+
+use super::bytes::Reader;
+
+/// What a file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Signature {
+    /// JPEG.
+    Jpeg,
+    /// PNG.
+    Png,
+    /// TIFF or BigTIFF that holds a developed picture.
+    Tiff,
+    /// A known format that is not read, by name.
+    Other(&'static str),
+    /// Nothing known.
+    Unknown,
+}
+
+/// Formats that are recognised but not read: offset of the signature, the signature, the name.
+const OTHERS: [(usize, &[u8], &str); 24] = [
+    (0, b"FUJIFILMCCD-RAW", "RAW (Fujifilm RAF)"),
+    (0, b"IIU\0", "RAW (Panasonic RW2)"),
+    (0, b"IIRO", "RAW (Olympus ORF)"),
+    (0, b"IIRS", "RAW (Olympus ORF)"),
+    (0, b"MMOR", "RAW (Olympus ORF)"),
+    (0, b"FOVb", "RAW (Sigma X3F)"),
+    (0, b"\0MRM", "RAW (Minolta MRW)"),
+    (8, b"CR\x02", "RAW (Canon CR2)"),
+    (4, b"ftypcrx", "RAW (Canon CR3)"),
+    (4, b"ftypheic", "HEIC"),
+    (4, b"ftypheix", "HEIC"),
+    (4, b"ftyphevc", "HEIC"),
+    (4, b"ftypmif1", "HEIF"),
+    (4, b"ftypmsf1", "HEIF"),
+    (4, b"ftypavif", "AVIF"),
+    (4, b"ftyp", "MP4 or QuickTime video"),
+    (8, b"WEBP", "WebP"),
+    (0, b"GIF8", "GIF"),
+    (0, b"8BPS", "Photoshop"),
+    (0, b"\0\0\0\x0cJXL ", "JPEG XL"),
+    (0, b"\xff\x0a", "JPEG XL"),
+    (0, b"\0\0\0\x0cjP  ", "JPEG 2000"),
+    (0, b"\x76\x2f\x31\x01", "OpenEXR"),
+    (0, b"%PDF", "PDF"),
+];
+
+/// Recognises a file by its content; names and extensions play no part.
+pub fn signature(bytes: &[u8]) -> Signature {
+    let at = |offset: usize, text: &[u8]| bytes.get(offset..).is_some_and(|rest| rest.starts_with(text));
+    if let Some((.., name)) = OTHERS.iter().find(|(offset, text, _)| at(*offset, text)) {
+        return Signature::Other(name);
+    }
+    if at(0, b"\xff\xd8\xff") {
+        return Signature::Jpeg;
+    }
+    if at(0, b"\x89PNG\r\n\x1a\n") {
+        return Signature::Png;
+    }
+    if at(0, b"II*\0") || at(0, b"MM\0*") || at(0, b"II+\0") || at(0, b"MM\0+") {
+        return tiff(bytes);
+    }
+    // Two letters are little evidence: the size in the header has to fit too.
+    if at(0, b"BM") && bytes.len() > 26 && bytes[6..10] == [0; 4] {
+        return Signature::Other("BMP");
+    }
+    Signature::Unknown
+}
+
+/// Tells developed pictures from the RAW formats that are built on TIFF.
+///
+/// Those begin with a reduced preview (NEF, ARW, PEF), carry a DNG version or a colour filter array; decoding the first
+/// directory would quietly measure a thumbnail.
+fn tiff(bytes: &[u8]) -> Signature {
+    const NEW_SUBFILE_TYPE: u16 = 254;
+    const PHOTOMETRIC: u16 = 262;
+    const SUB_DIRECTORIES: u16 = 330;
+    const DNG_VERSION: u16 = 50706;
+    const COLOUR_FILTER_ARRAY: u32 = 32803;
+    let Some(reader) = Reader::tiff(bytes) else { return Signature::Tiff };
+    let entries = reader.entries();
+    let value = |tag| entries.iter().find(|e| e.0 == tag).map(|e| e.1);
+    if value(DNG_VERSION).is_some() {
+        return Signature::Other("RAW (DNG)");
+    }
+    let preview = value(NEW_SUBFILE_TYPE) == Some(1) && value(SUB_DIRECTORIES).is_some();
+    if preview || value(PHOTOMETRIC) == Some(COLOUR_FILTER_ARRAY) {
+        return Signature::Other("RAW");
+    }
+    Signature::Tiff
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    /// A TIFF file of one directory with short entries.
+    fn directory(entries: &[(u16, u16)]) -> Vec<u8> {
+        let mut bytes = b"II*\0\x08\0\0\0".to_vec();
+        bytes.extend((entries.len() as u16).to_le_bytes());
+        for (tag, value) in entries {
+            bytes.extend(tag.to_le_bytes());
+            bytes.extend(3u16.to_le_bytes());
+            bytes.extend(1u32.to_le_bytes());
+            bytes.extend(u32::from(*value).to_le_bytes());
+        }
+        bytes.extend([0; 4]);
+        bytes
+    }
+
+    #[test]
+    fn foreign_formats_are_named() {
+        assert_eq!(signature(b"\0\0\0\x18ftypheic\0\0\0\0mif1heic"), Signature::Other("HEIC"));
+        assert_eq!(signature(b"II*\0\x10\0\0\0CR\x02\0"), Signature::Other("RAW (Canon CR2)"));
+        assert_eq!(signature(b"RIFF\x10\0\0\0WEBPVP8 "), Signature::Other("WebP"));
+        assert_eq!(signature(b"hello, this is text"), Signature::Unknown);
+        assert_eq!(signature(b""), Signature::Unknown);
+    }
+
+    #[test]
+    fn raw_files_built_on_tiff_are_told_from_pictures() {
+        assert_eq!(signature(&directory(&[(254, 0), (262, 1)])), Signature::Tiff);
+        assert_eq!(signature(&directory(&[(254, 1), (262, 2), (330, 999)])), Signature::Other("RAW"));
+        assert_eq!(signature(&directory(&[(262, 32803)])), Signature::Other("RAW"));
+        assert_eq!(signature(&directory(&[(262, 2), (50706, 1)])), Signature::Other("RAW (DNG)"));
+        assert_eq!(signature(b"II*\0\xff\xff\xff\xff"), Signature::Tiff);
+    }
+}

@@ -1,0 +1,165 @@
+//! Target detection: from a grey picture to centres with their covariances.
+//!
+//! One pass over the rows finds edges ([`scan`]) and links the runs between them into blobs ([`component`]); blob tests
+//! ([`blob`]) leave what may be an ellipse; sub-pixel edges and a robust ellipse ([`edge`], [`ellipse`]) confirm it; the
+//! surround gives levels and noise ([`surround`]); the fit of a rendered ellipse ([`fit`]) or one of the classical operators
+//! measures the centre ([`measure`]); rings around a target are read as codes ([`code`]). A second pass over the picture at a
+//! quarter of its size finds what is large or out of focus.
+
+mod band;
+mod blob;
+mod census;
+mod centroid;
+mod click;
+mod code;
+mod component;
+pub(crate) mod conic;
+mod edge;
+mod ellipse;
+mod fit;
+mod measure;
+mod noise;
+pub(crate) mod outline;
+mod quality;
+mod rendered;
+mod scan;
+mod search;
+mod surround;
+
+use crate::detection::{Codes, DetectOptions, Detection, MethodResult, Polarity, Target};
+use crate::error::{Error, Place, Result};
+use crate::image::{GreyView, Plane, Sample, SamplesView};
+use census::Census;
+use code::{DotLevels, Family, Reading};
+use measure::Measure;
+use outline::Outline;
+
+/// Finds and measures the targets of a picture.
+///
+/// # Errors
+/// [`Error::Invalid`] for diameters that are not positive finite numbers or stand in the wrong order.
+pub fn detect(image: &GreyView, options: &DetectOptions) -> Result<Detection> {
+    check(options)?;
+    let mut detection = match image.samples() {
+        SamplesView::U8(samples) => detect_in(Plane::new(image.width(), image.height(), samples), options),
+        SamplesView::U16(samples) => detect_in(Plane::new(image.width(), image.height(), samples), options),
+    };
+    detection.bits = image.bits();
+    Ok(detection)
+}
+
+/// Measures the one target at a click, in a window around it; none when there is no target.
+///
+/// # Errors
+/// [`Error::Invalid`] for a place outside of the picture, and as for [`detect`].
+pub fn measure_at(image: &GreyView, u: f64, v: f64, options: &DetectOptions) -> Result<Option<Target>> {
+    check(options)?;
+    check_place(image, u, v)?;
+    Ok(match image.samples() {
+        SamplesView::U8(samples) => click::measure(Plane::new(image.width(), image.height(), samples), u, v, options),
+        SamplesView::U16(samples) => click::measure(Plane::new(image.width(), image.height(), samples), u, v, options),
+    })
+}
+
+/// Measures one target by every method, for comparing them; empty when there is no target at the place.
+///
+/// # Errors
+/// As for [`measure_at`].
+pub fn measure_all(image: &GreyView, u: f64, v: f64, options: &DetectOptions) -> Result<Vec<MethodResult>> {
+    check(options)?;
+    check_place(image, u, v)?;
+    Ok(match image.samples() {
+        SamplesView::U8(samples) => click::compare(Plane::new(image.width(), image.height(), samples), u, v, options),
+        SamplesView::U16(samples) => click::compare(Plane::new(image.width(), image.height(), samples), u, v, options),
+    })
+}
+
+fn check_place(image: &GreyView, u: f64, v: f64) -> Result<()> {
+    for (name, value, size) in [("u", u, image.width()), ("v", v, image.height())] {
+        if !(value >= 0.0 && value <= size as f64) {
+            return Err(Error::Invalid {
+                detail: format!("{name} is {value}; a place in the picture lies between 0 and {size}"),
+                at: Place::field(name),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check(options: &DetectOptions) -> Result<()> {
+    for (name, value) in [("min_diameter", options.min_diameter), ("max_diameter", options.max_diameter)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(Error::Invalid {
+                detail: format!("{name} is {value}; a positive number of pixels is expected"),
+                at: Place::field(name),
+            });
+        }
+    }
+    if options.min_diameter > options.max_diameter {
+        return Err(Error::Invalid {
+            detail: format!(
+                "min_diameter {} is larger than max_diameter {}",
+                options.min_diameter, options.max_diameter
+            ),
+            at: Place::field("min_diameter"),
+        });
+    }
+    Ok(())
+}
+
+fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
+    let levels = noise::levels(&plane);
+    let blobs = search::search(&plane, &levels, options);
+    let mut census = Census::default();
+    for no in &blobs.rejected {
+        census.count(no);
+    }
+    let mut measure = Measure::new(plane, levels, options);
+    for candidate in &blobs.candidates {
+        if !census.is_new(candidate) {
+            continue;
+        }
+        let measured = measure.find(&candidate.outline, candidate.bright);
+        match measured.and_then(|found| measure.finish(&found, options.method)) {
+            Ok(target) => census.accept(target, candidate.bright),
+            Err(reason) => census.reject(candidate, reason),
+        }
+    }
+    let mut detection = census.finish();
+    read_codes(&plane, &mut detection, options.codes);
+    let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);
+    Detection { width: size(plane.width), height: size(plane.height), ..detection }
+}
+
+/// Reads the codes of all targets; under "auto" the family that reads most rings is everyone's.
+fn read_codes<T: Sample>(plane: &Plane<T>, detection: &mut Detection, codes: Codes) {
+    let mut best: Option<(usize, Vec<Reading>)> = None;
+    for family in Family::of(codes) {
+        let readings: Vec<Reading> = detection.targets.iter().map(|target| read_code(plane, target, &family)).collect();
+        let count = readings.iter().filter(|reading| matches!(reading, Reading::Code { .. })).count();
+        if best.as_ref().is_none_or(|(most, _)| count > *most) {
+            best = Some((count, readings));
+        }
+    }
+    let Some((_, readings)) = best else { return };
+    for (target, reading) in detection.targets.iter_mut().zip(readings) {
+        match reading {
+            Reading::Plain => {}
+            Reading::Code { number, margin } => {
+                target.code = Some(number);
+                target.quality.code_margin = Some(margin);
+            }
+            Reading::Unsafe { margin, note } => {
+                target.quality.code_margin = Some(margin);
+                target.quality.code_note = Some(note);
+            }
+        }
+    }
+}
+
+fn read_code<T: Sample>(plane: &Plane<T>, target: &Target, family: &Family) -> Reading {
+    let dot = Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle);
+    let middle = f64::from(plane.sample(target.u as f32, target.v as f32));
+    let sign = if target.polarity == Polarity::Bright { 1.0 } else { -1.0 };
+    code::read(plane, &dot, DotLevels { dot: middle, background: middle - sign * target.contrast }, family)
+}

@@ -1,0 +1,358 @@
+//! The pixels of a fit: the band along the rim, and the flat parts inside and outside of it.
+//!
+//! Band pixels are gathered into one array a column, so that products of columns run over contiguous memory in eight
+//! independent sums: the compiler makes vector code of them, and the order of the additions is the same on every machine.
+//! Of the flat parts only moments are kept: their model, B + gx x + gy y (+ C inside), is linear.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::outline::Outline;
+use super::rendered::{DERIVATIVES, Field};
+use super::surround::Surround;
+use crate::image::{Plane, Sample};
+
+/// Unknowns of the fit: u, v, p, q, r, s, C, B, gx, gy.
+pub(crate) const UNKNOWNS: usize = 10;
+pub(crate) type Normal = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
+pub(crate) type Unknowns = SVector<f64, UNKNOWNS>;
+
+/// Which pixels are used.
+pub(crate) struct Region<'a> {
+    pub outline: Outline,
+    /// Half the width of the band, in pixels.
+    pub half_band: f64,
+    pub surround: &'a Surround,
+    /// One for each ray of the outline: false where the rim is hidden.
+    pub kept: &'a [bool],
+    /// Whether all of them are true.
+    pub whole: bool,
+    /// Grey level from which a sample says nothing.
+    pub saturation: f64,
+}
+
+/// Pixels of the band, one array a column; what does not count is zero in all of them.
+#[derive(Default)]
+pub(crate) struct Band {
+    /// Row of the field, first column, number of pixels.
+    spans: Vec<(usize, usize, usize)>,
+    grey: Vec<f32>,
+    x: Vec<f32>,
+    y: Vec<f32>,
+    kept: Vec<f32>,
+    share: Vec<f32>,
+    derivatives: [Vec<f32>; DERIVATIVES],
+    residual: Vec<f32>,
+}
+
+/// Moments of flat parts.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Flats {
+    inside: Moments,
+    outside: Moments,
+}
+
+/// Sums over pixels at (x, y) from the origin, of level g.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moments {
+    n: f64,
+    x: f64,
+    y: f64,
+    xx: f64,
+    xy: f64,
+    yy: f64,
+    g: f64,
+    gx: f64,
+    gy: f64,
+}
+
+impl Band {
+    /// Chooses the pixels around the region's outline. None when they are too few for ten unknowns.
+    pub fn collect<T: Sample>(&mut self, plane: &Plane<T>, field: &Field, region: &Region) -> Option<Flats> {
+        self.spans.clear();
+        for column in [&mut self.grey, &mut self.x, &mut self.y, &mut self.kept] {
+            column.clear();
+        }
+        let outline = &region.outline;
+        let reach = region.half_band.min(region.surround.outer.max(1.0)) + 0.3;
+        let rings = [
+            outline.grown(-region.half_band - 0.3),
+            outline.grown(reach),
+            outline.grown(reach.max(region.surround.outer)),
+        ];
+        let hollow = outline.axes().1 > region.half_band + 0.3;
+        let mut flats = Flats::default();
+        let (half_u, half_v) = rings[2].half_box();
+        let rows = clipped(outline.v - half_v, outline.v + half_v, plane.height);
+        if outline.u + half_u < 0.0 || rows.is_empty() {
+            return None;
+        }
+        for y in rows {
+            let height = y as f64 + 0.5;
+            let columns = |ring: &Outline| {
+                ring.chord(height).map_or(0..0, |(from, to)| clipped(from + 0.5, to + 0.5, plane.width))
+            };
+            let (mut inner, outer, far) = (columns(&rings[0]), columns(&rings[1]), columns(&rings[2]));
+            if !hollow || inner.start < outer.start || inner.end > outer.end {
+                inner = outer.start..outer.start;
+            }
+            let row = plane.row(y);
+            if outer.is_empty() {
+                flats.outside.add(row, far, y, region, false);
+                continue;
+            }
+            flats.outside.add(row, far.start..outer.start.max(far.start), y, region, false);
+            flats.outside.add(row, outer.end.min(far.end)..far.end, y, region, false);
+            flats.inside.add(row, inner.clone(), y, region, true);
+            let field_row = y as i64 - field.top;
+            for span in [outer.start..inner.start, inner.end.max(outer.start)..outer.end] {
+                let column = span.start as i64 - field.left;
+                if span.is_empty() || field_row < 0 || field_row >= field.height as i64 || column < 0 {
+                    continue;
+                }
+                self.spans.push((field_row as usize, column as usize, span.len()));
+                for x in span {
+                    let level = f64::from(row[x].level());
+                    let kept = level < region.saturation && region.counts(x, y);
+                    let mask = if kept { 1.0 } else { 0.0 };
+                    self.grey.push(mask * level as f32);
+                    self.x.push(mask * (x as f64 + 0.5 - outline.u) as f32);
+                    self.y.push(mask * (height - outline.v) as f32);
+                    self.kept.push(mask);
+                }
+            }
+        }
+        let count = self.grey.len();
+        let padded = count.next_multiple_of(8);
+        for column in [&mut self.grey, &mut self.x, &mut self.y, &mut self.kept] {
+            column.resize(padded, 0.0);
+        }
+        for column in self.derivatives.iter_mut().chain([&mut self.share, &mut self.residual]) {
+            column.clear();
+            column.resize(padded, 0.0);
+        }
+        (self.kept.iter().sum::<f32>() >= 3.0 * UNKNOWNS as f32).then_some(flats)
+    }
+
+    /// Takes the rendered values, and the derivatives if wanted, from the field.
+    pub fn gather(&mut self, field: &Field, derivatives: bool) {
+        let mut start = 0;
+        for &(row, column, count) in &self.spans {
+            let copy = |from: &[f32], to: &mut [f32]| {
+                if let Some(from) = from.get(column..column + count) {
+                    to[start..start + count].copy_from_slice(from);
+                }
+            };
+            copy(field.share(row), &mut self.share);
+            if derivatives {
+                for (which, to) in self.derivatives.iter_mut().enumerate() {
+                    copy(field.derivative(which, row), to);
+                }
+            }
+            start += count;
+        }
+        mask(&mut self.share, &self.kept);
+        if derivatives {
+            for column in &mut self.derivatives {
+                mask(column, &self.kept);
+            }
+        }
+    }
+
+    /// Residuals, grey less model, for contrast and background (level, slope).
+    pub fn subtract(&mut self, contrast: f64, background: [f64; 3]) {
+        let (contrast, [level, gx, gy]) = (contrast as f32, background.map(|b| b as f32));
+        let columns = self.grey.iter().zip(&self.kept).zip(&self.x).zip(&self.y).zip(&self.share);
+        for (residual, ((((grey, kept), x), y), share)) in self.residual.iter_mut().zip(columns) {
+            *residual = grey - (level * kept + gx * x + gy * y + contrast * share);
+        }
+    }
+
+    /// Takes out pixels whose residual exceeds `limit`; the number taken.
+    pub fn drop_outliers(&mut self, limit: f64) -> usize {
+        let mut dropped = 0;
+        for i in 0..self.residual.len() {
+            if f64::from(self.residual[i].abs()) > limit {
+                dropped += 1;
+                for column in
+                    [&mut self.grey, &mut self.x, &mut self.y, &mut self.kept, &mut self.share, &mut self.residual]
+                {
+                    column[i] = 0.0;
+                }
+                for column in &mut self.derivatives {
+                    column[i] = 0.0;
+                }
+            }
+        }
+        dropped
+    }
+
+    /// Median of the absolute residuals of the pixels that count, as a standard deviation.
+    pub fn robust_deviation(&self) -> f64 {
+        let mut sizes: Vec<f32> =
+            self.residual.iter().zip(&self.kept).filter(|(_, kept)| **kept > 0.0).map(|(r, _)| r.abs()).collect();
+        if sizes.is_empty() {
+            return 0.0;
+        }
+        let half = sizes.len() / 2;
+        1.4826 * f64::from(*sizes.select_nth_unstable_by(half, f32::total_cmp).1)
+    }
+
+    /// Rms of what is left of the residuals when their mean profile across the rim is taken off: what a lens does to an
+    /// edge it does all around, a wrong shape shows in places.
+    pub fn unevenness(&self) -> f64 {
+        let mut sums = [(0f64, 0f64, 0f64); 16];
+        for ((r, share), _) in self.residual.iter().zip(&self.share).zip(&self.kept).filter(|(_, kept)| **kept > 0.0) {
+            let bin = &mut sums[((share * 16.0).max(0.0) as usize).min(15)];
+            *bin = (bin.0 + 1.0, bin.1 + f64::from(*r), bin.2 + f64::from(r * r));
+        }
+        let used: f64 = sums.iter().map(|s| s.0).sum();
+        let left: f64 = sums.iter().filter(|s| s.0 > 0.0).map(|s| s.2 - s.1 * s.1 / s.0).sum();
+        (left / (used - 24.0).max(1.0)).max(0.0).sqrt()
+    }
+
+    /// Variance of the residuals of the pixels that count, and how many pixels they are.
+    pub fn variance(&self) -> (f64, usize) {
+        let used = self.kept.iter().filter(|kept| **kept > 0.0).count();
+        (dot(&self.residual, &self.residual) / used.saturating_sub(UNKNOWNS - 2).max(1) as f64, used)
+    }
+
+    fn columns(&self) -> [&[f32]; UNKNOWNS] {
+        let [u, v, p, q, r, s] = &self.derivatives;
+        [u, v, p, q, r, s, &self.share, &self.kept, &self.x, &self.y]
+    }
+
+    /// J'J of the band. Derivatives of the outline are scaled by the contrast.
+    pub fn normal(&self, contrast: f64) -> Normal {
+        let columns = self.columns();
+        let scale = |i: usize| if i < DERIVATIVES { contrast } else { 1.0 };
+        let mut normal = Normal::zeros();
+        for i in 0..UNKNOWNS {
+            for j in 0..=i {
+                let sum = dot(columns[i], columns[j]) * scale(i) * scale(j);
+                normal[(i, j)] = sum;
+                normal[(j, i)] = sum;
+            }
+        }
+        normal
+    }
+
+    /// J'r of the band.
+    pub fn right(&self, contrast: f64) -> Unknowns {
+        let columns = self.columns();
+        Unknowns::from_fn(|i, _| dot(columns[i], &self.residual) * if i < DERIVATIVES { contrast } else { 1.0 })
+    }
+}
+
+impl Flats {
+    /// Adds J'J of the flat parts.
+    pub fn add_normal(&self, normal: &mut Normal) {
+        for (m, share) in [(&self.inside, 1.0), (&self.outside, 0.0)] {
+            let first = [m.n, m.x, m.y];
+            let second = [[m.n, m.x, m.y], [m.x, m.xx, m.xy], [m.y, m.xy, m.yy]];
+            normal[(6, 6)] += share * m.n;
+            for i in 0..3 {
+                normal[(6, 7 + i)] += share * first[i];
+                normal[(7 + i, 6)] += share * first[i];
+                for j in 0..3 {
+                    normal[(7 + i, 7 + j)] += second[i][j];
+                }
+            }
+        }
+    }
+
+    /// Adds J'r of the flat parts for contrast and background (level, slope).
+    pub fn add_right(&self, contrast: f64, [level, gx, gy]: [f64; 3], right: &mut Unknowns) {
+        for (m, share) in [(&self.inside, 1.0), (&self.outside, 0.0)] {
+            let level = level + share * contrast;
+            let sum = m.g - level * m.n - gx * m.x - gy * m.y;
+            right[6] += share * sum;
+            right[7] += sum;
+            right[8] += m.gx - level * m.x - gx * m.xx - gy * m.xy;
+            right[9] += m.gy - level * m.y - gx * m.xy - gy * m.yy;
+        }
+    }
+}
+
+impl Moments {
+    /// Adds the pixels of a span of a row that are neither hidden nor outliers: further than four sigmas from the plane.
+    fn add<T: Sample>(&mut self, row: &[T], span: std::ops::Range<usize>, y: usize, region: &Region, inside: bool) {
+        if span.is_empty() {
+            return;
+        }
+        let surround = region.surround;
+        let dy = y as f64 + 0.5 - region.outline.v;
+        let level = surround.level + surround.slope[1] * dy + if inside { surround.contrast } else { 0.0 };
+        let limit = 4.0 * surround.noise.max(0.6) + if inside { 0.05 * surround.contrast.abs() } else { 0.0 };
+        let (mut n, mut sx, mut sxx, mut sg, mut sgx) = (0u64, 0i64, 0i64, 0i64, 0i64);
+        let middle = region.outline.u.floor() as i64;
+        for x in span {
+            let dx = x as i64 - middle;
+            let grey = row[x].level();
+            let expected = level + surround.slope[0] * dx as f64;
+            if (f64::from(grey) - expected).abs() <= limit && f64::from(grey) < region.saturation && region.counts(x, y)
+            {
+                n += 1;
+                sx += dx;
+                sxx += dx * dx;
+                sg += i64::from(grey);
+                sgx += dx * i64::from(grey);
+            }
+        }
+        // from whole columns to the distance from the outline's centre
+        let shift = middle as f64 + 0.5 - region.outline.u;
+        let (n, sx, sxx, sg, sgx) = (n as f64, sx as f64, sxx as f64, sg as f64, sgx as f64);
+        let x = sx + shift * n;
+        self.n += n;
+        self.x += x;
+        self.y += n * dy;
+        self.xx += sxx + 2.0 * shift * sx + shift * shift * n;
+        self.xy += x * dy;
+        self.yy += n * dy * dy;
+        self.g += sg;
+        self.gx += sgx + shift * sg;
+        self.gy += sg * dy;
+    }
+}
+
+impl Region<'_> {
+    /// Whether the pixel lies where the rim is not hidden.
+    fn counts(&self, x: usize, y: usize) -> bool {
+        if self.whole {
+            return true;
+        }
+        let [c, s] = self.outline.normalised(x as f64 + 0.5, y as f64 + 0.5);
+        let turn = s.atan2(c) / std::f64::consts::TAU * self.kept.len() as f64;
+        // a ray's neighbours share its edge: both must count
+        let count = self.kept.len() as i64;
+        let at = |k: i64| self.kept[k.rem_euclid(count) as usize];
+        at(turn.floor() as i64) && at(turn.floor() as i64 + 1)
+    }
+}
+
+/// Whole numbers from `from` to `to`, inside 0..size: the pixels whose centres lie between.
+fn clipped(from: f64, to: f64, size: usize) -> std::ops::Range<usize> {
+    let low = from.max(0.0) as usize;
+    let high = (to.max(0.0) as usize).min(size);
+    low.min(high)..high
+}
+
+fn mask(column: &mut [f32], kept: &[f32]) {
+    for (value, kept) in column.iter_mut().zip(kept) {
+        *value *= kept;
+    }
+}
+
+/// Inner product in eight sums of single precision, emptied into double precision every 64 steps.
+fn dot(a: &[f32], b: &[f32]) -> f64 {
+    let mut total = 0.0;
+    for (a, b) in a.chunks(512).zip(b.chunks(512)) {
+        let mut sums = [0f32; 8];
+        for (a, b) in a.chunks_exact(8).zip(b.chunks_exact(8)) {
+            for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+                *sum += a * b;
+            }
+        }
+        total += sums.iter().map(|sum| f64::from(*sum)).sum::<f64>();
+    }
+    total
+}

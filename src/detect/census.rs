@@ -1,0 +1,107 @@
+//! Bookkeeping of what was found where, so that no place is measured twice.
+//!
+//! The levels of the search and the two picture sizes meet the same target again; parts of an outline lead to the same
+//! ellipse; specks lie inside of targets. Everything decided is entered into a grid of cells, and a candidate is compared
+//! with its neighbours only.
+
+use std::collections::HashMap;
+
+use super::blob::NoBlob;
+use super::outline::Outline;
+use super::search::Candidate;
+use crate::detection::{Detection, Reason, Rejected, Target};
+
+/// Side of a cell in pixels.
+const CELL: f64 = 64.0;
+
+/// An outline that was decided on.
+#[derive(Clone, Copy)]
+struct Entry {
+    outline: Outline,
+    bright: bool,
+    accepted: bool,
+}
+
+/// Targets and decided places.
+#[derive(Default)]
+pub(crate) struct Census {
+    pub targets: Vec<Target>,
+    pub detection: Detection,
+    cells: HashMap<(i32, i32), Vec<Entry>>,
+}
+
+impl Census {
+    /// Whether nothing was decided about a candidate yet: it is no decided outline again and lies in no target.
+    pub fn is_new(&self, candidate: &Candidate) -> bool {
+        let outline = &candidate.outline;
+        !self.near(outline).any(|entry| {
+            let [c, s] = entry.outline.normalised(outline.u, outline.v);
+            if entry.accepted {
+                c.hypot(s) < 0.9 && outline.axes().0 < 1.2 * entry.outline.axes().0
+            } else {
+                let size = entry.outline.axes().0;
+                entry.bright == candidate.bright
+                    && (entry.outline.u - outline.u).hypot(entry.outline.v - outline.v) < 0.05 * size + 0.3
+                    && (outline.axes().0 / size - 1.0).abs() < 0.1
+            }
+        })
+    }
+
+    /// Enters a target, unless its measurement has led to one that is there already.
+    pub fn accept(&mut self, target: Target, bright: bool) {
+        let outline = Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle);
+        let again = self.near(&outline).any(|entry| {
+            entry.accepted
+                && entry.bright == bright
+                && (entry.outline.u - outline.u).hypot(entry.outline.v - outline.v) < 0.5 * outline.axes().1
+        });
+        if !again {
+            self.enter(Entry { outline, bright, accepted: true });
+            self.targets.push(target);
+        }
+    }
+
+    /// Enters a candidate that is no target.
+    pub fn reject(&mut self, candidate: &Candidate, reason: Reason) {
+        let Candidate { outline, bright } = *candidate;
+        self.enter(Entry { outline, bright, accepted: false });
+        self.count(&NoBlob { u: outline.u, v: outline.v, diameter: 2.0 * outline.axes().0, reason });
+    }
+
+    /// Counts a rejected blob, and keeps it for showing when it could be mistaken for a target.
+    pub fn count(&mut self, no: &NoBlob) {
+        *self.detection.rejected.entry(no.reason).or_default() += 1;
+        let shown = !matches!(no.reason, Reason::TooSmall | Reason::TooLarge);
+        if shown && [no.u, no.v, no.diameter].iter().all(|x| x.is_finite()) {
+            let NoBlob { u, v, diameter, reason } = *no;
+            self.detection.rejected_blobs.push(Rejected { u, v, diameter, reason });
+        }
+    }
+
+    /// The result, the targets from top to bottom.
+    pub fn finish(mut self) -> Detection {
+        self.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
+        Detection { targets: self.targets, ..self.detection }
+    }
+
+    /// Entries whose cells the outline's centre lies in.
+    fn near(&self, outline: &Outline) -> impl Iterator<Item = &Entry> {
+        self.cells.get(&cell(outline.u, outline.v)).into_iter().flatten()
+    }
+
+    /// Enters into every cell that the outline's box touches.
+    fn enter(&mut self, entry: Entry) {
+        let (half_u, half_v) = entry.outline.half_box();
+        let low = cell(entry.outline.u - half_u, entry.outline.v - half_v);
+        let high = cell(entry.outline.u + half_u, entry.outline.v + half_v);
+        for x in low.0..=high.0.min(low.0.saturating_add(64)) {
+            for y in low.1..=high.1.min(low.1.saturating_add(64)) {
+                self.cells.entry((x, y)).or_default().push(entry);
+            }
+        }
+    }
+}
+
+fn cell(u: f64, v: f64) -> (i32, i32) {
+    ((u / CELL).floor() as i32, (v / CELL).floor() as i32)
+}

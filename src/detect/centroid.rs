@@ -1,0 +1,125 @@
+//! Weighted centroids, the classical operators.
+//!
+//! u = Σ w x / Σ w over the pixels around the target, with w either the grey level above a threshold (intensity-weighted,
+//! Lee 1996 eq. 3-2) or the squared gradient of the grey levels (gradient-weighted, eq. 3-1). Both are simple and fast; the
+//! first takes in what lies in the window beside the target, the second weighs the rim and its noise twice. Their sigma is
+//! the propagated noise of the pixels.
+
+use super::outline::Outline;
+use super::surround::Surround;
+use crate::image::{Plane, Sample};
+
+/// A centre with its covariance (uu, uv, vv).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Centre {
+    pub u: f64,
+    pub v: f64,
+    pub covariance: [f64; 3],
+}
+
+/// Sums of a weighted centroid; places are relative to the outline's centre.
+#[derive(Default)]
+struct Sums {
+    w: f64,
+    wx: f64,
+    wy: f64,
+}
+
+impl Sums {
+    fn add(&mut self, w: f64, x: f64, y: f64) {
+        self.w += w;
+        self.wx += w * x;
+        self.wy += w * y;
+    }
+
+    fn centre(&self) -> Option<[f64; 2]> {
+        let centre = [self.wx / self.w, self.wy / self.w];
+        (self.w > 0.0 && centre.iter().all(|c| c.is_finite())).then_some(centre)
+    }
+}
+
+/// Share of the contrast that a pixel must exceed to be weighted: noise of the background stays out.
+const THRESHOLD: f64 = 0.15;
+
+/// Centroid of the grey levels above the background plane plus a threshold, within `margin` pixels of the outline.
+pub(crate) fn intensity<T: Sample>(
+    plane: &Plane<T>,
+    outline: &Outline,
+    surround: &Surround,
+    margin: f64,
+) -> Option<Centre> {
+    let threshold = (THRESHOLD * surround.contrast.abs()).max(3.0 * surround.noise);
+    let weights = |visit: &mut dyn FnMut(f64, f64, f64)| {
+        pixels(plane, outline, margin, &mut |column, row, x, y| {
+            let background = surround.level + surround.slope[0] * x + surround.slope[1] * y;
+            let level = f64::from(plane.row(row)[column].level());
+            let above = (level - background) * surround.contrast.signum();
+            if above > threshold {
+                visit(above, x, y);
+            }
+        });
+    };
+    let mut sums = Sums::default();
+    weights(&mut |w, x, y| sums.add(w, x, y));
+    let [u, v] = sums.centre()?;
+    let mut covariance = [0.0; 3];
+    let noise = surround.noise.powi(2).max(1.0 / 12.0);
+    weights(&mut |_, x, y| add_outer(&mut covariance, (x - u) / sums.w, (y - v) / sums.w, noise));
+    Some(Centre { u: outline.u + u, v: outline.v + v, covariance })
+}
+
+/// Centroid of the squared gradient (central differences), within `margin` pixels of the outline.
+pub(crate) fn gradient<T: Sample>(
+    plane: &Plane<T>,
+    outline: &Outline,
+    surround: &Surround,
+    margin: f64,
+) -> Option<Centre> {
+    let slope = |column: usize, row: usize| {
+        let at = |column: usize, row: usize| {
+            f64::from(plane.row(row.min(plane.height - 1))[column.min(plane.width - 1)].level())
+        };
+        let gx = (at(column + 1, row) - at(column.saturating_sub(1), row)) / 2.0;
+        let gy = (at(column, row + 1) - at(column, row.saturating_sub(1))) / 2.0;
+        // differences of noise alone have a variance of half the noise's in each direction
+        let square = gx * gx + gy * gy;
+        if square > 9.0 * surround.noise.powi(2) { [gx, gy] } else { [0.0, 0.0] }
+    };
+    let mut sums = Sums::default();
+    pixels(plane, outline, margin, &mut |column, row, x, y| {
+        let [gx, gy] = slope(column, row);
+        sums.add(gx * gx + gy * gy, x, y);
+    });
+    let [u, v] = sums.centre()?;
+    // each pixel enters the gradients of its four neighbours
+    let mut covariance = [0.0; 3];
+    let noise = surround.noise.powi(2).max(1.0 / 12.0);
+    pixels(plane, outline, margin + 1.0, &mut |column, row, x, y| {
+        let left = slope(column.saturating_sub(1), row)[0];
+        let right = slope(column + 1, row)[0];
+        let above = slope(column, row.saturating_sub(1))[1];
+        let below = slope(column, row + 1)[1];
+        let du = (x - 1.0 - u) * left - (x + 1.0 - u) * right + (x - u) * (above - below);
+        let dv = (y - v) * (left - right) + (y - 1.0 - v) * above - (y + 1.0 - v) * below;
+        add_outer(&mut covariance, du / sums.w, dv / sums.w, noise);
+    });
+    Some(Centre { u: outline.u + u, v: outline.v + v, covariance })
+}
+
+fn add_outer(covariance: &mut [f64; 3], du: f64, dv: f64, variance: f64) {
+    for (sum, product) in covariance.iter_mut().zip([du * du, du * dv, dv * dv]) {
+        *sum += product * variance;
+    }
+}
+
+/// Visits the pixels within `margin` pixels of the outline: column, row, place relative to the outline's centre.
+fn pixels<T: Sample>(plane: &Plane<T>, outline: &Outline, margin: f64, visit: &mut dyn FnMut(usize, usize, f64, f64)) {
+    let grown = outline.grown(margin);
+    let half = grown.half_box().1;
+    for row in (outline.v - half).max(0.0) as usize..((outline.v + half + 1.0).max(0.0) as usize).min(plane.height) {
+        let Some((from, to)) = grown.chord(row as f64 + 0.5) else { continue };
+        for column in (from + 0.5).max(0.0) as usize..((to + 0.5).max(0.0) as usize).min(plane.width) {
+            visit(column, row, column as f64 + 0.5 - outline.u, row as f64 + 0.5 - outline.v);
+        }
+    }
+}

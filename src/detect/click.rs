@@ -1,0 +1,85 @@
+//! One target at a click: found in a window, at growing sizes, and measured in the photo.
+
+use super::measure::{Found, Measure};
+use super::{Outline, Plane, noise, read_codes, search};
+use crate::detection::{DetectOptions, Detection, Method, MethodResult, Target};
+use crate::image::Sample;
+
+/// Sizes of the window in pixels; the next one is tried when the click hits no target in the last.
+const WINDOWS: [usize; 3] = [64, 192, 1000];
+/// Distance in pixels at which a click beside a target still means it.
+const BESIDE: f64 = 4.0;
+
+/// The target under the click, or the nearest one within a few pixels of it.
+pub(super) fn measure<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Option<Target> {
+    let method = options.method;
+    let target = at(plane, u, v, options, |measure, found| measure.finish(found, method).ok())?;
+    let mut detection = Detection { targets: vec![target], ..Detection::default() };
+    read_codes(&plane, &mut detection, options.codes);
+    detection.targets.pop()
+}
+
+/// Every method's measurement of the target under the click.
+pub(super) fn compare<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Vec<MethodResult> {
+    let all = [Method::LeastSquares, Method::Ellipse, Method::Intensity, Method::Gradient];
+    let results = at(plane, u, v, options, |measure, found| {
+        measure.finish(found, Method::LeastSquares).ok()?;
+        Some(all.map(|method| match measure.finish(found, method) {
+            Ok(target) => MethodResult { method, target: Some(target), reason: None },
+            Err(reason) => MethodResult { method, target: None, reason: Some(reason) },
+        }))
+    });
+    results.map(Vec::from).unwrap_or_default()
+}
+
+/// Finds the blobs of a window around the place and hands the one that the click means to `finish`.
+fn at<T: Sample, R>(
+    plane: Plane<T>,
+    u: f64,
+    v: f64,
+    options: &DetectOptions,
+    mut finish: impl FnMut(&mut Measure<T>, &Found) -> Option<R>,
+) -> Option<R> {
+    for size in WINDOWS {
+        let (left, width) = window(u, size, plane.width);
+        let (top, height) = window(v, size, plane.height);
+        let mut samples = Vec::with_capacity(width * height);
+        for y in top..top + height {
+            samples.extend_from_slice(&plane.row(y)[left..left + width]);
+        }
+        let part = Plane::new(width, height, &samples);
+        let levels = noise::levels(&part);
+        let mut candidates: Vec<(f64, Outline, bool)> = search::search(&part, &levels, options)
+            .candidates
+            .into_iter()
+            .map(|candidate| {
+                let outline = candidate.outline;
+                let outline = Outline { u: outline.u + left as f64, v: outline.v + top as f64, ..outline };
+                ((outline.u - u).hypot(outline.v - v), outline, candidate.bright)
+            })
+            .filter(|(_, outline, _)| {
+                let [c, s] = outline.grown(BESIDE).normalised(u, v);
+                c.hypot(s) <= 1.0
+            })
+            .collect();
+        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut measure = Measure::new(plane, levels, options);
+        for (_, outline, bright) in candidates {
+            let found = measure.find(&outline, bright).ok();
+            if let Some(result) = found.and_then(|found| finish(&mut measure, &found)) {
+                return Some(result);
+            }
+        }
+        if width == plane.width && height == plane.height {
+            break;
+        }
+    }
+    None
+}
+
+/// First pixel and number of pixels of a window around a place.
+fn window(place: f64, size: usize, whole: usize) -> (usize, usize) {
+    let start = (place - size as f64 / 2.0).max(0.0) as usize;
+    let start = start.min(whole.saturating_sub(size));
+    (start, size.min(whole - start))
+}

@@ -1,0 +1,179 @@
+//! Connected components as chains of runs, built in the one pass over the rows.
+//!
+//! A run lies between a rising and the next falling edge (bright) or the other way round (dark). An ellipse is convex:
+//! every row meets it in one run, so a component that is a target is a chain. Where a run meets two runs of the row
+//! above, or two runs meet one, the chains end and new ones begin: touching neighbours come apart by themselves, and what
+//! is left of each still shows most of an outline. Only the runs of unfinished chains are held.
+
+use super::scan::Edge;
+
+/// Part of a row between two edges, in pixel coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Chord {
+    pub x0: f32,
+    pub x1: f32,
+    /// Height of the row's centre.
+    pub y: f32,
+    /// One end is the border of the picture.
+    pub cut: bool,
+}
+
+/// Runs of one polarity between edges of a row; the border of the picture ends a run too.
+pub(crate) fn runs(edges: &[Edge], bright: bool, width: usize, y: f32, out: &mut Vec<Chord>) {
+    out.clear();
+    let mut push = |x0: f32, x1: f32, cut| {
+        if x1 > x0 {
+            out.push(Chord { x0, x1, y, cut });
+        }
+    };
+    let (Some(first), Some(last)) = (edges.first(), edges.last()) else { return };
+    if first.rising != bright {
+        push(0.0, first.x, true);
+    }
+    for pair in edges.windows(2) {
+        if pair[0].rising == bright && pair[1].rising != bright {
+            push(pair[0].x, pair[1].x, false);
+        }
+    }
+    if last.rising == bright {
+        push(last.x, width as f32, true);
+    }
+}
+
+struct Active {
+    x0: f32,
+    x1: f32,
+    chain: usize,
+    meets: u32,
+}
+
+/// Whether the lengths of two runs allow one outline: the background between two targets does not continue in a third.
+/// An outline loses at most its outermost row to this.
+fn alike(run: &Chord, above: &Active) -> bool {
+    let (length, other) = (run.x1 - run.x0, above.x1 - above.x0);
+    length.min(other) > 0.35 * length.max(other)
+}
+
+/// Links the runs of one polarity, row by row, into chains.
+pub(crate) struct Linker {
+    active: Vec<Active>,
+    next: Vec<Active>,
+    meets: Vec<(u32, usize)>,
+    chains: Vec<Vec<Chord>>,
+    free: Vec<usize>,
+    max_rows: usize,
+}
+
+impl Linker {
+    /// Chains of more than `max_rows` rows are not held on to: they are reported short, as soon as they are too long.
+    pub fn new(max_rows: usize) -> Self {
+        Self {
+            active: Vec::new(),
+            next: Vec::new(),
+            meets: Vec::new(),
+            chains: Vec::new(),
+            free: Vec::new(),
+            max_rows: max_rows.max(1),
+        }
+    }
+
+    /// Takes the runs of the next row; finished chains go to `finish`.
+    pub fn row(&mut self, runs: &[Chord], finish: &mut impl FnMut(&[Chord])) {
+        self.meets.clear();
+        self.meets.resize(runs.len(), (0, 0));
+        let mut start = 0;
+        for (run, meets) in runs.iter().zip(&mut self.meets) {
+            while start < self.active.len() && self.active[start].x1 <= run.x0 {
+                start += 1;
+            }
+            let mut i = start;
+            while i < self.active.len() && self.active[i].x0 < run.x1 {
+                self.active[i].meets += 1;
+                *meets = (meets.0 + 1, i);
+                i += 1;
+            }
+        }
+        self.next.clear();
+        for (run, &(count, partner)) in runs.iter().zip(&self.meets) {
+            let continues = count == 1 && self.active[partner].meets == 1 && alike(run, &self.active[partner]);
+            let chain = if continues {
+                std::mem::replace(&mut self.active[partner].chain, usize::MAX)
+            } else {
+                self.free.pop().unwrap_or_else(|| {
+                    self.chains.push(Vec::new());
+                    self.chains.len() - 1
+                })
+            };
+            if self.chains[chain].len() <= self.max_rows {
+                self.chains[chain].push(*run);
+            }
+            self.next.push(Active { x0: run.x0, x1: run.x1, chain, meets: 0 });
+        }
+        self.finish_active(finish);
+        std::mem::swap(&mut self.active, &mut self.next);
+    }
+
+    /// Reports the chains that reach the last row.
+    pub fn end(&mut self, finish: &mut impl FnMut(&[Chord])) {
+        self.finish_active(finish);
+        self.active.clear();
+    }
+
+    fn finish_active(&mut self, finish: &mut impl FnMut(&[Chord])) {
+        for active in &self.active {
+            if active.chain != usize::MAX {
+                finish(&self.chains[active.chain]);
+                self.chains[active.chain].clear();
+                self.free.push(active.chain);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    fn chains(rows: &[&[(f32, f32)]]) -> Vec<usize> {
+        let mut linker = Linker::new(100);
+        let mut lengths = Vec::new();
+        for (y, row) in rows.iter().enumerate() {
+            let runs: Vec<Chord> = row.iter().map(|&(x0, x1)| Chord { x0, x1, y: y as f32, cut: false }).collect();
+            linker.row(&runs, &mut |chain| lengths.push(chain.len()));
+        }
+        linker.end(&mut |chain| lengths.push(chain.len()));
+        lengths
+    }
+
+    #[test]
+    fn separate_blobs_are_separate_chains() {
+        assert_eq!(chains(&[&[(1.0, 4.0), (8.0, 9.0)], &[(2.0, 5.0), (8.0, 9.5)], &[(2.5, 4.0)]]), [2, 3]);
+    }
+
+    #[test]
+    fn a_fork_ends_the_chain() {
+        assert_eq!(chains(&[&[(1.0, 9.0)], &[(1.0, 9.0)], &[(1.0, 3.0), (6.0, 9.0)], &[(1.0, 3.0)]]), [2, 1, 2]);
+        assert_eq!(chains(&[&[(1.0, 3.0), (6.0, 9.0)], &[(1.0, 9.0)]]), [1, 1, 1]);
+    }
+
+    #[test]
+    fn a_background_run_does_not_become_a_target() {
+        assert_eq!(chains(&[&[(0.0, 100.0)], &[(40.0, 50.0)], &[(38.0, 52.0)], &[(0.0, 100.0)]]), [1, 2, 1]);
+    }
+
+    #[test]
+    fn the_border_ends_runs() {
+        let edge = |x, rising| Edge { x, rising, strength: 50 };
+        let mut out = Vec::new();
+        runs(&[edge(3.0, false), edge(9.0, true), edge(12.0, false)], true, 20, 0.5, &mut out);
+        assert_eq!(out.iter().map(|c| (c.x0, c.x1, c.cut)).collect::<Vec<_>>(), [(0.0, 3.0, true), (9.0, 12.0, false)]);
+        runs(&[edge(3.0, false), edge(9.0, true), edge(12.0, false)], false, 20, 0.5, &mut out);
+        assert_eq!(
+            out.iter().map(|c| (c.x0, c.x1, c.cut)).collect::<Vec<_>>(),
+            [(3.0, 9.0, false), (12.0, 20.0, true)]
+        );
+    }
+}

@@ -1,0 +1,152 @@
+//! Sub-pixel edge points on rays across an outline.
+//!
+//! Along the outward normal of every rim point the picture is sampled bilinearly, one sample a pixel; the edge is where
+//! the fall (bright targets) or rise (dark ones) over two pixels is steepest, to a fraction of a pixel by the parabola
+//! through the three steepest values. [`refine`] then fits the whole profile of a blurred edge to each ray.
+
+use super::outline::{Outline, RimPoint};
+use crate::image::{Plane, Sample};
+
+/// An edge looked for on one ray.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EdgePoint {
+    pub x: f64,
+    pub y: f64,
+    /// Grey difference over two pixels across the edge; 0 where no edge was found.
+    pub strength: f64,
+    /// Used by the fit; false for what is hidden or disturbed.
+    pub kept: bool,
+}
+
+/// Longest ray, in samples.
+const LONGEST: usize = 64;
+
+/// Number of rays for an outline: about one a pixel and a half of rim.
+pub(crate) fn ray_count(outline: &Outline) -> usize {
+    ((outline.perimeter() / 1.5) as usize).clamp(20, 48)
+}
+
+/// Rim points at equal steps of the parameter.
+pub(crate) fn rim_points(outline: &Outline, count: usize) -> impl Iterator<Item = RimPoint> + use<> {
+    let outline = *outline;
+    let (turn_s, turn_c) = (std::f64::consts::TAU / count as f64).sin_cos();
+    let (mut c, mut s) = (1.0, 0.0);
+    (0..count).map(move |_| {
+        let rim = outline.rim(c, s);
+        (c, s) = (c * turn_c - s * turn_s, s * turn_c + c * turn_s);
+        rim
+    })
+}
+
+/// Looks for the edge on `count` rays, up to `reach` pixels inside and outside of the outline.
+pub(crate) fn search<T: Sample>(
+    plane: &Plane<T>,
+    outline: &Outline,
+    bright: bool,
+    reach: f64,
+    count: usize,
+    threshold: f64,
+    found: &mut Vec<EdgePoint>,
+) {
+    found.clear();
+    let side = (reach.ceil() as usize).clamp(2, LONGEST / 2 - 2);
+    let sign = if bright { 1.0 } else { -1.0 };
+    let samples = 2 * side + 3;
+    for rim in rim_points(outline, count) {
+        let mut profile = [0f32; LONGEST];
+        let [nx, ny] = rim.normal.map(|n| n as f32);
+        let (x0, y0) = (rim.x as f32, rim.y as f32);
+        for (i, value) in profile[..samples].iter_mut().enumerate() {
+            let t = i as f32 - (side as f32 + 1.0);
+            *value = sign * plane.sample(x0 + t * nx, y0 + t * ny);
+        }
+        let fall = |i: usize| profile[i - 1] - profile[i + 1];
+        let mut best = (f32::NEG_INFINITY, side + 1);
+        for i in 1..samples - 1 {
+            // of two edges alike the nearer one counts
+            let distance = (i as f32 - (side as f32 + 1.0)) / (side as f32 + 1.0);
+            let weighted = fall(i) * (1.0 - 0.4 * distance * distance);
+            if weighted > best.0 {
+                best = (weighted, i);
+            }
+        }
+        let (middle, at) = (fall(best.1), best.1);
+        let mut point = EdgePoint { x: rim.x, y: rim.y, strength: 0.0, kept: false };
+        if f64::from(middle) > threshold {
+            let before = if at > 1 { fall(at - 1) } else { middle };
+            let after = if at + 2 < samples { fall(at + 1) } else { middle };
+            let bend = before - 2.0 * middle + after;
+            let fraction = if bend < 0.0 { (0.5 * (before - after) / bend).clamp(-0.5, 0.5) } else { 0.0 };
+            let t = f64::from(at as f32 + fraction) - (side as f64 + 1.0);
+            point = EdgePoint {
+                x: rim.x + t * rim.normal[0],
+                y: rim.y + t * rim.normal[1],
+                strength: f64::from(middle),
+                kept: true,
+            };
+        }
+        found.push(point);
+    }
+}
+
+/// What is known of a target's grey levels when its edges are refined.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Profile {
+    /// Background at the origin of the slope and its slope.
+    pub level: f64,
+    pub slope: [f64; 2],
+    pub origin: [f64; 2],
+    /// Inside minus outside.
+    pub contrast: f64,
+    /// Blur of the edge as sampled, sigma in pixels.
+    pub blur: f64,
+}
+
+/// Edge points by fitting each ray's profile, level + contrast Φ(-(t - δ)/s), for its shift δ: Gauss-Newton steps of one
+/// unknown. All samples across the edge count, each with the derivative of the profile as its weight.
+pub(crate) fn refine<T: Sample>(
+    plane: &Plane<T>,
+    outline: &Outline,
+    profile: &Profile,
+    count: usize,
+    found: &mut Vec<EdgePoint>,
+) {
+    found.clear();
+    let side = ((3.0 * profile.blur).ceil() as usize).clamp(2, LONGEST / 2 - 2);
+    for rim in rim_points(outline, count) {
+        let mut values = [0f64; LONGEST];
+        for (i, value) in values[..=2 * side].iter_mut().enumerate() {
+            let t = i as f64 - side as f64;
+            let (x, y) = (rim.x + t * rim.normal[0], rim.y + t * rim.normal[1]);
+            let background =
+                profile.level + profile.slope[0] * (x - profile.origin[0]) + profile.slope[1] * (y - profile.origin[1]);
+            *value = (f64::from(plane.sample(x as f32, y as f32)) - background) / profile.contrast;
+        }
+        let mut shift = 0.0;
+        let mut weight = 0.0;
+        for _ in 0..4 {
+            let mut sum = 0.0;
+            weight = 0.0;
+            for (i, value) in values[..=2 * side].iter().enumerate() {
+                let z = (i as f64 - side as f64 - shift) / profile.blur;
+                let (below, density) = normal(z);
+                let derivative = density / profile.blur;
+                sum += derivative * (value - (1.0 - below));
+                weight += derivative * derivative;
+            }
+            shift = (shift + sum / weight.max(1e-9)).clamp(-(side as f64), side as f64);
+        }
+        found.push(EdgePoint {
+            x: rim.x + shift * rim.normal[0],
+            y: rim.y + shift * rim.normal[1],
+            strength: weight.sqrt(),
+            kept: shift.abs() < side as f64 * 0.9,
+        });
+    }
+}
+
+/// Φ(z) and its density.
+fn normal(z: f64) -> (f64, f64) {
+    let (below, density) = super::rendered::normal_distribution(z.clamp(-5.5, 5.5) as f32);
+    (f64::from(below), f64::from(density))
+}

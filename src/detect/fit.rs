@@ -1,0 +1,170 @@
+//! Least-squares fit of a rendered ellipse, the default measurement.
+//!
+//! g(x, y) = B + gx x + gy y + C I(x, y; u, v, p, q, r, s) for all pixels around the target, with I the exact image of the
+//! blurred ellipse ([`rendered`](super::rendered)): ten unknowns, weights equal. No pixel is lost and none is
+//! interpolated, so the centre reaches the Cramér-Rao bound of the photograph.
+//!
+//! Only the band of pixels that the rim's blur reaches depends on the outline ([`band`](super::band)). The design matrix
+//! is rendered at the start and kept while the corrections are small against the blur (chord method): the limit is the
+//! same, as the residuals are always exact.
+
+use super::band::{Band, Normal, Region, Unknowns};
+use super::outline::Outline;
+use super::rendered::{BLUR, Field};
+use crate::image::{Plane, Sample};
+
+/// What the fit gives.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fit {
+    pub outline: Outline,
+    /// Blur, sigma in pixels.
+    pub blur: f64,
+    /// Inside minus outside, negative for dark targets.
+    pub contrast: f64,
+    /// Rms of the residuals along the rim, in grey levels.
+    pub rms: f64,
+    /// Rms of the residuals less their mean profile across the rim.
+    pub uneven: f64,
+    /// Share of the rim's pixels that the model does not explain and that were left out.
+    pub disturbed: f64,
+    /// Covariance of the centre: uu, uv, vv.
+    pub covariance: [f64; 3],
+}
+
+/// Memory that is reused from target to target.
+#[derive(Default)]
+pub(crate) struct Workspace {
+    field: Field,
+    band: Band,
+}
+
+/// Corrections below this, in pixels, end the iteration.
+const CONVERGED: f64 = 2e-4;
+
+/// Fits the rendered ellipse, started at the region's outline with the given blur; none when it does not converge.
+pub(crate) fn fit<T: Sample>(plane: &Plane<T>, region: &Region, blur: f64, work: &mut Workspace) -> Option<Fit> {
+    let surround = region.surround;
+    let mut state = State {
+        outline: region.outline,
+        blur: blur.clamp(BLUR.0, BLUR.1),
+        contrast: surround.contrast,
+        background: [surround.level, surround.slope[0], surround.slope[1]],
+    };
+    work.field.place(&region.outline, state.blur, region.half_band);
+    let flats = work.band.collect(plane, &work.field, region)?;
+    let mut normal = Normal::zeros();
+    let (mut render_all, mut dropped, mut settled) = (true, None, false);
+    for _ in 0..12 {
+        if !work.field.holds(&state.outline, state.blur) {
+            return None;
+        }
+        work.field.render(&state.outline, state.blur, render_all);
+        work.band.gather(&work.field, render_all);
+        work.band.subtract(state.contrast, state.background);
+        if !render_all && dropped.is_none() {
+            // now near the end: what the model cannot explain is not the target
+            // (an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel)
+            let sharp = if state.blur <= BLUR.0 { 0.1 * state.contrast.abs() } else { 0.0 };
+            let limit = (5.0 * work.band.robust_deviation().max(surround.noise).max(0.5)).max(sharp);
+            let count = work.band.drop_outliers(limit);
+            render_all = count > 0;
+            dropped = Some(count);
+        }
+        if render_all {
+            normal = work.band.normal(state.contrast);
+            flats.add_normal(&mut normal);
+        }
+        let mut right = work.band.right(state.contrast);
+        flats.add_right(state.contrast, state.background, &mut right);
+        let mut step = solve(&normal, &right)?;
+        if state.blur_leaves(step[5]) {
+            // at the end of its range the blur is held, or the others would follow a correction that is never made
+            hold_blur(&mut normal, &mut right);
+            step = solve(&normal, &right)?;
+        }
+        let size = step.fixed_rows::<6>(0).amax();
+        if !size.is_finite() {
+            return None;
+        }
+        let limit = 0.8 * (state.blur + 0.3);
+        state.add(&(step * if size > limit { limit / size } else { 1.0 }));
+        if !state.outline.is_proper() {
+            return None;
+        }
+        settled = size < CONVERGED;
+        if settled && dropped.is_some() {
+            break;
+        }
+        render_all = size > 0.12 * (state.blur + 0.3);
+    }
+    let (variance, used) = work.band.variance();
+    if !settled || used < 24 {
+        return None;
+    }
+    let cofactors = invert(&normal)?;
+    let covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
+    (covariance[0] > 0.0 && covariance[2] > 0.0).then_some(Fit {
+        outline: state.outline,
+        blur: state.blur,
+        contrast: state.contrast,
+        rms: variance.sqrt(),
+        uneven: work.band.unevenness(),
+        disturbed: dropped.unwrap_or(0) as f64 / used as f64,
+        covariance,
+    })
+}
+
+/// Values of the unknowns.
+struct State {
+    outline: Outline,
+    blur: f64,
+    contrast: f64,
+    background: [f64; 3],
+}
+
+impl State {
+    /// Whether the blur is at an end of its range and the correction would take it out.
+    fn blur_leaves(&self, correction: f64) -> bool {
+        (self.blur <= BLUR.0 && correction < 0.0) || (self.blur >= BLUR.1 && correction > 0.0)
+    }
+
+    fn add(&mut self, step: &Unknowns) {
+        self.outline = self.outline.plus(&step.as_slice()[..5]);
+        self.blur = (self.blur + step[5]).clamp(BLUR.0, BLUR.1);
+        self.contrast += step[6];
+        for (value, correction) in self.background.iter_mut().zip(&step.as_slice()[7..]) {
+            *value += correction;
+        }
+    }
+}
+
+/// Takes the blur out of the unknowns.
+fn hold_blur(normal: &mut Normal, right: &mut Unknowns) {
+    for i in 0..normal.nrows() {
+        (normal[(5, i)], normal[(i, 5)]) = (0.0, 0.0);
+    }
+    normal[(5, 5)] = 1.0;
+    right[5] = 0.0;
+}
+
+/// Scales the normal equations to a unit diagonal, with a trace of damping for what the pixels do not determine (the
+/// contrast of a target that is saturated inside).
+fn scaled(normal: &Normal) -> (Normal, Unknowns) {
+    let scale = Unknowns::from_fn(|i, _| 1.0 / normal[(i, i)].max(1e-12).sqrt());
+    let mut matrix = Normal::from_fn(|i, j| normal[(i, j)] * scale[i] * scale[j]);
+    for i in 0..matrix.nrows() {
+        matrix[(i, i)] += 1e-7;
+    }
+    (matrix, scale)
+}
+
+fn solve(normal: &Normal, right: &Unknowns) -> Option<Unknowns> {
+    let (matrix, scale) = scaled(normal);
+    Some(matrix.cholesky()?.solve(&right.component_mul(&scale)).component_mul(&scale))
+}
+
+fn invert(normal: &Normal) -> Option<Normal> {
+    let (matrix, scale) = scaled(normal);
+    let inverse = matrix.cholesky()?.inverse();
+    Some(Normal::from_fn(|i, j| inverse[(i, j)] * scale[i] * scale[j]))
+}

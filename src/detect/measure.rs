@@ -1,0 +1,304 @@
+//! One target: from a rough outline to a centre with its covariance, or the reason why there is none.
+
+use super::band::Region;
+use super::centroid::{self, Centre};
+use super::edge::{self, EdgePoint, Profile};
+use super::ellipse::{self, EllipseFit};
+use super::fit::{self, Workspace};
+use super::noise::Levels;
+use super::outline::Outline;
+use super::quality;
+use super::surround::{self, Surround};
+use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
+use crate::image::{Plane, Sample};
+
+/// Ellipses flatter than this are not measured.
+const FLATTEST: f64 = 0.29;
+
+/// Largest share of the inside that may differ from the rest.
+const UNEVEN: f64 = 0.25;
+
+/// Variance that the pixel's width (1/12) and bilinear sampling (about 1/6) add to that of the blur, in square pixels.
+const SAMPLED: f64 = 0.25;
+
+/// Which rays count: a single edge out of place is chance, two in a row are something in front of the target.
+fn undisturbed(edges: &[EdgePoint]) -> Vec<bool> {
+    let count = edges.len();
+    (0..count).map(|k| edges[k].kept || edges[(k + 1) % count].kept && edges[(k + count - 1) % count].kept).collect()
+}
+
+/// What measuring needs besides the outline; scratch is reused.
+pub(crate) struct Measure<'a, T> {
+    pub plane: Plane<'a, T>,
+    pub levels: Levels,
+    pub options: &'a DetectOptions,
+    pub edges: Vec<EdgePoint>,
+    pub work: Workspace,
+}
+
+/// A target as found from its edges, before the final measurement.
+pub(crate) struct Found {
+    pub ellipse: EllipseFit,
+    pub surround: Surround,
+    pub kept: Vec<bool>,
+    /// Blur as sigma in pixels.
+    pub blur: f64,
+    pub bright: bool,
+}
+
+impl<'a, T: Sample> Measure<'a, T> {
+    /// Nothing measured yet.
+    pub fn new(plane: Plane<'a, T>, levels: Levels, options: &'a DetectOptions) -> Self {
+        Self { plane, levels, options, edges: Vec::new(), work: Workspace::default() }
+    }
+
+    /// Smallest contrast of an edge that counts.
+    pub fn threshold(&self) -> f64 {
+        (3.0 * self.levels.noise).max(0.015 * self.levels.range).max(2.5)
+    }
+
+    /// Edges, ellipse and surround of a target whose outline is known to a fraction of its size.
+    pub fn find(&mut self, start: &Outline, bright: bool) -> Result<Found, Reason> {
+        if !self.stands_out(start, bright) {
+            return Err(Reason::NotAnEllipse);
+        }
+        let mut outline = *start;
+        let mut fitted = None;
+        for round in 0..2 {
+            let (a, b, _) = outline.axes();
+            if !outline.is_proper() || a > self.plane.width.max(self.plane.height) as f64 {
+                return Err(Reason::NotAnEllipse);
+            }
+            let reach = if round == 0 { (0.3 * b).clamp(2.0, 12.0) } else { (0.15 * b).clamp(2.0, 6.0) };
+            let count = edge::ray_count(&outline);
+            edge::search(&self.plane, &outline, bright, reach, count, self.threshold(), &mut self.edges);
+            let found = ellipse::fit(&mut self.edges, &outline, round == 0).ok_or(Reason::NotAnEllipse)?;
+            outline = found.outline;
+            if found.rms > 0.05 + 1.3 * quality::expected_scatter(b, self.levels.noise, self.strength()) {
+                return Err(Reason::NotAnEllipse);
+            }
+            fitted = Some(found);
+        }
+        let ellipse = fitted.ok_or(Reason::NotAnEllipse)?;
+        let (a, b, _) = outline.axes();
+        if b < FLATTEST * a {
+            return Err(Reason::TooFlat);
+        }
+        if 2.0 * a < 0.92 * self.options.min_diameter {
+            return Err(Reason::TooSmall);
+        }
+        if 2.0 * a > 1.02 * self.options.max_diameter {
+            return Err(Reason::TooLarge);
+        }
+        let (half_u, half_v) = outline.half_box();
+        let inside = outline.u - half_u >= 2.0
+            && outline.v - half_v >= 2.0
+            && outline.u + half_u <= self.plane.width as f64 - 2.0
+            && outline.v + half_v <= self.plane.height as f64 - 2.0;
+        if !inside {
+            return Err(Reason::AtBorder);
+        }
+        if ellipse.occluded > quality::HIDDEN {
+            return Err(Reason::Occluded);
+        }
+        if ellipse.rms > 0.3 + 0.03 * b {
+            return Err(Reason::NotAnEllipse);
+        }
+        let kept = undisturbed(&self.edges);
+        let rough = surround::measure(&self.plane, &outline, 0.9, &kept).ok_or(Reason::AtBorder)?;
+        let blur = self.blur(rough.contrast.abs());
+        let surround = if blur > 1.2 {
+            surround::measure(&self.plane, &outline, blur, &kept).ok_or(Reason::AtBorder)?
+        } else {
+            rough
+        };
+        let signed = if bright { surround.contrast } else { -surround.contrast };
+        if signed < (4.0 * surround.noise.min(4.0 * self.levels.noise + 2.0)).max(self.threshold()) {
+            return Err(Reason::LowContrast);
+        }
+        if surround.uneven > UNEVEN || !quality::outline_allows(&ellipse, self.noise(&surround), signed) {
+            return Err(Reason::NotAnEllipse);
+        }
+        Ok(Found { ellipse, surround, kept, blur: self.blur(signed), bright })
+    }
+
+    /// A quick look before the edges: in most directions it is brighter (or darker) inside than outside.
+    fn stands_out(&self, outline: &Outline, bright: bool) -> bool {
+        let (_, b, _) = outline.axes();
+        let sign = if bright { 1.0 } else { -1.0 };
+        let inner = (1.0 - 2.0 / b.max(1.0)).clamp(0.2, 0.85);
+        let threshold = self.threshold() as f32;
+        let (mut seen, mut steps, mut levels) = (0, [0f32; 16], [0f32; 16]);
+        for (rim, (step, level)) in edge::rim_points(outline, 16).zip(steps.iter_mut().zip(&mut levels)) {
+            let [nx, ny] = rim.normal;
+            let (x, y) = (rim.x + 2.5 * nx, rim.y + 2.5 * ny);
+            if !self.plane.holds(x, y, 0.0) {
+                continue;
+            }
+            let [dx, dy] = [rim.x - outline.u, rim.y - outline.v];
+            let inside = self.plane.nearest(outline.u + inner * dx, outline.v + inner * dy);
+            seen += 1;
+            *level = inside;
+            *step = sign * (inside - self.plane.nearest(x, y));
+        }
+        let mut sorted = steps;
+        sorted.sort_unstable_by(f32::total_cmp);
+        // the typical step of the better half
+        let least = (0.4 * sorted[11]).max(threshold);
+        let agree = steps.iter().filter(|&&step| step > least).count();
+        levels.sort_unstable_by(f32::total_cmp);
+        // two fifths of the outline may be hidden, and every target is even inside
+        let even = levels[13] - levels[2] < 0.8 * sorted[11];
+        seen > 0 && agree * 16 >= seen * 9 && even
+    }
+
+    /// Median difference over two pixels across the kept edges.
+    fn strength(&self) -> f64 {
+        let mut strengths: Vec<f64> = self.edges.iter().filter(|edge| edge.kept).map(|edge| edge.strength).collect();
+        let half = strengths.len() / 2;
+        if strengths.is_empty() { 0.0 } else { *strengths.select_nth_unstable_by(half, f64::total_cmp).1 }
+    }
+
+    /// Blur from the edges' steepness: over two pixels an edge of contrast C and blur s falls by C (2 Φ(1/s) - 1), where
+    /// s² includes the pixel's own width (1/12) and that of bilinear sampling (about 1/6).
+    fn blur(&self, contrast: f64) -> f64 {
+        let median = self.strength();
+        if median <= 0.0 {
+            return 1.0;
+        }
+        let ratio = (median / contrast.max(1e-9)).clamp(0.05, 0.985);
+        // 2 Φ(z) - 1 = ratio, by a rational approximation of Φ^-1 good to 1e-3 (Abramowitz & Stegun 26.2.22)
+        let t = (-2.0 * ((1.0 - ratio) / 2.0).ln()).sqrt();
+        let z = t - (2.30753 + 0.27061 * t) / (1.0 + t * (0.99229 + 0.04481 * t));
+        ((1.0 / z.max(0.05)).powi(2) - SAMPLED).max(0.09).sqrt().min(6.5)
+    }
+
+    /// Measurement of a found target by one method.
+    pub fn finish(&mut self, found: &Found, method: Method) -> Result<Target, Reason> {
+        let mut outline = found.ellipse.outline;
+        let (mut contrast, mut blur) = (found.surround.contrast.abs(), found.blur);
+        let (mut fit_rms, mut occluded) = (found.ellipse.rms, found.ellipse.occluded);
+        let margin = 3.0 * (blur * blur + 1.0 / 12.0).sqrt() + 0.5;
+        let centre = match method {
+            Method::LeastSquares => {
+                let fit = self.least_squares(found)?;
+                outline = fit.outline;
+                (contrast, blur, fit_rms) = (fit.contrast.abs(), fit.blur, fit.rms);
+                Centre { u: outline.u, v: outline.v, covariance: fit.covariance }
+            }
+            Method::Ellipse => {
+                let fit = self.refined_ellipse(found)?;
+                outline = fit.outline;
+                (fit_rms, occluded) = (fit.rms, fit.occluded);
+                Centre { u: outline.u, v: outline.v, covariance: fit.cofactors.map(|q| q * fit.rms * fit.rms) }
+            }
+            Method::Intensity => {
+                centroid::intensity(&self.plane, &outline, &found.surround, margin).ok_or(Reason::NoFit)?
+            }
+            Method::Gradient => {
+                centroid::gradient(&self.plane, &outline, &found.surround, margin).ok_or(Reason::NoFit)?
+            }
+        };
+        let (a, b, angle) = outline.axes();
+        let [uu, uv, vv] = centre.covariance;
+        if ![centre.u, centre.v, uu, vv].iter().all(|x| x.is_finite()) || uu <= 0.0 || vv <= 0.0 {
+            return Err(Reason::NoFit);
+        }
+        Ok(Target {
+            u: centre.u,
+            v: centre.v,
+            sigma_u: uu.sqrt(),
+            sigma_v: vv.sqrt(),
+            covariance_uv: uv,
+            major: 2.0 * a,
+            minor: 2.0 * b,
+            angle,
+            contrast,
+            polarity: if found.bright { Polarity::Bright } else { Polarity::Dark },
+            code: None,
+            quality: Quality {
+                fit_rms,
+                noise: found.surround.noise,
+                edge_width: blur,
+                saturated: self.saturated(&outline),
+                code_margin: None,
+                roundness: b / a,
+                occluded,
+                code_note: None,
+            },
+        })
+    }
+
+    /// The ellipse through edges refined with the target's own levels and blur.
+    fn refined_ellipse(&mut self, found: &Found) -> Result<EllipseFit, Reason> {
+        let outline = found.ellipse.outline;
+        let surround = &found.surround;
+        let profile = Profile {
+            level: surround.level,
+            slope: surround.slope,
+            origin: [outline.u, outline.v],
+            contrast: surround.contrast,
+            blur: (found.blur * found.blur + SAMPLED).sqrt(),
+        };
+        let count = (outline.perimeter() as usize).clamp(20, 1500);
+        edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
+        ellipse::fit(&mut self.edges, &outline, false).ok_or(Reason::NoFit)
+    }
+
+    /// Noise around a target; where the surround is not plane, what the whole picture has is believed.
+    fn noise(&self, surround: &Surround) -> f64 {
+        surround.noise.clamp(self.levels.noise, 1.1 * self.levels.noise).max(0.3)
+    }
+
+    /// The fit of the rendered ellipse, checked against what it started from.
+    pub fn least_squares(&mut self, found: &Found) -> Result<fit::Fit, Reason> {
+        let region = Region {
+            outline: found.ellipse.outline,
+            half_band: 3.6 * (found.blur * found.blur + 1.0 / 12.0).sqrt() + 0.8,
+            surround: &found.surround,
+            kept: &found.kept,
+            whole: found.kept.iter().all(|kept| *kept),
+            saturation: self.levels.saturation,
+        };
+        let fit = fit::fit(&self.plane, &region, found.blur, &mut self.work).ok_or(Reason::NoFit)?;
+        let (a, b, _) = fit.outline.axes();
+        let moved = (fit.outline.u - region.outline.u).hypot(fit.outline.v - region.outline.v);
+        let contrast = if found.bright { fit.contrast } else { -fit.contrast };
+        if moved > 1.0 + 0.1 * b || contrast <= 0.0 {
+            return Err(Reason::NoFit);
+        }
+        if b < FLATTEST * a {
+            return Err(Reason::TooFlat);
+        }
+        if 2.0 * a < 0.95 * self.options.min_diameter {
+            return Err(Reason::TooSmall);
+        }
+        if fit.disturbed > 0.12 {
+            return Err(Reason::NotAnEllipse);
+        }
+        // two grey levels and a blur must describe the rim, whatever the lens adds
+        if fit.rms > 1.5 * self.noise(&found.surround) + 0.1 * contrast {
+            return Err(Reason::NotAnEllipse);
+        }
+        if !quality::is_target(&found.ellipse, fit.uneven, self.noise(&found.surround), contrast) {
+            return Err(Reason::NotAnEllipse);
+        }
+        Ok(fit)
+    }
+
+    /// Share of the pixels inside the outline that are at the end of the scale.
+    fn saturated(&self, outline: &Outline) -> f64 {
+        let half_v = outline.half_box().1;
+        let (mut inside, mut clipped) = (0u32, 0u32);
+        let rows = (outline.v - half_v).max(0.0) as usize..((outline.v + half_v) as usize + 1).min(self.plane.height);
+        for y in rows {
+            let Some((from, to)) = outline.chord(y as f64 + 0.5) else { continue };
+            let (from, to) = ((from + 0.5).max(0.0) as usize, ((to + 0.5).max(0.0) as usize).min(self.plane.width));
+            for sample in self.plane.row(y).get(from..to).unwrap_or_default() {
+                inside += 1;
+                clipped += u32::from(f64::from(sample.level()) >= self.levels.saturation);
+            }
+        }
+        f64::from(clipped) / f64::from(inside.max(1))
+    }
+}

@@ -1,0 +1,110 @@
+//! Noise and range of a whole picture, for the search's threshold.
+
+use crate::image::{Plane, Sample};
+
+/// Rows that are looked at, spread over the picture.
+const ROWS: usize = 48;
+
+/// Statistics of a picture in grey levels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Levels {
+    /// Standard deviation of the noise.
+    pub noise: f64,
+    /// From the 0.1 % to the 99.9 % quantile.
+    pub range: f64,
+    /// Level from which samples count as saturated.
+    pub saturation: f64,
+}
+
+/// Noise from second differences along rows: |g(x-1) - 2 g(x) + g(x+1)| has the median 0.6745 sqrt(6) sigma where the
+/// picture is plane, and edges are too few to move a median. Quantiles of integers are interpolated inside their bin.
+pub(crate) fn levels<T: Sample>(plane: &Plane<T>) -> Levels {
+    let bins = T::MAX as usize + 1;
+    let (mut values, mut differences) = (vec![0u32; bins], vec![0u32; bins]);
+    let step = (plane.height / ROWS).max(1);
+    for y in (step / 2..plane.height).step_by(step) {
+        let row = plane.row(y);
+        for triple in row.windows(3).step_by(2) {
+            let [left, middle, right] = [triple[0].level(), triple[1].level(), triple[2].level()];
+            let difference = (left + right).abs_diff(2 * middle);
+            differences[(difference as usize).min(bins - 1)] += 1;
+            values[middle as usize] += 1;
+        }
+    }
+    let noise = quantile(&differences, 0.5).unwrap_or(0.0) / (0.6745 * 6f64.sqrt());
+    let range = quantile(&values, 0.999).unwrap_or(0.0) - quantile(&values, 0.001).unwrap_or(0.0);
+    Levels { noise, range: range.max(0.0), saturation: saturation(&values) }
+}
+
+/// Quantile of a histogram of integers; a value stands for the interval of half a step to both sides (from 0 on for 0).
+fn quantile(histogram: &[u32], share: f64) -> Option<f64> {
+    let total: u64 = histogram.iter().map(|&n| u64::from(n)).sum();
+    let wanted = share * total as f64;
+    let mut below = 0.0;
+    for (value, &count) in histogram.iter().enumerate() {
+        let count = f64::from(count);
+        if count > 0.0 && below + count >= wanted {
+            let inside = (wanted - below) / count;
+            return Some((value as f64 - 0.5 + inside).max(0.0));
+        }
+        below += count;
+    }
+    None
+}
+
+/// The largest value that occurs is the clipping level when it piles up: more samples than all of the four levels below
+/// it together. Otherwise only the end of the scale clips.
+fn saturation(values: &[u32]) -> f64 {
+    let end = values.len() - 1;
+    let Some(top) = values.iter().rposition(|&n| n > 0) else { return end as f64 };
+    let below: u32 = values[top.saturating_sub(4)..top].iter().sum();
+    if top > end / 16 && values[top] > 20 && values[top] > 2 * below { top as f64 } else { end as f64 }
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    /// Sum of twelve uniform numbers less six: normal enough.
+    fn noisy(sigma: f64) -> Vec<u8> {
+        let mut state = 7u64;
+        let mut uniform = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 40) as f64 / (1u64 << 24) as f64
+        };
+        (0..200 * 200)
+            .map(|k| {
+                let normal = (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+                (60.0 + 0.2 * f64::from(k % 200) + sigma * normal).round() as u8
+            })
+            .collect()
+    }
+
+    #[test]
+    fn noise_is_measured_on_a_slope() {
+        for sigma in [1.0, 2.0, 6.0] {
+            let samples = noisy(sigma);
+            let found = levels(&Plane::new(200, 200, &samples)).noise;
+            assert!((found / sigma - 1.0).abs() < 0.1, "{sigma}: {found}");
+        }
+    }
+
+    #[test]
+    fn a_pile_at_the_top_is_saturation() {
+        let mut samples = noisy(2.0);
+        assert_eq!(levels(&Plane::new(200, 200, &samples)).saturation, 255.0);
+        for sample in &mut samples {
+            *sample = (*sample).min(80);
+        }
+        assert_eq!(levels(&Plane::new(200, 200, &samples)).saturation, 80.0);
+    }
+
+    #[test]
+    fn tiny_pictures_have_levels_too() {
+        let found = levels(&Plane::new(1, 1, &[9u8]));
+        assert_eq!((found.noise, found.range), (0.0, 0.0));
+    }
+}

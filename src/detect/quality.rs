@@ -1,0 +1,53 @@
+//! Is what was measured a target? The tests after the measurement.
+//!
+//! Three numbers separate circular targets from letters, corners and texture that happen to carry an ellipse: the rms of
+//! the edge points from the ellipse, against what noise alone would do to them; the part of the residuals of the rendered
+//! fit that noise does not explain and that differs around the rim, as a share of the contrast (a lens does the same all
+//! around); and the longest gap in the outline. A gap is believed to be something in front of a target only when the rest is
+//! as good as noise allows, since the bowl of a letter is an ellipse with a gap too.
+
+use super::ellipse::EllipseFit;
+
+/// Largest share of the outline that may be missing in one piece without further demands.
+const SMALL_GAP: f64 = 0.1;
+/// Largest share of the outline that may be missing at all.
+pub(crate) const HIDDEN: f64 = 0.42;
+/// Smallest minor axis, in pixels, of a target with a gap.
+const GAP_MINOR: f64 = 12.0;
+/// Largest unexplained share of the contrast of a target with a gap.
+const GAP_MISFIT: f64 = 0.024;
+
+/// Largest rms distance of edge points from a good outline of semi-minor axis b, in pixels.
+///
+/// Noise n moves an edge of contrast C by about 1.7 n / C pixels; printing, compression and the picture's grid add up
+/// to 1 % of the diameter.
+pub(crate) fn expected_scatter(b: f64, noise: f64, contrast: f64) -> f64 {
+    2.8 * noise / contrast.max(1e-9) + 0.02 * b
+}
+
+/// Rms of the edge points relative to that: below 1 for a good outline.
+fn edge_ratio(ellipse: &EllipseFit, noise: f64, contrast: f64) -> f64 {
+    ellipse.rms / expected_scatter(ellipse.outline.axes().1, noise, contrast)
+}
+
+/// Longest gap; many small ones count as a larger one.
+fn gap(ellipse: &EllipseFit) -> f64 {
+    ellipse.gap.max(0.6 * ellipse.occluded)
+}
+
+/// Whether the outline alone still allows a target.
+pub(crate) fn outline_allows(ellipse: &EllipseFit, noise: f64, contrast: f64) -> bool {
+    let b = ellipse.outline.axes().1;
+    let gap_allows = gap(ellipse) <= SMALL_GAP || 2.0 * b >= GAP_MINOR && contrast > 12.0 * noise;
+    gap_allows && edge_ratio(ellipse, noise, contrast) < 1.1
+}
+
+/// Whether outline and fit together are those of a target; `uneven` is the fit's residual less its mean profile.
+pub(crate) fn is_target(ellipse: &EllipseFit, uneven: f64, noise: f64, contrast: f64) -> bool {
+    let minor = 2.0 * ellipse.outline.axes().1;
+    let misfit = (uneven * uneven - noise * noise).max(0.0).sqrt() / contrast;
+    // large targets show every departure of the printed shape and of the lens; on faint ones noise hides both
+    let limit = (0.045 + 0.006 * (minor - 10.0)).clamp(0.045, 0.12) * (contrast / (40.0 * noise)).clamp(0.4, 1.0);
+    let edge = edge_ratio(ellipse, noise, contrast);
+    edge * edge + (misfit / limit).powi(2) < 1.15 && (gap(ellipse) <= SMALL_GAP || misfit < GAP_MISFIT)
+}

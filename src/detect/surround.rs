@@ -1,0 +1,148 @@
+//! Grey levels around a target: background plane, noise, contrast, and how far out the background is undisturbed.
+//!
+//! Rings of single pixels are read outside of the rim, from where its blur ends to a radius beyond. The nearest ring fixes a
+//! plane robustly; every further ring that agrees with it in mean and spread is added, the first that does not ends the
+//! surround: a card's edge, a code ring, a neighbour. A wide background matters: over a narrow one its slope cannot be
+//! told from a shift of the target.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::edge::rim_points;
+use super::outline::Outline;
+use crate::image::{Plane, Sample};
+
+/// Grey levels around a target.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surround {
+    /// Background at the centre, and its slope along u and v.
+    pub level: f64,
+    pub slope: [f64; 2],
+    /// Standard deviation of single pixels from that plane.
+    pub noise: f64,
+    /// Inside minus outside.
+    pub contrast: f64,
+    /// Share of the inner pixels that are far from their median, by a third of the contrast.
+    pub uneven: f64,
+    /// Distance from the rim up to which the background is undisturbed, in pixels.
+    pub outer: f64,
+}
+
+/// A sample: place relative to the centre, level.
+type Spot = [f64; 3];
+
+/// Measures the surround; `hidden` marks rays that count no more. None when too little of it lies in the picture.
+pub(crate) fn measure<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64, kept: &[bool]) -> Option<Surround> {
+    let pixel = |x: f64, y: f64| {
+        (x >= 0.0 && y >= 0.0 && x < plane.width as f64 && y < plane.height as f64)
+            .then(|| f64::from(plane.row(y as usize)[x as usize].level()))
+    };
+    let (a, b, _) = outline.axes();
+    let start = 3.0 * blur + 0.6;
+    let width = (a * b).sqrt() + 6.0;
+    let spacing = (width / 24.0).max(1.0);
+    let mut spots: Vec<Spot> = Vec::with_capacity(kept.len() * 8);
+    let mut found: Option<(Vector3<f64>, f64)> = None;
+    let mut outer = start;
+    let mut ring = Vec::with_capacity(2 * kept.len());
+    let mut step = 0;
+    while start + f64::from(step) * spacing < width.max(start + 2.0) {
+        let distance = start + f64::from(step) * spacing;
+        ring.clear();
+        for (rim, _) in rim_points(outline, kept.len()).zip(kept).filter(|(_, kept)| **kept) {
+            let (x, y) = (rim.x + distance * rim.normal[0], rim.y + distance * rim.normal[1]);
+            if let Some(level) = pixel(x, y) {
+                ring.push([x.floor() + 0.5 - outline.u, y.floor() + 0.5 - outline.v, level]);
+            }
+        }
+        match &mut found {
+            None => {
+                // two rings for the first plane
+                spots.extend_from_slice(&ring);
+                if step == 1 {
+                    found = Some(robust_plane(&mut spots)?);
+                }
+            }
+            Some((coefficients, noise)) => {
+                if ring.len() * 10 < kept.len() * 6 {
+                    break;
+                }
+                let (mut mean, mut square) = (0.0, 0.0);
+                for spot in &ring {
+                    let residual = residual(coefficients, spot);
+                    mean += residual;
+                    square += residual * residual;
+                }
+                (mean, square) = (mean / ring.len() as f64, square / ring.len() as f64);
+                let floor = noise.max(0.5);
+                if square > (1.7 * floor).powi(2) || mean.abs() > 0.9 * floor {
+                    break;
+                }
+                spots.extend_from_slice(&ring);
+                if step % 3 == 0 {
+                    (*coefficients, *noise) = plane_through(&spots)?;
+                }
+            }
+        }
+        outer = distance;
+        step += 1;
+    }
+    let (coefficients, noise) = if outer > start + 1.5 * spacing { plane_through(&spots)? } else { found? };
+    let mut inside = Vec::with_capacity(33);
+    inside.extend(pixel(outline.u, outline.v));
+    for radius in [0.25, 0.5, 0.7] {
+        inside.extend(rim_points(&outline.scaled(radius), 16).filter_map(|rim| pixel(rim.x, rim.y)));
+    }
+    let middle = inside.len() / 2;
+    if inside.is_empty() {
+        return None;
+    }
+    let (_, &mut median, _) = inside.select_nth_unstable_by(middle, f64::total_cmp);
+    let contrast = median - coefficients.x;
+    let far = inside.iter().filter(|level| (**level - median).abs() > contrast.abs() / 3.0).count();
+    Some(Surround {
+        level: coefficients.x,
+        slope: [coefficients.y, coefficients.z],
+        noise,
+        contrast,
+        uneven: far as f64 / inside.len() as f64,
+        outer,
+    })
+}
+
+fn residual(coefficients: &Vector3<f64>, [x, y, level]: &Spot) -> f64 {
+    level - coefficients.x - coefficients.y * x - coefficients.z * y
+}
+
+/// Least-squares plane and the standard deviation from it.
+fn plane_through(spots: &[Spot]) -> Option<(Vector3<f64>, f64)> {
+    if spots.len() < 8 {
+        return None;
+    }
+    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for [x, y, level] in spots {
+        let row = Vector3::new(1.0, *x, *y);
+        normal += row * row.transpose();
+        right += row * *level;
+    }
+    let coefficients = normal.cholesky()?.solve(&right);
+    let square: f64 = spots.iter().map(|spot| residual(&coefficients, spot).powi(2)).sum();
+    Some((coefficients, (square / (spots.len() - 3) as f64).sqrt()))
+}
+
+/// The same without outliers, which are removed from the spots: further than three robust sigmas from the plane.
+fn robust_plane(spots: &mut Vec<Spot>) -> Option<(Vector3<f64>, f64)> {
+    let (mut coefficients, mut noise) = plane_through(spots)?;
+    for _ in 0..4 {
+        let mut distances: Vec<f64> = spots.iter().map(|spot| residual(&coefficients, spot).abs()).collect();
+        let half = distances.len() / 2;
+        let (_, &mut median, _) = distances.select_nth_unstable_by(half, f64::total_cmp);
+        let limit = (3.0 * 1.4826 * median).max(1.5);
+        let before = spots.len();
+        spots.retain(|spot| residual(&coefficients, spot).abs() <= limit);
+        if spots.len() == before {
+            break;
+        }
+        (coefficients, noise) = plane_through(spots)?;
+    }
+    Some((coefficients, noise))
+}

@@ -1,0 +1,234 @@
+//! What detection reports: targets with their centres and sigmas, and what was rejected and why.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// How a centre is measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// Least-squares fit of a rendered ellipse.
+    #[default]
+    LeastSquares,
+    /// Ellipse on sub-pixel edge points.
+    Ellipse,
+    /// Intensity-weighted centroid.
+    Intensity,
+    /// Gradient-weighted centroid.
+    Gradient,
+}
+
+/// Which targets are looked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PolarityChoice {
+    /// Both.
+    #[default]
+    Auto,
+    /// Bright on dark.
+    Bright,
+    /// Dark on bright.
+    Dark,
+}
+
+/// Contrast of one target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Polarity {
+    /// Bright on dark.
+    Bright,
+    /// Dark on bright.
+    Dark,
+}
+
+/// Which samples of a colour picture are measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Channel {
+    /// Luminance, 0.2126 R + 0.7152 G + 0.0722 B.
+    #[default]
+    Grey,
+    /// Red.
+    Red,
+    /// Green: free of lateral colour where the demosaicing left it alone.
+    Green,
+    /// Blue.
+    Blue,
+}
+
+/// Family of ring codes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Codes {
+    /// Codes are not read.
+    #[default]
+    #[serde(rename = "none")]
+    None,
+    /// 12 bits.
+    #[serde(rename = "ring-12")]
+    Ring12,
+    /// 14 bits.
+    #[serde(rename = "ring-14")]
+    Ring14,
+    /// 16 bits.
+    #[serde(rename = "ring-16")]
+    Ring16,
+    /// 20 bits.
+    #[serde(rename = "ring-20")]
+    Ring20,
+    /// The family that most of the picture's rings belong to.
+    #[serde(rename = "auto")]
+    Auto,
+}
+
+/// Options of the detection; every default works without tuning.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct DetectOptions {
+    /// How centres are measured.
+    pub method: Method,
+    /// Which targets are looked for.
+    pub polarity: PolarityChoice,
+    /// Which samples of a colour picture are measured.
+    pub channel: Channel,
+    /// Which ring codes are read.
+    pub codes: Codes,
+    /// Smallest full axis of a target in pixels.
+    pub min_diameter: f64,
+    /// Largest full axis of a target in pixels.
+    pub max_diameter: f64,
+}
+
+impl Default for DetectOptions {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            polarity: PolarityChoice::default(),
+            channel: Channel::default(),
+            codes: Codes::default(),
+            min_diameter: 5.0,
+            max_diameter: 400.0,
+        }
+    }
+}
+
+/// How good a target's image is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Quality {
+    /// Rms of the fit's residuals, in grey levels (least squares) or pixels (ellipse).
+    pub fit_rms: f64,
+    /// Standard deviation of the grey noise around the target, in grey levels.
+    pub noise: f64,
+    /// Width of the edge (sigma of the point spread) in pixels.
+    pub edge_width: f64,
+    /// Share of the target's pixels that are saturated, 0 to 1.
+    pub saturated: f64,
+    /// Roundness: minor over major axis.
+    pub roundness: f64,
+    /// Share of the outline that is hidden or disturbed, 0 to 1.
+    pub occluded: f64,
+    /// Safety of the code reading, 0 (a coin toss) to 1.
+    pub code_margin: Option<f64>,
+    /// Why a ring was seen but not read.
+    pub code_note: Option<String>,
+}
+
+/// One target of a photo. Pixels, radians.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Target {
+    /// Centre, to the right.
+    pub u: f64,
+    /// Centre, downwards.
+    pub v: f64,
+    /// Standard error of u.
+    pub sigma_u: f64,
+    /// Standard error of v.
+    pub sigma_v: f64,
+    /// Covariance of u and v, in square pixels.
+    #[serde(default)]
+    pub covariance_uv: f64,
+    /// Full major axis.
+    pub major: f64,
+    /// Full minor axis.
+    pub minor: f64,
+    /// Angle of the major axis from u towards v.
+    pub angle: f64,
+    /// Grey difference between target and surroundings, always positive.
+    pub contrast: f64,
+    /// Bright on dark or dark on bright.
+    pub polarity: Polarity,
+    /// Number of the ring code, where one was read.
+    pub code: Option<u32>,
+    /// How good the image is.
+    pub quality: Quality,
+}
+
+/// Why a blob is no target. The serialised names are part of the JavaScript face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reason {
+    /// Smaller than `min_diameter`.
+    TooSmall,
+    /// Larger than `max_diameter`.
+    TooLarge,
+    /// Its outline is not an ellipse.
+    NotAnEllipse,
+    /// Tilted or squeezed beyond an axis ratio of 0.3.
+    TooFlat,
+    /// Contrast too low against the noise.
+    LowContrast,
+    /// Touches another blob.
+    Touching,
+    /// Too many of its pixels are saturated to place the centre.
+    Saturated,
+    /// Cut by the border of the photo.
+    AtBorder,
+    /// Too much of its outline is hidden.
+    Occluded,
+    /// Part of a code ring, not a target.
+    CodeRing,
+    /// The fit did not converge.
+    NoFit,
+}
+
+/// A rejected blob, for showing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rejected {
+    /// Place in pixels.
+    pub u: f64,
+    /// Place in pixels.
+    pub v: f64,
+    /// Rough diameter in pixels.
+    pub diameter: f64,
+    /// Why.
+    pub reason: Reason,
+}
+
+/// What one method makes of a target.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MethodResult {
+    /// The method.
+    pub method: Method,
+    /// Its centre, with everything else that is known of the target.
+    pub target: Option<Target>,
+    /// Why it has none.
+    pub reason: Option<Reason>,
+}
+
+/// Result of the detection in one photo.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Detection {
+    /// Width of the sensor grid in pixels.
+    pub width: u32,
+    /// Height of the sensor grid in pixels.
+    pub height: u32,
+    /// Bits of a sample, 8 or 16.
+    pub bits: u32,
+    /// The targets, from top to bottom.
+    pub targets: Vec<Target>,
+    /// How many blobs were rejected, by reason.
+    pub rejected: BTreeMap<Reason, usize>,
+    /// The rejected blobs that could be mistaken for targets, for showing.
+    pub rejected_blobs: Vec<Rejected>,
+}

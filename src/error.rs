@@ -1,0 +1,406 @@
+//! What can go wrong, as data: a stable code, the values a sentence needs, and the place.
+//!
+//! The engine speaks English in [`Display`](fmt::Display); the desk matches on the variants and says the same in its
+//! user's language. A variant is never renamed, since its code is part of the JavaScript face.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// Result of every fallible function of the engine.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Where in the user's material something is wrong. Empty fields are unknown or do not apply.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Place {
+    /// File name, for what comes from files.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// Photo identifier.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub photo: Option<String>,
+    /// Point identifier.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub point: Option<String>,
+    /// Camera identifier.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<String>,
+    /// Line of a text file, counted from 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<usize>,
+    /// Field of the document or option, in the spelling of the project format.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub field: Option<String>,
+}
+
+impl Place {
+    /// A photo.
+    pub fn photo(id: impl Into<String>) -> Self {
+        Self { photo: Some(id.into()), ..Self::default() }
+    }
+
+    /// A point.
+    pub fn point(id: impl Into<String>) -> Self {
+        Self { point: Some(id.into()), ..Self::default() }
+    }
+
+    /// A camera.
+    pub fn camera(id: impl Into<String>) -> Self {
+        Self { camera: Some(id.into()), ..Self::default() }
+    }
+
+    /// A line of a text file, counted from 1.
+    pub fn line(line: usize) -> Self {
+        Self { line: Some(line), ..Self::default() }
+    }
+
+    /// A field, in the spelling of the project format.
+    pub fn field(name: impl Into<String>) -> Self {
+        Self { field: Some(name.into()), ..Self::default() }
+    }
+
+    /// The same place, with the field named.
+    #[must_use]
+    pub fn with_field(mut self, name: impl Into<String>) -> Self {
+        self.field = Some(name.into());
+        self
+    }
+
+    /// The same place, with the file named.
+    #[must_use]
+    pub fn with_file(mut self, name: impl Into<String>) -> Self {
+        self.file = Some(name.into());
+        self
+    }
+}
+
+/// Why a rank defect exists, in the network's own words.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "cause", rename_all = "snake_case")]
+pub enum Defect {
+    /// Nothing fixes position, attitude and scale: `missing` of 7 are undetermined.
+    NoDatum {
+        /// Number of undetermined datum parameters.
+        missing: usize,
+    },
+    /// A point has fewer rays than it needs.
+    TooFewRays {
+        /// Points concerned.
+        points: Vec<String>,
+    },
+    /// A photo has too few points to be oriented.
+    PhotoUndetermined {
+        /// Photos concerned.
+        photos: Vec<String>,
+    },
+    /// Groups of photos share too little to be tied together.
+    NotTied {
+        /// The groups, each a list of photos.
+        groups: Vec<Vec<String>>,
+    },
+    /// Camera parameters that the network cannot determine.
+    ParameterUndetermined {
+        /// Camera identifier.
+        camera: String,
+        /// Names of the parameters.
+        parameters: Vec<String>,
+    },
+    /// A null space that has no simpler description: what takes part in it.
+    Combination {
+        /// Points taking part.
+        points: Vec<String>,
+        /// Photos taking part.
+        photos: Vec<String>,
+        /// Camera parameters taking part, as `camera.parameter`.
+        parameters: Vec<String>,
+    },
+}
+
+/// An error of the engine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "code", rename_all = "snake_case")]
+pub enum Error {
+    /// The file is of no format the engine reads.
+    UnknownImageFormat {
+        /// Format recognised by its signature (HEIC, RAW …), if any.
+        recognised: Option<String>,
+        /// Place.
+        at: Place,
+    },
+    /// The file is damaged or cut short.
+    BrokenImage {
+        /// What the decoder says.
+        detail: String,
+        /// Place.
+        at: Place,
+    },
+    /// The picture is larger or smaller than the engine works on.
+    ImageSize {
+        /// Width in pixels.
+        width: u64,
+        /// Height in pixels.
+        height: u64,
+        /// Largest number of pixels accepted.
+        limit: u64,
+        /// Place.
+        at: Place,
+    },
+    /// A document, option or file holds something that is not allowed there.
+    Invalid {
+        /// What is wrong with it and what is expected.
+        detail: String,
+        /// Place.
+        at: Place,
+    },
+    /// Something is named that does not exist.
+    Unknown {
+        /// Kind of thing: "photo", "point", "camera", "parameter", "format", "experiment".
+        kind: String,
+        /// Its name.
+        name: String,
+        /// Place.
+        at: Place,
+    },
+    /// Two things share one identifier.
+    Duplicate {
+        /// Kind of thing.
+        kind: String,
+        /// The identifier.
+        name: String,
+        /// Place.
+        at: Place,
+    },
+    /// The project has nothing to work on.
+    Empty {
+        /// What is missing: "photos", "points", "observations".
+        what: String,
+    },
+    /// Initial values are missing.
+    MissingInitialValues {
+        /// Photos without position or rotation.
+        photos: Vec<String>,
+        /// Points without coordinates.
+        points: Vec<String>,
+        /// Cameras without a principal distance.
+        cameras: Vec<String>,
+    },
+    /// The network does not determine what is to be estimated.
+    RankDefect {
+        /// The causes, most elementary first.
+        defects: Vec<Defect>,
+    },
+    /// Initial orientation found no way in.
+    CannotOrient {
+        /// What was tried and what is missing.
+        detail: String,
+        /// Photos that stay without orientation.
+        photos: Vec<String>,
+    },
+    /// Stopped by the caller.
+    Cancelled,
+}
+
+impl Error {
+    /// Stable name of the kind of error.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::UnknownImageFormat { .. } => "unknown_image_format",
+            Self::BrokenImage { .. } => "broken_image",
+            Self::ImageSize { .. } => "image_size",
+            Self::Invalid { .. } => "invalid",
+            Self::Unknown { .. } => "unknown",
+            Self::Duplicate { .. } => "duplicate",
+            Self::Empty { .. } => "empty",
+            Self::MissingInitialValues { .. } => "missing_initial_values",
+            Self::RankDefect { .. } => "rank_defect",
+            Self::CannotOrient { .. } => "cannot_orient",
+            Self::Cancelled => "cancelled",
+        }
+    }
+
+    /// Where it is, as far as one place can be named.
+    pub fn place(&self) -> Place {
+        match self {
+            Self::UnknownImageFormat { at, .. }
+            | Self::BrokenImage { at, .. }
+            | Self::ImageSize { at, .. }
+            | Self::Invalid { at, .. }
+            | Self::Unknown { at, .. }
+            | Self::Duplicate { at, .. } => at.clone(),
+            Self::MissingInitialValues { photos, points, cameras } => Place {
+                photo: photos.first().cloned(),
+                point: points.first().cloned(),
+                camera: cameras.first().cloned(),
+                ..Place::default()
+            },
+            Self::CannotOrient { photos, .. } => Place { photo: photos.first().cloned(), ..Place::default() },
+            Self::RankDefect { defects } => defects.first().map(Defect::place).unwrap_or_default(),
+            Self::Empty { what } => Place::field(what.clone()),
+            Self::Cancelled => Place::default(),
+        }
+    }
+
+    /// The same error with the file named, where it has a place.
+    #[must_use]
+    pub fn in_file(mut self, name: &str) -> Self {
+        if let Self::UnknownImageFormat { at, .. }
+        | Self::BrokenImage { at, .. }
+        | Self::ImageSize { at, .. }
+        | Self::Invalid { at, .. }
+        | Self::Unknown { at, .. }
+        | Self::Duplicate { at, .. } = &mut self
+        {
+            at.file = Some(name.to_owned());
+        }
+        self
+    }
+}
+
+impl Defect {
+    /// The first thing concerned.
+    pub fn place(&self) -> Place {
+        match self {
+            Self::NoDatum { .. } => Place::field("datum"),
+            Self::TooFewRays { points } => Place { point: points.first().cloned(), ..Place::default() },
+            Self::PhotoUndetermined { photos } => Place { photo: photos.first().cloned(), ..Place::default() },
+            Self::NotTied { groups } => {
+                Place { photo: groups.get(1).and_then(|g| g.first()).cloned(), ..Place::default() }
+            }
+            Self::ParameterUndetermined { camera, parameters } => {
+                Place { camera: Some(camera.clone()), field: parameters.first().cloned(), ..Place::default() }
+            }
+            Self::Combination { points, photos, parameters } => Place {
+                point: points.first().cloned(),
+                photo: photos.first().cloned(),
+                field: parameters.first().cloned(),
+                ..Place::default()
+            },
+        }
+    }
+}
+
+/// At most five names, then how many more there are.
+pub(crate) fn listed(names: &[String]) -> String {
+    let shown = names.iter().take(5).cloned().collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(5) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        let mut add = |name: &str, value: &Option<String>| {
+            if let Some(value) = value {
+                parts.push(format!("{name} {value}"));
+            }
+        };
+        add("file", &self.file);
+        add("camera", &self.camera);
+        add("photo", &self.photo);
+        add("point", &self.point);
+        add("line", &self.line.map(|line| line.to_string()));
+        add("field", &self.field);
+        f.write_str(&parts.join(", "))
+    }
+}
+
+impl fmt::Display for Defect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoDatum { missing } => write!(
+                f,
+                "{missing} of the 7 datum parameters (position, attitude, scale) are not fixed: add control points or a \
+                 distance, or choose the minimal or the free datum"
+            ),
+            Self::TooFewRays { points } => write!(
+                f,
+                "too few rays for point {}: measure it in a second photo, give it coordinates or exclude it",
+                listed(points)
+            ),
+            Self::PhotoUndetermined { photos } => write!(
+                f,
+                "too few points in photo {}: measure at least three well-spread points that other photos or the control \
+                 determine, or exclude the photo",
+                listed(photos)
+            ),
+            Self::NotTied { groups } => {
+                let names = groups.iter().map(|g| listed(g)).collect::<Vec<_>>().join(" | ");
+                write!(f, "groups of photos are not tied to each other ({names}): measure common points")
+            }
+            Self::ParameterUndetermined { camera, parameters } => write!(
+                f,
+                "camera {camera}: the network does not determine {}: hold it, observe it with a sigma, or add convergent \
+                 and rolled photos",
+                listed(parameters)
+            ),
+            Self::Combination { points, photos, parameters } => {
+                f.write_str("the network does not determine a combination of")?;
+                for (kind, names) in [("points", points), ("photos", photos), ("parameters", parameters)] {
+                    if !names.is_empty() {
+                        write!(f, " {kind} {};", listed(names))?;
+                    }
+                }
+                f.write_str(" hold or observe some of them, or add rays")
+            }
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownImageFormat { recognised: Some(name), .. } => {
+                write!(f, "this is a {name} file, which is not read here: convert it to JPEG, PNG or TIFF")?;
+            }
+            Self::UnknownImageFormat { .. } => {
+                f.write_str("not a picture the engine reads: JPEG, PNG or TIFF of 8 or 16 bits are expected")?;
+            }
+            Self::BrokenImage { detail, .. } => {
+                write!(f, "the picture cannot be decoded ({detail}): copy it again from the camera")?;
+            }
+            Self::ImageSize { width, height, limit, .. } => {
+                write!(f, "the picture has {width} x {height} pixels; from 1 to {limit} pixels are worked on")?;
+            }
+            Self::Invalid { detail, .. } => f.write_str(detail)?,
+            Self::Unknown { kind, name, .. } => write!(f, "there is no {kind} \"{name}\"")?,
+            Self::Duplicate { kind, name, .. } => {
+                write!(f, "the {kind} \"{name}\" occurs twice: identifiers are unique")?
+            }
+            Self::Empty { what } => write!(f, "the project has no {what} to work on")?,
+            Self::MissingInitialValues { photos, points, cameras } => {
+                f.write_str("initial values are missing; orient the project first, or give them:")?;
+                for (kind, names) in [("photos", photos), ("points", points), ("cameras", cameras)] {
+                    if !names.is_empty() {
+                        write!(f, " {kind} {};", listed(names))?;
+                    }
+                }
+            }
+            Self::RankDefect { defects } => {
+                f.write_str("the network cannot be solved: ")?;
+                f.write_str(&defects.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))?;
+            }
+            Self::CannotOrient { detail, photos } => {
+                f.write_str(detail)?;
+                if !photos.is_empty() {
+                    write!(f, " (photos {})", listed(photos))?;
+                }
+            }
+            Self::Cancelled => f.write_str("stopped on request")?,
+        }
+        let place = match self {
+            Self::UnknownImageFormat { .. }
+            | Self::BrokenImage { .. }
+            | Self::ImageSize { .. }
+            | Self::Invalid { .. }
+            | Self::Unknown { .. }
+            | Self::Duplicate { .. } => self.place().to_string(),
+            _ => String::new(),
+        };
+        if place.is_empty() { Ok(()) } else { write!(f, " ({place})") }
+    }
+}
+
+impl std::error::Error for Error {}

@@ -1,0 +1,201 @@
+//! Foreign formats, each converted in one place: conventions of other programs end at this border.
+//!
+//! | name | read | written |
+//! | --- | --- | --- |
+//! | `sightline` | the document as JSON | `project.json` |
+//! | `package` | a project file (zip) with document, targets, photos | the same, without photos |
+//! | `control-csv` | control points: id, X, Y, Z and sigmas | `control.csv` |
+//! | `mark-points` | image measurements: photo, point, u, v, sigma | `marks.txt` |
+//! | `photomodeler` | a text export of PhotoModeler | |
+//! | `aicon` | a list of target coordinates of AICON | |
+//! | `dbat` | an XML project of the Damped Bundle Adjustment Toolbox with the files it names | |
+//! | `csv`, `tsv` | | points, cameras, photos, observations with their statistics |
+//!
+//! Numbers are written with a decimal point whatever the user's language. A format that holds a part of a project only
+//! (`control-csv`, `mark-points`, `aicon`) is read as a project with that part.
+
+pub mod aicon;
+pub mod control_csv;
+pub mod dbat;
+pub mod mark_points;
+pub mod package;
+pub mod photomodeler;
+pub mod results;
+mod text;
+
+use std::collections::BTreeMap;
+
+use crate::adjustment::Adjustment;
+use crate::error::{Error, Place, Result};
+use crate::project::{DatumKind, Photo, Point, Project};
+
+/// Files by name.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// A foreign format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Format {
+    /// Name in the interface.
+    pub name: &'static str,
+    /// Whether it is read.
+    pub import: bool,
+    /// Whether it is written.
+    pub export: bool,
+}
+
+/// The formats.
+pub const FORMATS: [Format; 9] = [
+    Format { name: "sightline", import: true, export: true },
+    Format { name: "package", import: true, export: true },
+    Format { name: "control-csv", import: true, export: true },
+    Format { name: "mark-points", import: true, export: true },
+    Format { name: "photomodeler", import: true, export: false },
+    Format { name: "aicon", import: true, export: false },
+    Format { name: "dbat", import: true, export: false },
+    Format { name: "csv", import: false, export: true },
+    Format { name: "tsv", import: false, export: true },
+];
+
+/// Reads a project, or the part of one that the format holds.
+///
+/// # Errors
+/// [`Error::Unknown`] for a format that is not read, [`Error::Empty`] without files, [`Error::Invalid`] with file, line
+/// and field for what a file has wrong.
+pub fn import(format: &str, files: &Files) -> Result<Project> {
+    if !FORMATS.iter().any(|known| known.import && known.name == format) {
+        return Err(unknown_format(format, |known| known.import));
+    }
+    if files.is_empty() {
+        return Err(Error::Empty { what: "files".into() });
+    }
+    match format {
+        "sightline" => {
+            let (name, bytes) = only(files)?;
+            document(bytes).map_err(|error| error.in_file(name))
+        }
+        "package" => {
+            let (name, bytes) = only(files)?;
+            package::read(bytes).map(|package| package.project).map_err(|error| error.in_file(name))
+        }
+        "control-csv" => {
+            let mut points = Vec::new();
+            for (name, bytes) in files {
+                let table = control_csv::parse(&text::decode(bytes).map_err(|error| error.in_file(name))?);
+                points.extend(table.into_points().map_err(|error| error.in_file(name))?);
+            }
+            Ok(control_project(points))
+        }
+        "mark-points" => {
+            let mut project = Project::default();
+            for (name, bytes) in files {
+                let marks = text::decode(bytes).and_then(|text| mark_points::observations(&text));
+                project.observations.extend(marks.map_err(|error| error.in_file(name))?);
+            }
+            name_photos_and_points(&mut project);
+            Ok(project)
+        }
+        "photomodeler" => one_text(files, photomodeler::parse),
+        "aicon" => one_text(files, aicon::parse).map(control_project),
+        _ => dbat::import(files),
+    }
+}
+
+/// Writes a project, with the result of its adjustment where the format has a place for it.
+///
+/// # Errors
+/// [`Error::Unknown`] for a format that is not written.
+pub fn export(format: &str, project: &Project, adjustment: Option<&Adjustment>) -> Result<Files> {
+    let one = |name: &str, bytes: Vec<u8>| Files::from([(name.to_owned(), bytes)]);
+    match format {
+        "sightline" => Ok(one("project.json", package::json(project)?)),
+        "package" => {
+            let content =
+                package::Package { project: project.clone(), adjustment: adjustment.cloned(), ..Default::default() };
+            Ok(one("project.sightline", package::write(&content)?))
+        }
+        "control-csv" => Ok(one("control.csv", control_csv::write(&project.points).into_bytes())),
+        "mark-points" => Ok(one("marks.txt", mark_points::write(&project.observations).into_bytes())),
+        "csv" => results::write(project, adjustment, results::Separator::Comma),
+        "tsv" => results::write(project, adjustment, results::Separator::Tab),
+        _ => Err(unknown_format(format, |known| known.export)),
+    }
+}
+
+/// The document from JSON; its format and version are looked at first, so that a newer one is named as such.
+pub(crate) fn document(bytes: &[u8]) -> Result<Project> {
+    let at = || Place::field("format");
+    let text = text::decode(bytes)?;
+    let value: serde_json::Value = serde_json::from_str(&text).map_err(|error| Error::Invalid {
+        detail: format!("not a document of Sightline: {error}"),
+        at: Place { line: Some(error.line()), ..Place::default() },
+    })?;
+    if value.get("format").and_then(|format| format.as_str()) != Some("sightline") {
+        return Err(Error::Invalid {
+            detail: "not a document of Sightline: \"format\": \"sightline\" is missing".into(),
+            at: at(),
+        });
+    }
+    match value.get("version").and_then(serde_json::Value::as_u64) {
+        Some(1) => {}
+        Some(newer) => {
+            let detail =
+                format!("the document has version {newer} and this program reads version 1: open it with a newer one");
+            return Err(Error::Invalid { detail, at: Place::field("version") });
+        }
+        None => {
+            return Err(Error::Invalid { detail: "the document has no version".into(), at: Place::field("version") });
+        }
+    }
+    serde_path_to_error::deserialize(value).map_err(|error| Error::Invalid {
+        detail: format!("the document is damaged: {}", error.inner()),
+        at: Place::field(error.path().to_string()),
+    })
+}
+
+fn unknown_format(format: &str, wanted: fn(&Format) -> bool) -> Error {
+    let known: Vec<&str> = FORMATS.iter().filter(|known| wanted(known)).map(|known| known.name).collect();
+    Error::Unknown {
+        kind: "format".into(),
+        name: format.into(),
+        at: Place::field(format!("format: one of {}", known.join(", "))),
+    }
+}
+
+fn only(files: &Files) -> Result<(&String, &Vec<u8>)> {
+    let mut all = files.iter();
+    match (all.next(), all.next()) {
+        (Some(file), None) => Ok(file),
+        _ => Err(Error::Invalid {
+            detail: format!("this format is one file, {} were given", files.len()),
+            at: Place::default(),
+        }),
+    }
+}
+
+fn one_text<T>(files: &Files, parse: fn(&str) -> Result<T>) -> Result<T> {
+    let (name, bytes) = only(files)?;
+    text::decode(bytes).and_then(|text| parse(&text)).map_err(|error| error.in_file(name))
+}
+
+fn control_project(points: Vec<Point>) -> Project {
+    let mut project = Project { points, ..Project::default() };
+    project.datum.kind = DatumKind::Control;
+    project
+}
+
+/// Adds the photos and points that observations name and the project lacks, in the order of their first appearance.
+fn name_photos_and_points(project: &mut Project) {
+    let mut photos: std::collections::HashSet<&str> = project.photos.iter().map(|photo| photo.id.as_str()).collect();
+    let mut points: std::collections::HashSet<&str> = project.points.iter().map(|point| point.id.as_str()).collect();
+    let (mut new_photos, mut new_points) = (Vec::new(), Vec::new());
+    for observation in &project.observations {
+        if photos.insert(&observation.photo) {
+            new_photos.push(Photo { id: observation.photo.clone(), enabled: true, ..Photo::default() });
+        }
+        if points.insert(&observation.point) {
+            new_points.push(Point { id: observation.point.clone(), ..Point::default() });
+        }
+    }
+    project.photos.extend(new_photos);
+    project.points.extend(new_points);
+}

@@ -1,0 +1,356 @@
+//! The results as tables for spreadsheets: points, cameras, photos, observations. Units stand in the headings; an empty
+//! field is a value that does not exist. Residuals and detectable biases are given in pixels, whatever the camera's unit.
+
+use std::collections::HashMap;
+
+use super::Files;
+use crate::adjustment::Adjustment;
+use crate::error::Result;
+use crate::project::{Camera, Interior, Parameter, Project, Role};
+
+/// What separates fields.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Separator {
+    /// Commas (.csv).
+    Comma,
+    /// Tabs (.tsv), which spreadsheets paste.
+    Tab,
+}
+
+/// Writes the tables; without an adjustment, the project's own values.
+///
+/// # Errors
+/// None today; exports are fallible as a family.
+pub fn write(project: &Project, adjustment: Option<&Adjustment>, separator: Separator) -> Result<Files> {
+    let tables = [
+        ("points", points(project, adjustment)),
+        ("cameras", cameras(project, adjustment)),
+        ("photos", photos(project, adjustment)),
+        ("observations", observations(project, adjustment)),
+    ];
+    let extension = if separator == Separator::Comma { "csv" } else { "tsv" };
+    Ok(tables
+        .into_iter()
+        .map(|(name, table)| (format!("{name}.{extension}"), table.text(separator).into_bytes()))
+        .collect())
+}
+
+/// A table of text; the first row is its heading.
+struct Table {
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    fn new<'a>(heading: impl IntoIterator<Item = &'a str>) -> Self {
+        Self { rows: vec![heading.into_iter().map(str::to_owned).collect()] }
+    }
+
+    fn text(&self, separator: Separator) -> String {
+        let mark = if separator == Separator::Comma { ',' } else { '\t' };
+        let line = |row: &Vec<String>| {
+            row.iter().map(|field| quoted(field, mark)).collect::<Vec<_>>().join(&mark.to_string()) + "\n"
+        };
+        self.rows.iter().map(line).collect()
+    }
+}
+
+/// A field in quotes where it needs them.
+pub fn quoted(field: &str, separator: char) -> String {
+    if field.contains([separator, '"', '\n', '\r']) {
+        format!("\"{}\"", field.replace('"', "\"\""))
+    } else {
+        field.to_owned()
+    }
+}
+
+fn value(number: Option<f64>) -> String {
+    number.filter(|number| number.is_finite()).map(|number| number.to_string()).unwrap_or_default()
+}
+
+fn values<const N: usize>(numbers: Option<[f64; N]>) -> [String; N] {
+    numbers.map_or_else(|| std::array::from_fn(|_| String::new()), |numbers| numbers.map(|number| value(Some(number))))
+}
+
+fn points(project: &Project, adjustment: Option<&Adjustment>) -> Table {
+    let unit = &project.unit;
+    let heading = ["X", "Y", "Z", "sX", "sY", "sZ"].map(|name| format!("{name} [{unit}]"));
+    let heading = ["id", "role"].into_iter().chain(heading.iter().map(String::as_str)).chain(["rays"]);
+    let mut table = Table::new(heading);
+    let adjusted: HashMap<&str, _> =
+        adjustment.iter().flat_map(|a| &a.points).map(|point| (point.id.as_str(), point)).collect();
+    for point in &project.points {
+        let role = match point.role {
+            Role::Tie => "tie",
+            Role::Control => "control",
+            Role::Check => "check",
+        };
+        let mut row = vec![point.id.clone(), role.to_owned()];
+        match adjusted.get(point.id.as_str()) {
+            Some(found) => {
+                row.extend(values(Some(found.xyz)));
+                row.extend(values(found.sigma));
+                row.push(found.rays.to_string());
+            }
+            None => {
+                row.extend(values(point.xyz));
+                row.extend(point.sigma.unwrap_or_default().map(value));
+                row.push(String::new());
+            }
+        }
+        table.rows.push(row);
+    }
+    table
+}
+
+/// Unit of a parameter of a camera, as photo coordinates have it.
+fn parameter_unit(camera: &Camera, parameter: Parameter) -> String {
+    use Parameter as P;
+    let length = photo_unit(camera);
+    let brown = matches!(camera.interior, Interior::Brown { .. });
+    match parameter {
+        P::C | P::X0 | P::Y0 | P::F | P::Fx | P::Fy | P::Cx | P::Cy => length.into(),
+        P::K1 if brown => format!("{length}^-2"),
+        P::K2 if brown => format!("{length}^-4"),
+        P::K3 if brown => format!("{length}^-6"),
+        P::P1 | P::P2 if brown => format!("{length}^-1"),
+        _ => String::new(),
+    }
+}
+
+fn photo_unit(camera: &Camera) -> &'static str {
+    match camera.interior {
+        Interior::Brown { .. } if camera.pixel_pitch.is_some() => "mm",
+        _ => "px",
+    }
+}
+
+fn cameras(project: &Project, adjustment: Option<&Adjustment>) -> Table {
+    let mut table = Table::new(["camera", "parameter", "unit", "value", "sigma", "estimated"]);
+    for camera in &project.cameras {
+        let adjusted = adjustment.iter().flat_map(|a| &a.cameras).find(|found| found.camera.id == camera.id);
+        let interior = adjusted.map_or(camera.interior, |found| found.camera.interior);
+        for &parameter in interior.parameters().iter().filter(|parameter| **parameter != Parameter::F) {
+            let sigma = adjusted.and_then(|found| {
+                let common = matches!(parameter, Parameter::Fx | Parameter::Fy).then_some(Parameter::F);
+                found.sigma.get(&parameter).or_else(|| found.sigma.get(&common?)).copied()
+            });
+            table.rows.push(vec![
+                camera.id.clone(),
+                parameter.name().to_owned(),
+                parameter_unit(camera, parameter),
+                value(interior.get(parameter)),
+                value(sigma),
+                (if sigma.is_some() { "yes" } else { "no" }).to_owned(),
+            ]);
+        }
+    }
+    table
+}
+
+fn photos(project: &Project, adjustment: Option<&Adjustment>) -> Table {
+    let unit = &project.unit;
+    let position = ["X", "Y", "Z"].map(|name| format!("{name} [{unit}]"));
+    let sigma = ["sX", "sY", "sZ"].map(|name| format!("{name} [{unit}]"));
+    let angles = ["omega [deg]", "phi [deg]", "kappa [deg]", "s_omega [deg]", "s_phi [deg]", "s_kappa [deg]"];
+    let names = position.iter().chain(&sigma).map(String::as_str);
+    let mut table = Table::new(["id", "file", "camera"].into_iter().chain(names).chain(angles).chain([
+        "rms_x [px]",
+        "rms_y [px]",
+        "points",
+    ]));
+    let adjusted: HashMap<&str, _> =
+        adjustment.iter().flat_map(|a| &a.photos).map(|photo| (photo.id.as_str(), photo)).collect();
+    let scale = scales(project);
+    let degrees = |angles: Option<[f64; 3]>| values(angles.map(|angles| angles.map(f64::to_degrees)));
+    for photo in &project.photos {
+        let mut row = vec![photo.id.clone(), photo.file.clone(), photo.camera.clone()];
+        match adjusted.get(photo.id.as_str()) {
+            Some(found) => {
+                let [sx, sy] = scale.get(photo.id.as_str()).copied().unwrap_or([1.0; 2]);
+                row.extend(values(Some(found.position)));
+                row.extend(values(found.sigma_position));
+                row.extend(degrees(Some(found.rotation)));
+                row.extend(degrees(found.sigma_rotation));
+                row.extend([value(Some(found.rms_x * sx)), value(Some(found.rms_y * sy)), found.points.to_string()]);
+            }
+            None => {
+                row.extend(values(photo.position));
+                row.extend(values::<3>(None));
+                row.extend(degrees(photo.rotation));
+                row.extend(values::<6>(None));
+            }
+        }
+        table.rows.push(row);
+    }
+    table
+}
+
+/// Pixels for a photo unit, per photo and axis.
+fn scales(project: &Project) -> HashMap<&str, [f64; 2]> {
+    let camera = |id: &str| project.cameras.iter().find(|camera| camera.id == id);
+    let scale = |camera: &Camera| match camera.interior {
+        Interior::Brown { .. } => camera.pitch().map(|pitch| 1.0 / pitch),
+        Interior::Opencv { .. } => [1.0; 2],
+    };
+    project.photos.iter().filter_map(|photo| Some((photo.id.as_str(), scale(camera(&photo.camera)?)))).collect()
+}
+
+fn observations(project: &Project, adjustment: Option<&Adjustment>) -> Table {
+    let mut table = Table::new([
+        "photo",
+        "point",
+        "u [px]",
+        "v [px]",
+        "sigma_u [px]",
+        "sigma_v [px]",
+        "vx [px]",
+        "vy [px]",
+        "rx",
+        "ry",
+        "wx",
+        "wy",
+        "mdb_x [px]",
+        "mdb_y [px]",
+        "enabled",
+    ]);
+    let scale = scales(project);
+    // The adjustment keeps the project's order; one of another project gives no residuals.
+    let adjusted = adjustment.map(|a| a.observations.as_slice()).filter(|all| all.len() == project.observations.len());
+    for (index, observation) in project.observations.iter().enumerate() {
+        let found = adjusted
+            .map(|all| &all[index])
+            .filter(|found| found.photo == observation.photo && found.point == observation.point);
+        let [sx, sy] = scale.get(observation.photo.as_str()).copied().unwrap_or([1.0; 2]);
+        let [su, sv] = observation.sigma.both();
+        let mut row = vec![observation.photo.clone(), observation.point.clone()];
+        row.extend([observation.u, observation.v, su, sv].map(|number| value(Some(number))));
+        row.extend(match found {
+            Some(a) => [
+                value(Some(a.vx * sx)),
+                value(Some(a.vy * sy)),
+                value(a.rx),
+                value(a.ry),
+                value(a.wx),
+                value(a.wy),
+                value(a.mdb_x.map(|mdb| mdb * sx)),
+                value(a.mdb_y.map(|mdb| mdb * sy)),
+            ],
+            None => std::array::from_fn(|_| String::new()),
+        });
+        let enabled = found.map_or(observation.enabled, |found| found.enabled);
+        row.push((if enabled { "yes" } else { "no" }).to_owned());
+        table.rows.push(row);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::adjustment::{
+        AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Correlation, Termination,
+    };
+    use crate::project::{Observation, Photo, Point, Sigma};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    fn small() -> (Project, Adjustment) {
+        let camera = Camera {
+            pixel_pitch: Some([0.01, 0.02]),
+            free: vec![Parameter::C],
+            ..Camera::new("c", 100, 80, Interior::brown(12.5))
+        };
+        let project = Project {
+            cameras: vec![camera.clone()],
+            photos: vec![Photo {
+                id: "1".into(),
+                camera: "c".into(),
+                file: "a,b.jpg".into(),
+                enabled: true,
+                ..Photo::default()
+            }],
+            points: vec![Point { id: "7".into(), xyz: Some([1.0, 2.0, 3.0]), ..Point::default() }],
+            observations: vec![Observation {
+                photo: "1".into(),
+                point: "7".into(),
+                u: 1.5,
+                v: 2.25,
+                sigma: Sigma::One(0.1),
+                enabled: true,
+            }],
+            ..Project::default()
+        };
+        let adjustment = Adjustment {
+            termination: Termination::Converged,
+            iterations: Vec::new(),
+            observations_count: 2,
+            unknowns: 1,
+            constraints: 0,
+            redundancy: 1,
+            sigma0: Some(1.0),
+            global_test: None,
+            cameras: vec![AdjustedCamera {
+                camera,
+                photo: None,
+                sigma: [(Parameter::C, 0.125)].into(),
+                correlation: Correlation::default(),
+            }],
+            photos: vec![AdjustedPhoto {
+                id: "1".into(),
+                rotation: [0.0, 0.0, std::f64::consts::PI],
+                rms_x: 0.01,
+                ..AdjustedPhoto::default()
+            }],
+            points: vec![AdjustedPoint {
+                id: "7".into(),
+                xyz: [1.5, 2.0, 3.0],
+                sigma: Some([0.5; 3]),
+                covariance: None,
+                rays: 1,
+            }],
+            observations: vec![AdjustedObservation {
+                photo: "1".into(),
+                point: "7".into(),
+                vx: 0.01,
+                vy: 0.04,
+                rx: Some(0.5),
+                enabled: true,
+                ..Default::default()
+            }],
+            ..Adjustment::default()
+        };
+        (project, adjustment)
+    }
+
+    #[test]
+    fn tables_hold_values_and_sigmas_with_units() {
+        let (project, adjustment) = small();
+        let files = write(&project, Some(&adjustment), Separator::Comma).unwrap();
+        let text = |name: &str| String::from_utf8(files[name].clone()).unwrap();
+        assert_eq!(
+            text("points.csv"),
+            "id,role,X [mm],Y [mm],Z [mm],sX [mm],sY [mm],sZ [mm],rays\n7,tie,1.5,2,3,0.5,0.5,0.5,1\n"
+        );
+        assert!(text("cameras.csv").contains("c,c,mm,12.5,0.125,yes\nc,x0,mm,0,,no\n"));
+        assert!(text("photos.csv").contains("1,\"a,b.jpg\",c,0,0,0,,,,0,0,180,,,,1,0,0\n"));
+        assert!(text("observations.csv").ends_with("1,7,1.5,2.25,0.1,0.1,1,2,0.5,,,,,,yes\n"));
+        for table in files.keys() {
+            let text = text(table);
+            let mut reader = csv::ReaderBuilder::new().from_reader(text.as_bytes());
+            assert_eq!(reader.records().filter(|record| record.is_ok()).count(), text.lines().count() - 1, "{table}");
+        }
+    }
+
+    #[test]
+    fn a_project_alone_and_tabs_work_too() {
+        let (project, _) = small();
+        let files = write(&project, None, Separator::Tab).unwrap();
+        let text = |name: &str| String::from_utf8(files[name].clone()).unwrap();
+        assert!(text("points.tsv").ends_with("7\ttie\t1\t2\t3\t\t\t\t\n"));
+        assert!(text("photos.tsv").contains("1\ta,b.jpg\tc\t\t"));
+        let columns = |text: &str| {
+            text.lines().map(|line| line.split('\t').count()).collect::<std::collections::HashSet<_>>().len()
+        };
+        assert!(files.keys().all(|name| columns(&text(name)) == 1));
+    }
+}

@@ -1,0 +1,109 @@
+//! The three papers as runnable experiments: the same networks, simulated and adjusted here, with the papers' own
+//! figures beside ours.
+//!
+//! | name | paper | question |
+//! | --- | --- | --- |
+//! | `kang` | Kang and Yeu 1985 | How much do more photos improve coordinates? |
+//! | `film` | the same | What do fiducial marks and a distortion table make of comparator readings? |
+//! | `lee-calibration` | Lee 1996, chapter 4 | How well does a camera calibrate itself, from the pixels on? |
+//! | `lee-structure` | Lee 1996, chapter 5 | What do convergent photos and a free network give? |
+//! | `kim` | Kim, Hwang and Yun 2015 | How near does a pair of photos come, from DLT to intersected points? |
+//!
+//! Results are data: identifiers, numbers and units, no sentences. Whoever shows them names things in their language.
+
+mod film;
+mod kang;
+mod kim;
+mod lee_calibration;
+mod lee_structure;
+mod outcome;
+
+use serde::{Deserialize, Serialize};
+
+use crate::detection::Method;
+use crate::error::{Error, Place, Result};
+
+pub use outcome::{Axis, Cell, Chart, Column, Drawing, Drawn, Experiment, Figure, Series, Table};
+
+/// Names of the experiments.
+pub const NAMES: [&str; 5] = ["kang", "film", "lee-calibration", "lee-structure", "kim"];
+
+/// What may be varied. Whatever is none has the paper's value; what an experiment does not know it ignores.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ExperimentOptions {
+    /// Seed of all noise.
+    pub seed: u64,
+    /// Standard deviation of image coordinates, µm (kang, film, lee-structure).
+    pub image_sigma_um: Option<f64>,
+    /// Standard deviation of the pixels' noise, share of full scale (lee-calibration, kim).
+    pub pixel_noise: Option<f64>,
+    /// Standard error of control coordinates, mm (kang, lee-structure, kim).
+    pub control_sigma_mm: Option<f64>,
+    /// Rounds of Monte Carlo (kang).
+    pub rounds: Option<usize>,
+    /// Network of the project to open, as `1.4-5A` (kang), `H` or `H'` (kang, mixed distances), `I-control`, `I-free` …
+    /// (lee-structure).
+    pub network: Option<String>,
+    /// Photos left out of the second run (lee-calibration).
+    pub left_out: Option<Vec<String>>,
+    /// How centres are measured for the adjustment (lee-calibration).
+    pub method: Option<Method>,
+}
+
+impl Default for ExperimentOptions {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            image_sigma_um: None,
+            pixel_noise: None,
+            control_sigma_mm: None,
+            rounds: None,
+            network: None,
+            left_out: None,
+            method: None,
+        }
+    }
+}
+
+/// Tells how far an experiment is: steps done and steps in all. Returning false stops it.
+pub type Progress<'a> = &'a mut dyn FnMut(usize, usize) -> bool;
+
+/// Runs an experiment.
+///
+/// # Errors
+/// [`Error::Unknown`] for another name, [`Error::Invalid`] for options out of range, [`Error::Cancelled`] when stopped.
+pub fn run(name: &str, options: &ExperimentOptions, progress: Progress) -> Result<Experiment> {
+    check(options)?;
+    match name {
+        "kang" => kang::run(options, progress),
+        "film" => film::run(options, progress),
+        "lee-calibration" => lee_calibration::run(options, progress),
+        "lee-structure" => lee_structure::run(options, progress),
+        "kim" => kim::run(options, progress),
+        _ => Err(Error::Unknown { kind: "experiment".into(), name: name.into(), at: Place::default() }),
+    }
+}
+
+fn check(options: &ExperimentOptions) -> Result<()> {
+    let invalid = |detail: &str, field: &str| Err(Error::Invalid { detail: detail.into(), at: Place::field(field) });
+    let outside = |value: Option<f64>, low: f64, high: f64| value.is_some_and(|v| !(low..=high).contains(&v));
+    if outside(options.image_sigma_um, 0.01, 1000.0) {
+        return invalid("the standard deviation of image coordinates is from 0.01 to 1000 µm", "image_sigma_um");
+    }
+    if outside(options.pixel_noise, 0.0, 0.2) {
+        return invalid("the noise of the pixels is a share from 0 to 0.2", "pixel_noise");
+    }
+    if outside(options.control_sigma_mm, 1e-6, 1000.0) {
+        return invalid("the standard error of control coordinates is from 1e-6 to 1000 mm", "control_sigma_mm");
+    }
+    if options.rounds.is_some_and(|n| n > 100_000) {
+        return invalid("at most 100000 rounds of Monte Carlo", "rounds");
+    }
+    Ok(())
+}
+
+/// Counts a step; an error when the caller wants no more.
+fn step(progress: &mut dyn FnMut(usize, usize) -> bool, done: usize, of: usize) -> Result<()> {
+    if progress(done, of) { Ok(()) } else { Err(Error::Cancelled) }
+}

@@ -1,0 +1,254 @@
+//! What Kang and Yeu (1985) measured: plates on a comparator, from fiducial marks to coordinates.
+//!
+//! The five photos of one of the paper's networks are put on film that shrank differently along and across, seen through
+//! a lens with radial distortion, and read on a machine with an origin and turn of its own. The readings go back
+//! through the three plane transformations, with and without the distortion table; each time the same bundle follows.
+//! The paper prints neither its readings nor the table: both are made up here, of the usual size.
+
+use super::kang;
+use super::outcome::{Cell, Chart, Drawing, Experiment, Figure, Series, Table};
+use super::{ExperimentOptions, Progress, step};
+use crate::adjust::adjust;
+use crate::adjustment::AdjustOptions;
+use crate::error::Result;
+use crate::film::comparator::{Observed, Reading, Setup, Upwards, observations};
+use crate::film::distortion::{self, OddPolynomial};
+use crate::film::transformation::Kind;
+use crate::network::{Network, Source, simulate};
+use crate::noise::Noise;
+use crate::project::{Parameter, Project, Role};
+
+/// Calibrated places of eight fiducial marks, mm.
+const FIDUCIALS: [(&str, [f64; 2]); 8] = [
+    ("F1", [-58.012, 45.987]),
+    ("F2", [0.004, 46.021]),
+    ("F3", [58.008, 46.013]),
+    ("F4", [58.021, -0.006]),
+    ("F5", [57.994, -45.992]),
+    ("F6", [-0.011, -46.004]),
+    ("F7", [-58.003, -46.018]),
+    ("F8", [-57.989, 0.009]),
+];
+/// Calibrated distortion: radius in mm and outward displacement in µm.
+const DISTORTION: [[f64; 2]; 12] = [
+    [5.0, 0.1],
+    [10.0, 0.6],
+    [15.0, 1.9],
+    [20.0, 4.1],
+    [25.0, 7.1],
+    [30.0, 10.6],
+    [35.0, 14.0],
+    [40.0, 16.4],
+    [45.0, 17.1],
+    [50.0, 15.1],
+    [55.0, 9.4],
+    [60.0, -1.2],
+];
+const KINDS: [(Kind, &str); 3] =
+    [(Kind::Similarity, "similarity"), (Kind::Affine, "affine"), (Kind::Projective, "projective")];
+/// Film: scale along and across, shear, turn and origin of the machine.
+const SHRINKAGE: [f64; 3] = [0.99962, 0.99987, 1.1e-4];
+const TURN: f64 = 0.021;
+const ORIGIN: [f64; 2] = [163.42, 118.75];
+
+/// One way of reduction and what the bundle made of it.
+struct Outcome {
+    kind: &'static str,
+    corrected: bool,
+    marks_sigma0: f64,
+    sigma0: f64,
+    rms: [f64; 3],
+}
+
+pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment> {
+    let network = kang::default_network(options);
+    let exact = simulate(&Network { observations: Source::Exact, ..network.clone() })?;
+    let radii = DISTORTION.map(|row| row[0]);
+    let displacements = DISTORTION.map(|row| row[1] / 1000.0);
+    let table = distortion::fit(&radii, &displacements, 3, false)?;
+    let readings = readings(&exact, &table, options);
+
+    let mut outcomes = Vec::new();
+    let mut fits = Vec::new();
+    let mut opened = None;
+    for (kind, name) in KINDS {
+        let setup = setup(kind, options);
+        let observed = observations(&exact.cameras[0], &setup, &readings)?;
+        for corrected in [false, true] {
+            step(progress, outcomes.len(), 6)?;
+            let project = reduced(&network, &observed, corrected.then_some(&table))?;
+            outcomes.push(solve(&network, &project, &observed, name, corrected)?);
+            if kind == Kind::Affine && corrected {
+                opened = Some(project);
+            }
+        }
+        fits.push((name, observed));
+    }
+    Ok(Experiment {
+        name: "film".into(),
+        drawings: vec![Drawing::of("network", &network)],
+        figures: figures(&outcomes, &table),
+        tables: vec![residual_table(&fits), parameter_table(&fits), distortion_table(&table), outcome_table(&outcomes)],
+        charts: vec![chart(&table)],
+        project: opened.unwrap_or(exact),
+    })
+}
+
+fn setup(kind: Kind, options: &ExperimentOptions) -> Setup {
+    Setup {
+        fiducials: FIDUCIALS.iter().map(|(id, place)| ((*id).to_owned(), *place)).collect(),
+        kind,
+        upwards: Upwards::Yes,
+        sigma: options.image_sigma_um.unwrap_or(3.0) / 1000.0,
+    }
+}
+
+/// What the machine reads of the exact photo coordinates.
+fn readings(exact: &Project, table: &OddPolynomial, options: &ExperimentOptions) -> Vec<Reading> {
+    let sigma = options.image_sigma_um.unwrap_or(3.0) / 1000.0;
+    let (s, c) = TURN.sin_cos();
+    let mut readings = Vec::new();
+    for (index, photo) in exact.photos.iter().enumerate() {
+        let mut noise = Noise::new(options.seed, index as u64);
+        let mut read = |mark: &str, [x, y]: [f64; 2], sigma: f64| {
+            // Every plate lies a little differently, and shrank by the same.
+            let turn = f64::from(index as u32) * 0.003;
+            let (x, y) = (SHRINKAGE[0] * x + SHRINKAGE[2] * y, SHRINKAGE[1] * y);
+            let (x, y) = (x - turn * y, y + turn * x);
+            readings.push(Reading {
+                photo: photo.id.clone(),
+                mark: mark.to_owned(),
+                x: ORIGIN[0] + c * x - s * y + sigma * noise.normal(),
+                y: ORIGIN[1] + s * x + c * y + sigma * noise.normal(),
+            });
+        };
+        for (id, place) in FIDUCIALS {
+            // Marks are sharp and read several times.
+            read(id, place, sigma / 2.0);
+        }
+        let Some(camera) = exact.cameras.iter().find(|camera| camera.id == photo.camera) else { continue };
+        for o in exact.observations.iter().filter(|o| o.photo == photo.id) {
+            let [x, y] = camera.photo_from_pixel([o.u, o.v]);
+            let r = x.hypot(y);
+            let stretch = 1.0 + if r > 0.0 { table.at(r) / r } else { 0.0 };
+            read(&o.point, [x * stretch, y * stretch], sigma);
+        }
+    }
+    readings
+}
+
+/// The project with the reduced observations, its camera corrected by the table's polynomial or not.
+fn reduced(network: &Network, observed: &Observed, table: Option<&OddPolynomial>) -> Result<Project> {
+    let mut project = simulate(network)?;
+    project.observations = observed.observations.clone();
+    let coefficients = table.map_or([0.0; 3], OddPolynomial::brown);
+    for camera in &mut project.cameras {
+        for (parameter, value) in [Parameter::K1, Parameter::K2, Parameter::K3].into_iter().zip(coefficients) {
+            camera.interior.set(parameter, value);
+        }
+    }
+    Ok(project)
+}
+
+fn solve(
+    network: &Network,
+    project: &Project,
+    observed: &Observed,
+    kind: &'static str,
+    corrected: bool,
+) -> Result<Outcome> {
+    let adjustment = adjust(project, &AdjustOptions::default(), &mut |_| true)?;
+    let ties = network.points.iter().filter(|p| p.role == Role::Tie);
+    let off = ties.filter_map(|p| {
+        let found = adjustment.points.iter().find(|q| q.id == p.id)?;
+        Some([0, 1, 2].map(|k| found.xyz[k] - p.xyz[k]))
+    });
+    let off: Vec<_> = off.collect();
+    let n = off.len().max(1) as f64;
+    let fits: Vec<f64> = observed.inner_orientations.iter().filter_map(|i| i.transformation.sigma0).collect();
+    Ok(Outcome {
+        kind,
+        corrected,
+        marks_sigma0: (fits.iter().map(|s| s * s).sum::<f64>() / fits.len().max(1) as f64).sqrt() * 1000.0,
+        sigma0: adjustment.sigma0.unwrap_or(f64::NAN),
+        rms: [0, 1, 2].map(|k| (off.iter().map(|d| d[k] * d[k]).sum::<f64>() / n).sqrt()),
+    })
+}
+
+/// Residuals at the marks of the first photo, kind by kind.
+fn residual_table(fits: &[(&str, Observed)]) -> Table {
+    let mut table = Table::new("fiducials", &["photo", "mark", "kind", "vx|µm|1", "vy|µm|1", "sigma0|µm|1"]);
+    for (name, observed) in fits {
+        for inner in &observed.inner_orientations {
+            for (mark, v) in inner.marks.iter().zip(&inner.transformation.residuals) {
+                table.rows.push(vec![
+                    inner.photo.as_str().into(),
+                    mark.as_str().into(),
+                    (*name).into(),
+                    (v[0] * 1000.0).into(),
+                    (v[1] * 1000.0).into(),
+                    inner.transformation.sigma0.map(|s| s * 1000.0).into(),
+                ]);
+            }
+        }
+    }
+    table
+}
+
+fn parameter_table(fits: &[(&str, Observed)]) -> Table {
+    let mut table = Table::new("transformations", &["photo", "kind", "parameter", "value||7", "sigma||7"]);
+    for (name, observed) in fits {
+        for inner in &observed.inner_orientations {
+            for p in &inner.transformation.parameters {
+                let (photo, parameter) = (inner.photo.as_str(), p.name.as_str());
+                table.rows.push(vec![photo.into(), (*name).into(), parameter.into(), p.value.into(), p.sigma.into()]);
+            }
+        }
+    }
+    table
+}
+
+fn distortion_table(polynomial: &OddPolynomial) -> Table {
+    let mut table = Table::new("distortion", &["radius|mm", "table|µm|1", "polynomial|µm|2", "residual|µm|2"]);
+    for (row, residual) in DISTORTION.iter().zip(&polynomial.residuals) {
+        let fitted = polynomial.at(row[0]) * 1000.0;
+        table.rows.push(vec![row[0].into(), row[1].into(), fitted.into(), (residual * 1000.0).into()]);
+    }
+    table
+}
+
+fn outcome_table(outcomes: &[Outcome]) -> Table {
+    let mut table = Table::new(
+        "reductions",
+        &["kind", "distortion_corrected", "marks_sigma0|µm|1", "sigma0||2", "rms_x|mm|4", "rms_y|mm|4", "rms_z|mm|4"],
+    );
+    for o in outcomes {
+        let mut row: Vec<Cell> = vec![o.kind.into(), if o.corrected { "yes" } else { "no" }.into()];
+        row.extend([o.marks_sigma0, o.sigma0].map(Cell::from));
+        row.extend(o.rms.map(Cell::from));
+        table.rows.push(row);
+    }
+    table
+}
+
+fn figures(outcomes: &[Outcome], table: &OddPolynomial) -> Vec<Figure> {
+    let label = |o: &Outcome| format!("{}{}", o.kind, if o.corrected { "-corrected" } else { "" });
+    let mut list: Vec<_> = outcomes
+        .iter()
+        .flat_map(|o| {
+            [
+                // The paper's adjustment assumes, and asks for, 1.
+                Figure::new(format!("sigma0/{}", label(o)), "", o.sigma0, o.corrected.then_some(1.0)),
+                Figure::new(format!("marks_sigma0/{}", label(o)), "µm", o.marks_sigma0, None),
+            ]
+        })
+        .collect();
+    list.push(Figure::new("distortion_sigma0", "µm", table.sigma0.unwrap_or(f64::NAN) * 1000.0, None));
+    list
+}
+
+fn chart(table: &OddPolynomial) -> Chart {
+    let fitted = (0..=60).map(|k| [f64::from(k), table.at(f64::from(k)) * 1000.0]).collect();
+    let given = Series { paper: true, ..Series::new("table", DISTORTION.to_vec()) };
+    Chart::new("distortion", "radius|mm", "distortion|µm", vec![Series::new("polynomial", fitted), given])
+}

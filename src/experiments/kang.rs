@@ -1,0 +1,333 @@
+//! Kang and Yeu (1985): more photos, better coordinates.
+//!
+//! Fifteen points on a statue, three of them control, photographed by a P31 with parallel axes from one base line at
+//! five distances: 60 networks of 2 to 5 photos at one distance and 16 that mix distances. Q is the geometric standard
+//! error √q, S = S0·Q that from the data (one draw of the noise), M0 and Ms their means over the axes; all means run over
+//! the twelve points that are not control. The paper does not print where the base line lies: here its centre faces
+//! the mean of the points.
+
+mod networks;
+mod pairwise;
+
+use super::outcome::{Cell, Chart, Drawing, Experiment, Figure, Series, Table};
+use super::{ExperimentOptions, Progress, step};
+use crate::adjust::adjust;
+use crate::adjustment::{AdjustOptions, StatisticsChoice};
+use crate::error::{Error, Place, Result};
+use crate::network::{Network, Source, simulate};
+use crate::project::Role;
+use networks::{Case, DISTANCES, network};
+
+/// Standard errors of one network.
+struct Outcome {
+    case: Case,
+    observations: usize,
+    unknowns: usize,
+    q: [f64; 3],
+    sigma0: f64,
+}
+
+impl Outcome {
+    fn m0(&self) -> f64 {
+        self.q.iter().sum::<f64>() / 3.0
+    }
+
+    fn s(&self) -> [f64; 3] {
+        self.q.map(|q| q * self.sigma0)
+    }
+
+    fn ms(&self) -> f64 {
+        self.m0() * self.sigma0
+    }
+}
+
+/// The network opened when none is named.
+const DEFAULT: &str = "1.4-5A";
+/// Rounds of Monte Carlo: enough for 3 % of a standard deviation averaged over twelve points.
+const ROUNDS: usize = 800;
+
+pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment> {
+    let cases: Vec<Case> = networks::single().into_iter().chain(networks::mixed()).collect();
+    let rounds = options.rounds.unwrap_or(ROUNDS);
+    let steps = cases.len() + rounds / 50 + 5;
+    let mut outcomes = Vec::new();
+    for case in cases {
+        step(progress, outcomes.len(), steps)?;
+        outcomes.push(solve(case, options)?);
+    }
+    let (single, mixed) = outcomes.split_at(networks::single().len());
+
+    let name = options.network.as_deref().unwrap_or(DEFAULT);
+    let unknown = || Error::Unknown { kind: "network".into(), name: name.into(), at: Place::field("network") };
+    let opened = outcomes.iter().find(|o| o.case.name() == name).ok_or_else(unknown)?;
+
+    let (scatter, predicted) = monte_carlo(opened, options, rounds, &mut |done| {
+        step(progress, single.len() + mixed.len() + done / 50, steps)
+    })?;
+    let pairwise = pairwise::compare(options, &mut |done| step(progress, steps - 5 + done, steps))?;
+
+    let mut figures = figures(single);
+    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        figures.push(Figure::new(
+            format!("monte_carlo_over_s/{axis}"),
+            "%",
+            100.0 * (scatter[k] / predicted[k] - 1.0),
+            None,
+        ));
+    }
+    let mut charts = charts(single, mixed);
+    let mut tables = vec![networks_table("single", single), networks_table("mixed", mixed)];
+    tables.push(improvement_table(single));
+    tables.push(pairwise.table);
+    charts.push(pairwise.chart);
+    let drawn = network(&networks::everything(), options);
+    Ok(Experiment {
+        name: "kang".into(),
+        drawings: vec![Drawing::of("all", &drawn), Drawing::of(name, &network(&opened.case, options))],
+        figures,
+        tables,
+        charts,
+        project: simulate(&network(&opened.case, options))?,
+    })
+}
+
+/// √q from the exact geometry, S0 from one draw.
+fn solve(case: Case, options: &ExperimentOptions) -> Result<Outcome> {
+    let network = network(&case, options);
+    let exact = simulate(&Network { observations: Source::Exact, ..network.clone() })?;
+    let choice = |statistics| AdjustOptions { statistics, ..AdjustOptions::default() };
+    let planned = adjust(&exact, &choice(StatisticsChoice::Precision), &mut |_| true)?;
+    let q = planned.precision.as_ref().map_or([f64::NAN; 3], |p| p.mean_q);
+    let project = simulate(&network)?;
+    let adjustment = adjust(&project, &choice(StatisticsChoice::None), &mut |_| true)?;
+    Ok(Outcome {
+        // The paper counts image coordinates only; the weighted control adds nine more here.
+        observations: 2 * project.observations.len(),
+        unknowns: adjustment.unknowns,
+        sigma0: adjustment.sigma0.unwrap_or(f64::NAN),
+        q,
+        case,
+    })
+}
+
+/// Mean over the points of the scatter of coordinates about the truth, per axis, and of the predicted standard errors.
+fn monte_carlo(
+    outcome: &Outcome,
+    options: &ExperimentOptions,
+    rounds: usize,
+    report: &mut dyn FnMut(usize) -> Result<()>,
+) -> Result<([f64; 3], [f64; 3])> {
+    let mut network = network(&outcome.case, options);
+    let ties: Vec<_> = network.points.iter().filter(|p| p.role == Role::Tie).cloned().collect();
+    let mut squares = vec![[0.0; 3]; ties.len()];
+    let choice = AdjustOptions { statistics: StatisticsChoice::None, ..AdjustOptions::default() };
+    for round in 0..rounds {
+        report(round)?;
+        network.seed = options.seed.wrapping_add(1000 + round as u64);
+        let adjustment = adjust(&simulate(&network)?, &choice, &mut |_| true)?;
+        for (point, sum) in ties.iter().zip(&mut squares) {
+            let Some(found) = adjustment.points.iter().find(|p| p.id == point.id) else { continue };
+            (0..3).for_each(|k| sum[k] += (found.xyz[k] - point.xyz[k]).powi(2) / rounds as f64);
+        }
+    }
+    let mean = |k: usize| squares.iter().map(|s| s[k].sqrt()).sum::<f64>() / ties.len() as f64;
+    // With the true noise equal to the a priori sigma, S0 is 1 and S is Q.
+    Ok(([0, 1, 2].map(mean), outcome.q))
+}
+
+fn find(single: &[Outcome], distance: f64, photos: usize, kind: char) -> Option<&Outcome> {
+    single
+        .iter()
+        .find(|o| o.case.distance == Some(distance) && o.case.photos.len() == photos && o.case.kind == kind.to_string())
+}
+
+/// How many percent smaller `b` is than `a`.
+fn fall(a: f64, b: f64) -> f64 {
+    100.0 * (1.0 - b / a)
+}
+
+/// M0 of a network against two photos of its distance and type; for two photos against B/D 0.2.
+fn improvement(single: &[Outcome], outcome: &Outcome) -> Option<f64> {
+    let distance = outcome.case.distance?;
+    let kind = outcome.case.kind.chars().next()?;
+    let base = match outcome.case.photos.len() {
+        2 => find(single, distance, 2, 'A')?,
+        _ => find(single, distance, 2, kind)?,
+    };
+    Some(fall(base.m0(), outcome.m0()))
+}
+
+fn figures(single: &[Outcome]) -> Vec<Figure> {
+    let mut list = Vec::new();
+    let mut add = |id: &str,
+                   from: (f64, usize, char),
+                   to: (f64, usize, char),
+                   axis: Option<usize>,
+                   paper,
+                   independent: Option<f64>| {
+        let (Some(a), Some(b)) = (find(single, from.0, from.1, from.2), find(single, to.0, to.1, to.2)) else { return };
+        let value = |o: &Outcome| axis.map_or(o.m0(), |k| o.q[k]);
+        let figure = Figure::new(id, "%", fall(value(a), value(b)), paper);
+        list.push(match independent {
+            Some(value) => figure.independent(value),
+            None => figure,
+        });
+    };
+    add("base_0.3/1.4", (1.4, 2, 'A'), (1.4, 2, 'B'), None, Some(27.0), Some(25.6));
+    add("base_0.4/1.4", (1.4, 2, 'A'), (1.4, 2, 'C'), None, Some(41.0), Some(38.8));
+    let axes = ["qx", "qy", "qz"];
+    let printed = [('A', [39.5, 45.1, 44.0]), ('B', [35.7, 36.9, 36.3]), ('C', [31.1, 23.9, 27.2])];
+    for (kind, paper) in printed {
+        for k in 0..3 {
+            let independent = (kind == 'A').then(|| [38.2, 44.8, 42.8][k]);
+            let id = format!("{}/1.4-5{kind}", axes[k]);
+            add(&id, (1.4, 2, kind), (1.4, 5, kind), Some(k), Some(paper[k]), independent);
+        }
+    }
+    let printed = [
+        ('A', [Some(13.5), Some(45.6), Some(49.7)], [Some(10.3), Some(43.1), Some(47.4)]),
+        ('B', [Some(14.9), None, Some(43.8)], [None; 3]),
+        ('C', [Some(22.5), None, Some(36.0)], [None; 3]),
+    ];
+    for (kind, paper, independent) in printed {
+        for k in 0..3 {
+            let photos = k + 3;
+            let id = format!("m0/2.5-{photos}{kind}");
+            add(&id, (2.5, 2, kind), (2.5, photos, kind), None, paper[k], independent[k]);
+        }
+    }
+    // Least and greatest fall over types with five photos: the paper gives ranges.
+    for (distance, least, greatest) in [(1.4, 25.9, 44.1), (1.8, 28.0, 44.3)] {
+        let falls: Vec<f64> =
+            "ABC".chars().filter_map(|kind| improvement(single, find(single, distance, 5, kind)?)).collect();
+        let low = falls.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = falls.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        list.push(Figure::new(format!("m0_least/{distance}-5"), "%", low, least));
+        list.push(Figure::new(format!("m0_greatest/{distance}-5"), "%", high, greatest));
+    }
+    for (photos, paper) in [(3, 15.0), (4, 35.0), (5, 50.0)] {
+        let of_count = single.iter().filter(|o| o.case.photos.len() == photos);
+        let falls: Vec<f64> = of_count.filter_map(|o| improvement(single, o)).collect();
+        let mean = falls.iter().sum::<f64>() / falls.len().max(1) as f64;
+        list.push(Figure::new(format!("m0_mean/{photos}"), "%", mean, paper));
+    }
+    for (photos, m, n) in [(2, 60.0, 57.0), (3, 90.0, 63.0), (4, 120.0, 69.0), (5, 150.0, 75.0)] {
+        let Some(outcome) = find(single, 1.4, photos, 'A') else { continue };
+        list.push(Figure::new(format!("observations/{photos}"), "", outcome.observations as f64, m));
+        list.push(Figure::new(format!("unknowns/{photos}"), "", outcome.unknowns as f64, n));
+    }
+    list
+}
+
+fn networks_table(id: &str, outcomes: &[Outcome]) -> Table {
+    let mut table = Table::new(
+        id,
+        &[
+            "network",
+            "photos",
+            "m",
+            "n",
+            "qx|mm|4",
+            "qy|mm|4",
+            "qz|mm|4",
+            "m0|mm|4",
+            "s0||3",
+            "sx|mm|4",
+            "sy|mm|4",
+            "sz|mm|4",
+            "ms|mm|4",
+            "improvement|%|1",
+        ],
+    );
+    for o in outcomes {
+        let mut row: Vec<Cell> = vec![o.case.name().as_str().into(), o.case.photos.join(" ").as_str().into()];
+        row.extend([o.observations, o.unknowns].map(Cell::from));
+        row.extend(o.q.map(Cell::from));
+        row.extend([o.m0(), o.sigma0].map(Cell::from));
+        row.extend(o.s().map(Cell::from));
+        row.extend([Cell::from(o.ms()), improvement(outcomes, o).into()]);
+        table.rows.push(row);
+    }
+    table
+}
+
+/// Falls of M0 and Ms with the number of photos, per distance and type.
+fn improvement_table(single: &[Outcome]) -> Table {
+    let mut table =
+        Table::new("improvement", &["distance|m|1", "type", "photos", "m0|%|1", "*m0|%|1", "ms|%|1", "*ms|%|1"]);
+    let printed = [((2.5, 'A'), [[13.5, 13.8], [45.6, 52.9], [49.7, 54.1]])];
+    for distance in DISTANCES {
+        for kind in ['A', 'B', 'C'] {
+            for photos in 3..=5 {
+                let (Some(base), Some(o)) = (find(single, distance, 2, kind), find(single, distance, photos, kind))
+                else {
+                    continue;
+                };
+                let paper =
+                    printed.iter().find(|(case, _)| *case == (distance, kind)).map(|(_, list)| list[photos - 3]);
+                table.rows.push(vec![
+                    distance.into(),
+                    kind.to_string().as_str().into(),
+                    photos.into(),
+                    fall(base.m0(), o.m0()).into(),
+                    paper.map(|p| p[0]).into(),
+                    fall(base.ms(), o.ms()).into(),
+                    paper.map(|p| p[1]).into(),
+                ]);
+            }
+        }
+    }
+    table
+}
+
+/// The paper's figures 4-1 to 4-4 (standard errors over overlap and distance), 4-6 to 4-9 (improvement over the number
+/// of photos) and 4-10 (mixed distances).
+fn charts(single: &[Outcome], mixed: &[Outcome]) -> Vec<Chart> {
+    let mut charts = Vec::new();
+    for photos in 2..=5 {
+        let mut series = Vec::new();
+        for distance in DISTANCES {
+            for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+                let line = |value: &dyn Fn(&Outcome) -> f64| {
+                    let at =
+                        |(i, kind): (usize, char)| find(single, distance, photos, kind).map(|o| [i as f64, value(o)]);
+                    ['A', 'B', 'C'].into_iter().enumerate().filter_map(at).collect()
+                };
+                series.push(Series::new(format!("q{axis}/{distance}"), line(&|o| o.q[k])));
+                series.push(Series::new(format!("s{axis}/{distance}"), line(&|o| o.s()[k])));
+            }
+        }
+        charts.push(Chart::new(format!("errors/{photos}"), "type", "standard_error|mm", series));
+    }
+    for distance in DISTANCES {
+        let line = |kind: char, value: fn(&Outcome) -> f64| {
+            let base = find(single, distance, 2, kind).map(value).unwrap_or(f64::NAN);
+            let at =
+                |photos: usize| find(single, distance, photos, kind).map(|o| [photos as f64, fall(base, value(o))]);
+            (2..=5).filter_map(at).filter(|p| p[1].is_finite()).collect::<Vec<_>>()
+        };
+        let mut series = Vec::new();
+        for kind in ['A', 'B', 'C'] {
+            series.push(Series::new(format!("m0/{kind}"), line(kind, Outcome::m0)));
+            series.push(Series::new(format!("ms/{kind}"), line(kind, Outcome::ms)));
+        }
+        if distance == 2.5 {
+            let points = vec![[3.0, 13.5], [4.0, 45.6], [5.0, 49.7]];
+            series.push(Series { paper: true, ..Series::new("m0/A", points) });
+        }
+        charts.push(Chart::new(format!("improvement/{distance}"), "photos", "improvement|%", series));
+    }
+    let series = ["x", "y", "z"].into_iter().enumerate().map(|(k, axis)| {
+        let points = mixed.iter().enumerate().map(|(i, o)| [i as f64, o.q[k]]).collect();
+        Series::new(format!("q{axis}"), points)
+    });
+    charts.push(Chart::new("mixed", "network", "standard_error|mm", series.collect()));
+    charts
+}
+
+/// The network of five photos at 1.4 m, type A.
+pub fn default_network(options: &ExperimentOptions) -> Network {
+    let cases = networks::single();
+    let case = cases.iter().find(|case| case.name() == DEFAULT).unwrap_or(&cases[0]);
+    network(case, options)
+}

@@ -1,0 +1,247 @@
+//! Lee (1996), chapter 5: a wall in convergent and normal photos, with control and as a free network.
+//!
+//! Thirty-eight targets on a wall of 6.32 x 3.45 m, a DCS420, 3 µm in the image, four control points of 0.01 mm. Network I
+//! has six convergent photos from three stations (roll 0° and 90°), II five normal ones along the base and two
+//! convergent ones at its ends, III all thirteen. At the 5.5 m that the paper names, this camera sees 3.7 x 2.5 m of the
+//! wall; here the base line is 8.5 m away, so that the upright ones hold the whole wall and the rolled ones most of it.
+//! The additional parameters are observed with the standard errors of the first experiment's calibration. The standard errors are √q, those of S0 = 1, over the targets that are not control, the same in both datums.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::outcome::{Cell, Chart, Drawing, Experiment, Figure, Series, Table};
+use super::{ExperimentOptions, Progress, lee_calibration, step};
+use crate::adjust::adjust;
+use crate::adjustment::{AdjustOptions, StatisticsChoice};
+use crate::error::{Error, Place, Result};
+use crate::network::{Network, NetworkPoint, Station, simulate};
+use crate::project::{Datum, DatumKind, Parameter, Project, Role, Sigma};
+
+const NETWORKS: [&str; 3] = ["I", "II", "III"];
+/// Standard errors X, Y, Z in mm that the paper gives, with control and free.
+const PAPER: [[[f64; 3]; 2]; 3] = [
+    [[0.388, 0.534, 0.308], [0.273, 0.367, 0.225]],
+    [[0.422, 1.519, 0.386], [0.274, 0.956, 0.253]],
+    [[0.259, 0.489, 0.234], [0.206, 0.374, 0.184]],
+];
+/// N of 1 : N, with control and free.
+const PAPER_RELATIVE: [[f64; 2]; 3] = [[13_000.0, 18_700.0], [7_000.0, 11_100.0], [16_500.0, 21_100.0]];
+/// Width and height of the wall, mm.
+const WALL: [f64; 2] = [6320.0, 3450.0];
+/// Distance of the base line from the wall, mm.
+const DISTANCE: f64 = 8500.0;
+/// Standard errors of the additional parameters as the calibration of the first experiment leaves them; a wall without
+/// depth determines them no better by itself.
+const CALIBRATED: [(Parameter, f64); 8] = [
+    (Parameter::C, 0.002),
+    (Parameter::X0, 0.002),
+    (Parameter::Y0, 0.002),
+    (Parameter::K1, 2e-6),
+    (Parameter::K2, 4e-8),
+    (Parameter::K3, 3e-10),
+    (Parameter::P1, 2e-6),
+    (Parameter::P2, 2e-6),
+];
+const DATUMS: [(&str, DatumKind); 2] = [("control", DatumKind::Control), ("free", DatumKind::Free)];
+
+/// What one adjustment says.
+struct Outcome {
+    errors: [f64; 3],
+    equations: usize,
+    unknowns: usize,
+    sigma0: f64,
+    relative: f64,
+}
+
+pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment> {
+    let mut outcomes = Vec::new();
+    let mut opened = None;
+    let wanted = options.network.as_deref().unwrap_or("I-free");
+    for name in NETWORKS {
+        let network = network(name, options);
+        let project = simulate(&network)?;
+        for (label, kind) in DATUMS {
+            step(progress, outcomes.len(), 2 * NETWORKS.len())?;
+            let project = with_datum(&project, kind);
+            outcomes.push(solve(&project)?);
+            if wanted == format!("{name}-{label}") {
+                opened = Some(project);
+            }
+        }
+    }
+    let unknown = || Error::Unknown { kind: "network".into(), name: wanted.into(), at: Place::field("network") };
+    let (errors, gains) = tables(&outcomes);
+    Ok(Experiment {
+        name: "lee-structure".into(),
+        drawings: NETWORKS.iter().map(|name| Drawing::of(*name, &network(name, options))).collect(),
+        figures: figures(&outcomes),
+        tables: vec![errors, gains],
+        charts: vec![chart(&outcomes)],
+        project: opened.ok_or_else(unknown)?,
+    })
+}
+
+/// A network of the wall.
+fn network(name: &str, options: &ExperimentOptions) -> Network {
+    let mut camera = lee_calibration::dcs420();
+    camera.sigma = CALIBRATED.into_iter().collect();
+    let sigma_mm = options.image_sigma_um.unwrap_or(3.0) / 1000.0;
+    let sigma = Sigma::One(sigma_mm / camera.pitch()[0]);
+    let mut stations = Vec::new();
+    if name != "II" {
+        for (k, x) in [-7500.0, 0.0, 7500.0].into_iter().enumerate() {
+            let position = [x, -DISTANCE, if k == 1 { 900.0 } else { 0.0 }];
+            for (turn, roll) in [("a", 0.0), ("b", FRAC_PI_2)] {
+                stations.push(Station::aimed(format!("{}{turn}", k + 1), &camera.id, position, [0.0; 3], roll));
+            }
+        }
+    }
+    if name != "I" {
+        for k in 0..5 {
+            let x = f64::from(k - 2) * 800.0;
+            let aim = [x, 0.0, 0.0];
+            stations.push(Station::aimed(format!("n{}", k + 1), &camera.id, [x, -DISTANCE, 0.0], aim, 0.0));
+        }
+        for (k, x) in [-3600.0, 3600.0].into_iter().enumerate() {
+            stations.push(Station::aimed(format!("c{}", k + 1), &camera.id, [x, -DISTANCE, 0.0], [0.0; 3], 0.0));
+        }
+    }
+    Network {
+        name: format!("Lee 1996, {name}"),
+        cameras: vec![camera],
+        stations,
+        points: points(options),
+        datum: Datum { kind: DatumKind::Control, points: None },
+        sigma,
+        seed: options.seed,
+        ..Network::default()
+    }
+}
+
+/// Rows of 8, 7, 8, 7, 8 targets; four of the outer ones are control.
+fn points(options: &ExperimentOptions) -> Vec<NetworkPoint> {
+    let sigma = options.control_sigma_mm.unwrap_or(0.01);
+    let mut points = Vec::new();
+    for row in 0..5 {
+        let count = if row % 2 == 0 { 8 } else { 7 };
+        for column in 0..count {
+            let x = (f64::from(column) - f64::from(count - 1) / 2.0) * WALL[0] / 7.0;
+            let z = (f64::from(row) / 4.0 - 0.5) * WALL[1];
+            // A structure is not a plane: pillars and recesses of some centimetres.
+            let y = if (column + row) % 3 == 0 { -60.0 } else { 0.0 };
+            let control = (row == 0 || row == 4) && (column == 1 || column == 6);
+            points.push(NetworkPoint {
+                id: (points.len() + 1).to_string(),
+                role: if control { Role::Control } else { Role::Tie },
+                xyz: [x, y, z],
+                sigma: control.then_some([Some(sigma); 3]),
+                ..NetworkPoint::default()
+            });
+        }
+    }
+    points
+}
+
+fn with_datum(project: &Project, kind: DatumKind) -> Project {
+    let mut project = project.clone();
+    project.datum.kind = kind;
+    project.name.push_str(if kind == DatumKind::Free { ", free" } else { ", control" });
+    project
+}
+
+fn solve(project: &Project) -> Result<Outcome> {
+    let choice = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
+    let adjustment = adjust(project, &choice, &mut |_| true)?;
+    let sigma0 = adjustment.sigma0.unwrap_or(f64::NAN);
+    let ties: Vec<_> = project.points.iter().filter(|p| p.role == Role::Tie).map(|p| &p.id).collect();
+    let sigmas: Vec<_> = adjustment.points.iter().filter(|p| ties.contains(&&p.id)).filter_map(|p| p.sigma).collect();
+    let mean = |k: usize| sigmas.iter().map(|s| s[k] / sigma0).sum::<f64>() / sigmas.len().max(1) as f64;
+    let errors = [0, 1, 2].map(mean);
+    let size = adjustment.precision.as_ref().map_or(f64::NAN, |p| p.largest_dimension);
+    Ok(Outcome {
+        errors,
+        equations: adjustment.observations_count,
+        unknowns: adjustment.unknowns,
+        sigma0,
+        relative: size / (errors.iter().sum::<f64>() / 3.0),
+    })
+}
+
+/// How many percent the free network is better than control, per axis.
+fn gain(outcomes: &[Outcome], network: usize) -> [f64; 3] {
+    let [control, free] = [&outcomes[2 * network].errors, &outcomes[2 * network + 1].errors];
+    [0, 1, 2].map(|k| 100.0 * (1.0 - free[k] / control[k]))
+}
+
+fn paper_gain(network: usize) -> [f64; 3] {
+    [[29.6, 31.3, 17.2], [35.1, 37.1, 34.5], [20.5, 23.5, 21.4]][network]
+}
+
+fn tables(outcomes: &[Outcome]) -> (Table, Table) {
+    let mut errors = Table::new(
+        "standard_errors",
+        &[
+            "network",
+            "datum",
+            "equations",
+            "unknowns",
+            "sx|mm|3",
+            "*sx|mm|3",
+            "sy|mm|3",
+            "*sy|mm|3",
+            "sz|mm|3",
+            "*sz|mm|3",
+            "relative|1 : N",
+            "*relative|1 : N",
+            "sigma0||2",
+        ],
+    );
+    let mut gains = Table::new("free_gain", &["network", "x|%|1", "*x|%|1", "y|%|1", "*y|%|1", "z|%|1", "*z|%|1"]);
+    for (i, name) in NETWORKS.into_iter().enumerate() {
+        for (d, (label, _)) in DATUMS.into_iter().enumerate() {
+            let o = &outcomes[2 * i + d];
+            let mut row: Vec<Cell> = vec![name.into(), label.into(), o.equations.into(), o.unknowns.into()];
+            (0..3).for_each(|k| row.extend([Cell::from(o.errors[k]), PAPER[i][d][k].into()]));
+            row.extend([Cell::from(o.relative), PAPER_RELATIVE[i][d].into(), o.sigma0.into()]);
+            errors.rows.push(row);
+        }
+        let mut row: Vec<Cell> = vec![name.into()];
+        (0..3).for_each(|k| row.extend([Cell::from(gain(outcomes, i)[k]), paper_gain(i)[k].into()]));
+        gains.rows.push(row);
+    }
+    (errors, gains)
+}
+
+fn figures(outcomes: &[Outcome]) -> Vec<Figure> {
+    let axes = ["x", "y", "z"];
+    let mut list = Vec::new();
+    for (i, name) in NETWORKS.into_iter().enumerate() {
+        for (d, (label, _)) in DATUMS.into_iter().enumerate() {
+            for k in 0..3 {
+                let ours = outcomes[2 * i + d].errors[k];
+                list.push(Figure::new(format!("s{}/{name}-{label}", axes[k]), "mm", ours, PAPER[i][d][k]));
+            }
+            let relative = outcomes[2 * i + d].relative;
+            list.push(Figure::new(format!("relative/{name}-{label}"), "1 : N", relative, PAPER_RELATIVE[i][d]));
+        }
+        for k in 0..3 {
+            list.push(Figure::new(format!("gain_{}/{name}", axes[k]), "%", gain(outcomes, i)[k], paper_gain(i)[k]));
+        }
+    }
+    list.push(Figure::new("equations/I", "", outcomes[0].equations as f64, 374.0));
+    list.push(Figure::new("unknowns/I", "", outcomes[0].unknowns as f64, 165.0));
+    list
+}
+
+/// The paper's figure 8.
+fn chart(outcomes: &[Outcome]) -> Chart {
+    let mut series = Vec::new();
+    for (d, (label, _)) in DATUMS.into_iter().enumerate() {
+        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            let ours = (0..3).map(|i| [i as f64, outcomes[2 * i + d].errors[k]]).collect();
+            let paper = (0..3).map(|i| [i as f64, PAPER[i][d][k]]).collect();
+            series.push(Series::new(format!("s{axis}/{label}"), ours));
+            series.push(Series { paper: true, ..Series::new(format!("s{axis}/{label}"), paper) });
+        }
+    }
+    Chart::new("standard_errors", "network", "standard_error|mm", series)
+}

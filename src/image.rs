@@ -1,0 +1,215 @@
+//! Grey pictures of 8 or 16 bits, owned or borrowed, row by row from the top left.
+
+use crate::error::{Error, Place, Result};
+
+/// Samples of a grey picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Samples {
+    /// 8 bits.
+    U8(Vec<u8>),
+    /// 16 bits.
+    U16(Vec<u16>),
+}
+
+/// An owned grey picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Grey {
+    /// Width in pixels.
+    pub width: usize,
+    /// Height in pixels.
+    pub height: usize,
+    /// Row by row.
+    pub samples: Samples,
+}
+
+/// Borrowed samples.
+#[derive(Clone, Copy, Debug)]
+pub enum SamplesView<'a> {
+    /// 8 bits.
+    U8(&'a [u8]),
+    /// 16 bits.
+    U16(&'a [u16]),
+}
+
+/// A borrowed grey picture; its length is known to be width times height, and neither is 0.
+#[derive(Clone, Copy, Debug)]
+pub struct GreyView<'a> {
+    width: usize,
+    height: usize,
+    samples: SamplesView<'a>,
+}
+
+impl<'a> GreyView<'a> {
+    /// Borrows samples.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] unless there are exactly width times height samples, at least one.
+    pub fn new(width: usize, height: usize, samples: SamplesView<'a>) -> Result<Self> {
+        let count = match samples {
+            SamplesView::U8(s) => s.len(),
+            SamplesView::U16(s) => s.len(),
+        };
+        if width == 0 || height == 0 || width.checked_mul(height) != Some(count) {
+            return Err(Error::Invalid {
+                detail: format!("{count} samples are no picture of {width} x {height} pixels"),
+                at: Place::field("samples"),
+            });
+        }
+        Ok(Self { width, height, samples })
+    }
+
+    /// Width in pixels.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Height in pixels.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// The samples.
+    pub fn samples(&self) -> SamplesView<'a> {
+        self.samples
+    }
+
+    /// Bits of a sample, 8 or 16.
+    pub fn bits(&self) -> u32 {
+        match self.samples {
+            SamplesView::U8(_) => 8,
+            SamplesView::U16(_) => 16,
+        }
+    }
+}
+
+/// A kind of sample the algorithms are written for once.
+pub(crate) trait Sample: Copy + Ord + Default {
+    /// Largest value.
+    const MAX: u32;
+    /// Grey level as a number.
+    fn level(self) -> u32;
+    /// Grey level from a number that fits.
+    fn of(level: u32) -> Self;
+    /// Absolute difference.
+    fn distance(self, other: Self) -> Self;
+}
+
+impl Sample for u8 {
+    const MAX: u32 = 255;
+    #[inline(always)]
+    fn level(self) -> u32 {
+        u32::from(self)
+    }
+    #[inline(always)]
+    fn of(level: u32) -> Self {
+        level as u8
+    }
+    #[inline(always)]
+    fn distance(self, other: Self) -> Self {
+        self.abs_diff(other)
+    }
+}
+
+impl Sample for u16 {
+    const MAX: u32 = 65535;
+    #[inline(always)]
+    fn level(self) -> u32 {
+        u32::from(self)
+    }
+    #[inline(always)]
+    fn of(level: u32) -> Self {
+        level as u16
+    }
+    #[inline(always)]
+    fn distance(self, other: Self) -> Self {
+        self.abs_diff(other)
+    }
+}
+
+/// A borrowed picture of one kind of sample, for the algorithms.
+#[derive(Clone, Copy)]
+pub(crate) struct Plane<'a, T> {
+    pub width: usize,
+    pub height: usize,
+    samples: &'a [T],
+}
+
+impl<'a, T: Sample> Plane<'a, T> {
+    /// The samples are as many as the size says: a [`GreyView`] has checked it.
+    pub fn new(width: usize, height: usize, samples: &'a [T]) -> Self {
+        debug_assert_eq!(width * height, samples.len());
+        Self { width, height, samples }
+    }
+
+    /// One row.
+    #[inline]
+    pub fn row(&self, y: usize) -> &'a [T] {
+        &self.samples[y * self.width..(y + 1) * self.width]
+    }
+
+    /// Whether the point keeps a distance of `margin` pixels from the border.
+    #[inline]
+    pub fn holds(&self, u: f64, v: f64, margin: f64) -> bool {
+        u >= margin && v >= margin && u <= self.width as f64 - margin && v <= self.height as f64 - margin
+    }
+
+    /// Level of the pixel at pixel coordinates, clamped to the picture.
+    #[inline]
+    pub fn nearest(&self, u: f64, v: f64) -> f32 {
+        let (x, y) = ((u.max(0.0) as usize).min(self.width - 1), (v.max(0.0) as usize).min(self.height - 1));
+        self.row(y)[x].level() as f32
+    }
+
+    /// Bilinear sample at pixel coordinates (first pixel's centre 0.5, 0.5), clamped to the picture.
+    #[inline]
+    pub fn sample(&self, u: f32, v: f32) -> f32 {
+        let x = (u - 0.5).clamp(0.0, (self.width - 1) as f32);
+        let y = (v - 0.5).clamp(0.0, (self.height - 1) as f32);
+        let (x0, y0) = (x as usize, y as usize);
+        let (x1, y1) = ((x0 + 1).min(self.width - 1), (y0 + 1).min(self.height - 1));
+        let (fx, fy) = (x - x0 as f32, y - y0 as f32);
+        let (upper, lower) = (self.row(y0), self.row(y1));
+        let top = upper[x0].level() as f32 * (1.0 - fx) + upper[x1].level() as f32 * fx;
+        let bottom = lower[x0].level() as f32 * (1.0 - fx) + lower[x1].level() as f32 * fx;
+        top * (1.0 - fy) + bottom * fy
+    }
+}
+
+impl Grey {
+    /// Borrows the picture.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] when the number of samples does not fit the size.
+    pub fn view(&self) -> Result<GreyView<'_>> {
+        let samples = match &self.samples {
+            Samples::U8(s) => SamplesView::U8(s),
+            Samples::U16(s) => SamplesView::U16(s),
+        };
+        GreyView::new(self.width, self.height, samples)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    #[test]
+    fn a_pixel_centre_samples_its_own_level_and_the_border_is_continued() {
+        let plane = Plane::new(3, 2, &[10u8, 20, 40, 50, 60, 80]);
+        assert_eq!(plane.sample(1.5, 0.5), 20.0);
+        assert_eq!(plane.sample(2.0, 1.0), (20.0 + 40.0 + 60.0 + 80.0) / 4.0);
+        assert_eq!(plane.sample(-5.0, -5.0), 10.0);
+        assert_eq!(plane.sample(9.0, 9.0), 80.0);
+    }
+
+    #[test]
+    fn a_view_wants_exactly_its_samples() {
+        assert!(GreyView::new(2, 2, SamplesView::U8(&[0; 3])).is_err());
+        assert!(GreyView::new(0, 2, SamplesView::U8(&[])).is_err());
+        assert!(GreyView::new(usize::MAX, 2, SamplesView::U8(&[0; 4])).is_err());
+        assert!(GreyView::new(2, 2, SamplesView::U16(&[0; 4])).is_ok());
+    }
+}

@@ -1,0 +1,259 @@
+//! Space resection with known interior orientation, from three or more points.
+//!
+//! Every solution of three-point samples is tried on all points; the residuals decide, and each solution kept is the
+//! least-squares one.
+
+use nalgebra::Vector3;
+
+use super::homography::of_plane;
+use super::p3p::p3p;
+use super::robust::{generator, quantile, sample, scale};
+use super::{Degeneracy, Pose, Spread};
+
+/// A pose from known points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resection {
+    /// The photo's exterior orientation.
+    pub pose: Pose,
+    /// Projection minus measurement in ideal coordinates.
+    pub residuals: Vec<[f64; 2]>,
+    /// √(Σv²/(2n - 6)) in ideal coordinates; times c it is in photo units. None for three points.
+    pub sigma0: Option<f64>,
+    /// Whether each point took part; all of them in [`space_resection`].
+    pub inliers: Vec<bool>,
+}
+
+impl Resection {
+    fn new(pose: Pose, object: &[Vector3<f64>], image: &[[f64; 2]], inliers: Vec<bool>) -> Self {
+        let residuals: Vec<[f64; 2]> =
+            object.iter().zip(image).map(|(p, &m)| pose.residual(p, m).map_or([0.0; 2], |r| [r.x, r.y])).collect();
+        let taken = || residuals.iter().zip(&inliers).filter(|(_, taken)| **taken);
+        let squares: f64 = taken().map(|(v, _)| v[0] * v[0] + v[1] * v[1]).sum();
+        let redundancy = (2 * taken().count()).saturating_sub(6);
+        let sigma0 = (redundancy > 0).then(|| (squares / redundancy as f64).sqrt());
+        Self { pose, residuals, sigma0, inliers }
+    }
+
+    /// Sum of the squared residuals of the points that took part.
+    pub fn squares(&self) -> f64 {
+        self.residuals.iter().zip(&self.inliers).filter(|(_, t)| **t).map(|(v, _)| v[0] * v[0] + v[1] * v[1]).sum()
+    }
+}
+
+/// All poses of least squared residuals, best first: up to four for three points, more than one for four or more
+/// only where the geometry is ambiguous (plane or weak figures). Image in ideal coordinates.
+///
+/// # Errors
+/// [`Degeneracy::TooFew`] below three points, [`Degeneracy::Collinear`], [`Degeneracy::NoSolution`] when no pose has
+/// all points in front.
+pub fn space_resection(object: &[Vector3<f64>], image: &[[f64; 2]]) -> Result<Vec<Resection>, Degeneracy> {
+    let (object, image) = checked(object, image)?;
+    let n = object.len();
+    let mut poses: Vec<Pose> = Vec::new();
+    for triple in wide_triples(object, if n <= 5 { 10 } else { 6 }) {
+        for pose in p3p(&triple.map(|k| object[k]), &triple.map(|k| image[k])) {
+            poses.extend(if n == 3 { Some(pose) } else { pose.refined(object, image) });
+        }
+    }
+    if n > 3 {
+        let plane = of_plane(object, image).and_then(|h| h.pose());
+        poses.extend(plane.ok().and_then(|pose| pose.refined(object, image)));
+    }
+    let distinct = distinct_by_cost(poses, object, image);
+    if distinct.is_empty() {
+        return Err(Degeneracy::NoSolution);
+    }
+    Ok(distinct.into_iter().map(|pose| Resection::new(pose, object, image, vec![true; n])).collect())
+}
+
+/// The pose that most points agree with: least median of the residuals over three-point samples, then least squares
+/// of all points within `factor` robust standard deviations, but never stricter than `tolerance` (ideal coordinates).
+///
+/// # Errors
+/// As [`space_resection`]; `TooFew` below four points, since three always agree.
+pub fn robust_resection(
+    object: &[Vector3<f64>],
+    image: &[[f64; 2]],
+    tolerance: f64,
+    seed: u64,
+) -> Result<Resection, Degeneracy> {
+    let (object, image) = checked(object, image)?;
+    let n = object.len();
+    if n < 4 {
+        return Err(Degeneracy::TooFew { needed: 4, given: n });
+    }
+    let misfits = |pose: &Pose| -> Vec<f64> { object.iter().zip(image).map(|(p, &m)| pose.misfit(p, m)).collect() };
+    // A little more than the median, so that the sample's own exact fit to three points of four or five does not win.
+    let share = if n < 8 { 0.75 } else { 0.6 };
+    let score = |pose: &Pose| quantile(&misfits(pose), share);
+    let mut best: Option<(f64, Pose)> = None;
+    let mut consider = |pose: Pose| {
+        let value = score(&pose);
+        if value.is_finite() && best.is_none_or(|(least, _)| value < least) {
+            best = Some((value, pose));
+        }
+    };
+    if let Ok(all) = space_resection(object, image) {
+        all.iter().for_each(|r| consider(r.pose));
+    }
+    let mut random = generator(seed);
+    for _ in 0..if n < 8 { 30 } else { 80 } {
+        let triple: [usize; 3] = sample(&mut random, n);
+        p3p(&triple.map(|k| object[k]), &triple.map(|k| image[k])).into_iter().for_each(&mut consider);
+    }
+    let (_, mut pose) = best.ok_or(Degeneracy::NoSolution)?;
+    let mut inliers = vec![true; n];
+    for _ in 0..4 {
+        let lengths = misfits(&pose);
+        let limit = (3.5 * scale(&lengths, 6)).max(tolerance);
+        let now: Vec<bool> = lengths.iter().map(|length| *length <= limit).collect();
+        let pick: Vec<usize> = (0..n).filter(|&k| now[k]).collect();
+        if pick.len() < 4 {
+            return Err(Degeneracy::NoSolution);
+        }
+        let (some_object, some_image): (Vec<_>, Vec<_>) = pick.iter().map(|&k| (object[k], image[k])).unzip();
+        pose = pose.refined(&some_object, &some_image).ok_or(Degeneracy::NoSolution)?;
+        let settled = now == inliers;
+        inliers = now;
+        if settled {
+            break;
+        }
+    }
+    Ok(Resection::new(pose, object, image, inliers))
+}
+
+type Checked<'a> = (&'a [Vector3<f64>], &'a [[f64; 2]]);
+
+fn checked<'a>(object: &'a [Vector3<f64>], image: &'a [[f64; 2]]) -> Result<Checked<'a>, Degeneracy> {
+    let n = object.len().min(image.len());
+    if n < 3 {
+        return Err(Degeneracy::TooFew { needed: 3, given: n });
+    }
+    if Spread::of(&object[..n])?.is_line() {
+        return Err(Degeneracy::Collinear);
+    }
+    Ok((&object[..n], &image[..n]))
+}
+
+/// Triples of points that span large triangles in the object: for few points all of them, else those through the
+/// extreme points.
+fn wide_triples(object: &[Vector3<f64>], most: usize) -> Vec<[usize; 3]> {
+    let n = object.len();
+    let mut candidates: Vec<usize> = (0..n).collect();
+    if n > 8 {
+        // Farthest-point selection: every next point is the one farthest from those chosen.
+        candidates = vec![0];
+        while candidates.len() < 8 {
+            let distance = |k: usize| {
+                candidates.iter().map(|&c| (object[k] - object[c]).norm_squared()).fold(f64::INFINITY, f64::min)
+            };
+            let Some(next) = (0..n).max_by(|&a, &b| distance(a).total_cmp(&distance(b))) else { break };
+            candidates.push(next);
+        }
+    }
+    let mut triples = Vec::new();
+    for (i, &a) in candidates.iter().enumerate() {
+        for (j, &b) in candidates.iter().enumerate().skip(i + 1) {
+            for &c in &candidates[j + 1..] {
+                triples.push(((object[b] - object[a]).cross(&(object[c] - object[a])).norm(), [a, b, c]));
+            }
+        }
+    }
+    triples.sort_by(|a, b| b.0.total_cmp(&a.0));
+    triples.into_iter().take(most).map(|(_, triple)| triple).collect()
+}
+
+/// Poses by cost, without repetitions and without those of infinite cost.
+fn distinct_by_cost(poses: Vec<Pose>, object: &[Vector3<f64>], image: &[[f64; 2]]) -> Vec<Pose> {
+    let mut costed: Vec<(f64, Pose)> = poses.into_iter().map(|pose| (pose.cost(object, image), pose)).collect();
+    costed.retain(|(cost, _)| cost.is_finite());
+    costed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut kept: Vec<Pose> = Vec::new();
+    for (_, pose) in costed {
+        let distance = (pose.centre - object[0]).norm();
+        let same = |other: &Pose| {
+            (other.centre - pose.centre).norm() < 1e-5 * distance
+                && (other.object_to_camera - pose.object_to_camera).norm() < 1e-5
+        };
+        if !kept.iter().any(same) {
+            kept.push(pose);
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::initial::robust::uniform;
+    use crate::rotation;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    fn scene(n: usize, seed: u64) -> (Vec<Vector3<f64>>, Pose, Vec<[f64; 2]>) {
+        let mut g = generator(seed);
+        let mut next = || 2.0 * uniform(&mut g) - 1.0;
+        let object: Vec<_> = (0..n).map(|_| Vector3::new(next(), next(), next())).collect();
+        let m = rotation::object_to_camera([3.0 * next(), next(), 3.0 * next()]);
+        let pose = Pose { object_to_camera: m, centre: m.tr_mul(&Vector3::new(0.2, -0.1, 4.0)) };
+        let image = object.iter().map(|p| pose.image(p).expect("in front")).collect();
+        (object, pose, image)
+    }
+
+    #[test]
+    fn four_and_more_points_have_the_true_pose_first() {
+        for seed in 0..200 {
+            let (object, pose, image) = scene(4 + seed as usize % 4, seed);
+            let found = space_resection(&object, &image).expect("solvable");
+            assert!((found[0].pose.centre - pose.centre).norm() < 1e-6, "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn wrong_identities_are_left_out() {
+        for seed in 0..50 {
+            let (object, pose, mut image) = scene(12, 1000 + seed);
+            image.swap(1, 5);
+            image[8] = [0.4, 0.4];
+            let found = robust_resection(&object, &image, 1e-9, 0).expect("mostly right");
+            assert!((found.pose.centre - pose.centre).norm() < 1e-6, "seed {seed}");
+            assert!(!found.inliers[1] && !found.inliers[5] && !found.inliers[8]);
+        }
+    }
+
+    #[test]
+    fn three_points_have_several_poses_and_fewer_none() {
+        let (object, pose, image) = scene(3, 7);
+        let found = space_resection(&object, &image).expect("solvable");
+        assert!(found.iter().any(|r| (r.pose.centre - pose.centre).norm() < 1e-6));
+        assert!(found.iter().all(|r| r.sigma0.is_none() && r.squares() < 1e-15));
+        let too_few = space_resection(&object[..2], &image[..2]).unwrap_err();
+        assert_eq!(too_few, Degeneracy::TooFew { needed: 3, given: 2 });
+        let line: Vec<_> = (0..5).map(|k| Vector3::x() * f64::from(k)).collect();
+        assert_eq!(space_resection(&line, &[[0.0; 2]; 5]).unwrap_err(), Degeneracy::Collinear);
+    }
+
+    /// A textbook case: c 153.24 mm; the reference solution has sigma0 7.26 µm.
+    #[test]
+    fn the_textbook_case_is_reproduced() {
+        let c = 153.24;
+        let photo = [[-86.15, -68.99], [-53.40, 82.21], [-14.78, -76.63], [10.46, 64.43]];
+        let object = [
+            Vector3::new(36589.41, 25273.32, 2195.17),
+            Vector3::new(37631.08, 31324.51, 728.69),
+            Vector3::new(39100.97, 24934.98, 2386.50),
+            Vector3::new(40426.54, 30319.81, 757.31),
+        ];
+        let image = photo.map(|[x, y]| [x / c, y / c]);
+        let found = &space_resection(&object, &image).expect("solvable")[0];
+        let centre = [39795.45, 27476.46, 7572.69];
+        let angles = [0.002114, 0.003987, -0.067586];
+        for k in 0..3 {
+            assert!((found.pose.centre[k] - centre[k]).abs() < 0.006, "{}", found.pose.centre);
+            let angle = rotation::angles(&found.pose.object_to_camera)[k];
+            assert!((angle - angles[k]).abs() < 6e-7, "{angle} for {}", angles[k]);
+        }
+        let sigma0_um = found.sigma0.expect("redundancy 2") * c * 1000.0;
+        assert!((sigma0_um - 7.26).abs() < 0.006, "{sigma0_um}");
+    }
+}

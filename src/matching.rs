@@ -1,0 +1,80 @@
+//! Who is who across photos: names for targets, by code, by geometry, or by marks from an earlier measurement.
+
+mod coded;
+mod gross;
+mod photo;
+mod snap;
+mod uncoded;
+
+use serde::{Deserialize, Serialize};
+
+pub use coded::{Coded, name_coded};
+pub use gross::{Cleaned, disagreeing, without_gross_errors};
+pub use snap::{Mark, Snapped, Unsnapped, UnsnappedReason, snap};
+pub use uncoded::{MatchOptions, Matching, match_uncoded};
+
+use crate::detection::Target;
+use crate::project::Sigma;
+
+/// The targets detected in one photo.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PhotoTargets {
+    /// Identifier of the photo.
+    pub photo: String,
+    /// Its targets.
+    pub targets: Vec<Target>,
+}
+
+/// A target whose identity is in doubt: shown to the user, not used.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Doubtful {
+    /// Identifier of the photo.
+    pub photo: String,
+    /// Place in pixels.
+    pub u: f64,
+    /// Place in pixels.
+    pub v: f64,
+    /// Points it could be, where there are names for them.
+    pub points: Vec<String>,
+    /// Why it is in doubt.
+    pub reason: Doubt,
+}
+
+/// Why a target's identity is in doubt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Doubt {
+    /// The same code was read more than once in the photo.
+    DuplicateCode,
+    /// Rays of other photos fit it in more than one way.
+    Ambiguous,
+    /// It disagrees with the other rays of its point.
+    Disagrees,
+}
+
+/// A priori standard error of an image measurement that carries none of its own, in pixels.
+const DEFAULT_SIGMA_PX: f64 = 0.1;
+
+/// The target's own standard errors as the observation's a priori ones.
+fn sigma_of(target: &Target) -> Sigma {
+    let usable = |s: f64| if s.is_finite() && s > 0.0 { s } else { DEFAULT_SIGMA_PX };
+    Sigma::Two([usable(target.sigma_u), usable(target.sigma_v)])
+}
+
+#[cfg(test)]
+pub(crate) fn target(u: f64, v: f64, code: Option<u32>) -> Target {
+    Target {
+        u,
+        v,
+        sigma_u: 0.02,
+        sigma_v: 0.03,
+        covariance_uv: 0.0,
+        major: 12.0,
+        minor: 10.0,
+        angle: 0.0,
+        contrast: 100.0,
+        polarity: crate::detection::Polarity::Bright,
+        code,
+        quality: crate::detection::Quality::default(),
+    }
+}

@@ -1,0 +1,49 @@
+//! Oriented photos as matching sees them: pose, camera and, for the moment of matching, targets as rays.
+
+use nalgebra::Vector3;
+
+use crate::camera::{ideal_from_pixel, pixel_from_camera_point};
+use crate::initial::Pose;
+use crate::project::{Camera, Interior, Parameter, Project};
+
+/// An oriented photo.
+pub(super) struct OrientedPhoto {
+    /// Identifier.
+    pub id: String,
+    /// Camera, with the photo's own interior orientation where it has one.
+    pub camera: Camera,
+    /// Exterior orientation.
+    pub pose: Pose,
+    /// Principal distance in pixels: turns ideal coordinates into pixels.
+    pub principal_distance_px: f64,
+}
+
+impl OrientedPhoto {
+    /// The enabled photos of the project that have an orientation and a principal distance, in its order.
+    pub fn all(project: &Project) -> Vec<Self> {
+        let oriented = |photo: &crate::project::Photo| {
+            let pose = Pose::of_photo(photo).filter(|_| photo.enabled)?;
+            let mut camera = project.cameras.iter().find(|c| c.id == photo.camera)?.clone();
+            camera.interior = photo.interior.unwrap_or(camera.interior);
+            let principal_distance_px = match camera.interior {
+                Interior::Brown { c, .. } => c? / camera.pitch()[0],
+                Interior::Opencv { .. } => camera.interior.get(Parameter::Fx)?,
+            };
+            let usable = principal_distance_px.is_finite() && principal_distance_px > 0.0;
+            usable.then(|| Self { id: photo.id.clone(), camera, pose, principal_distance_px })
+        };
+        project.photos.iter().filter_map(oriented).collect()
+    }
+
+    /// Ideal coordinates of a pixel.
+    pub fn ray(&self, pixel: [f64; 2]) -> Option<[f64; 2]> {
+        ideal_from_pixel(&self.camera, pixel)
+    }
+
+    /// Whether an object point falls onto the sensor.
+    pub fn shows(&self, point: &Vector3<f64>) -> bool {
+        let (width, height) = (f64::from(self.camera.width), f64::from(self.camera.height));
+        pixel_from_camera_point(&self.camera, self.pose.to_camera(point))
+            .is_some_and(|[u, v]| u > 0.0 && v > 0.0 && u < width && v < height)
+    }
+}

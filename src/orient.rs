@@ -1,0 +1,201 @@
+//! Initial values for a whole project: principal distances, exterior orientations, object points.
+//!
+//! 1. Known points orient what they can: the principal distance where it is missing, then photo by photo by resection.
+//! 2. Without them, a first pair is oriented from image points alone.
+//! 3. Photo by photo the rest follows: intersect, resect, refine by a small bundle adjustment, leave out what disagrees.
+//! 4. A model of its own is carried into the system of the known points, or given a scale and a place.
+//!
+//! What is given stays as it is: orientations and coordinates bit by bit, camera parameters unless the project leaves
+//! them free without observing them. What cannot be found stays null, and a note says why. The same project gives the
+//! same result, bit by bit.
+
+mod absolute;
+mod block;
+mod growth;
+mod note;
+mod principal_distance;
+mod refine;
+mod seed;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+pub use note::{DistanceSource, Note, PhotoReason, PointReason, ScaleSource, SystemSource};
+
+use absolute::Frame;
+use block::{Block, longer_side, principal_distance_px, set_principal_distance_px};
+use growth::grow;
+use refine::{Freedom, refine};
+use seed::Outcome;
+
+use crate::error::{Error, Result};
+use crate::initial::robust::quantile;
+use crate::project::{Parameter, Project, Role};
+use crate::rotation;
+
+/// A project with initial values, and what there is to say about them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Oriented {
+    /// The project, filled in as far as possible.
+    pub project: Project,
+    /// What was assumed, and what could not be found and why.
+    pub notes: Vec<Note>,
+}
+
+/// Principal distances tried, as multiples of the assumed one, when the first leaves large residuals.
+const OTHER_DISTANCES: [f64; 4] = [1.6, 0.65, 2.8, 0.45];
+/// Noise, over the longer side of the photo and over the a priori sigma, at which a network is believed.
+const FINE_SHARE: f64 = 3e-4;
+const FINE_SIGMAS: f64 = 3.0;
+
+/// Fills in every initial value that can be found.
+///
+/// # Errors
+/// [`Error::Empty`] without photos or measurements; [`Error::Unknown`], [`Error::Duplicate`], [`Error::Invalid`] where
+/// the document is inconsistent. A project that cannot be oriented is no error: the notes say what is missing.
+pub fn orient(project: &Project) -> Result<Oriented> {
+    project.validate()?;
+    let mut start = Block::new(project);
+    for (what, missing) in [("photos", project.photos.is_empty()), ("observations", start.sights.is_empty())] {
+        if missing {
+            return Err(Error::Empty { what: what.into() });
+        }
+    }
+    let sources = give_principal_distances(&mut start);
+    let mut block = from_known(&start);
+    let mut frame = (block.oriented() > 0).then_some(if block.anchored { Frame::Known } else { Frame::GivenPhotos });
+    let mut scaled = true;
+    if block.oriented() < wanted(&block)
+        && let Some(mut model) = from_images(&block, &sources, fine_px(project))
+    {
+        if absolute::to_known(&mut model) {
+            block = if block.oriented() > 0 { absolute::merged(block, model) } else { model };
+            frame = Some(Frame::Known);
+        } else if !absolute::join(&mut block, &model) && model.oriented() > block.oriented() {
+            (frame, scaled) = absolute::to_own(&mut model, project, &block);
+            block = model;
+        }
+    }
+    if frame == Some(Frame::Known) {
+        block.anchor();
+    }
+    if frame != Some(Frame::Own) {
+        grow(&mut block);
+    }
+    refine(&mut block, Freedom::Everything);
+    block.intersect_new(0.0);
+    block.review();
+    let mut notes = note::of_frame(&block, frame, scaled);
+    notes.extend(note::of_cameras(project, &block, &sources));
+    notes.extend(note::of_photos(project, &block));
+    notes.extend(note::of_points(project, &block));
+    notes.extend(note::of_observations(project, &block));
+    Ok(Oriented { project: filled(project, &block), notes })
+}
+
+/// Photos with measurements.
+fn wanted(block: &Block) -> usize {
+    block.views.iter().filter(|v| !v.sights.is_empty()).count()
+}
+
+fn fine_px(project: &Project) -> f64 {
+    let sigmas: Vec<f64> = project.observations.iter().map(|o| o.sigma.both()[0]).collect();
+    let side = project.cameras.iter().map(longer_side).fold(0.0, f64::max);
+    (FINE_SIGMAS * quantile(&sigmas, 0.5)).max(FINE_SHARE * side)
+}
+
+/// Gives every camera a principal distance to work with, and tells where it comes from; none where it was given.
+fn give_principal_distances(block: &mut Block) -> Vec<Option<DistanceSource>> {
+    let mut sources = vec![None; block.cameras.len()];
+    for camera in 0..block.cameras.len() {
+        if principal_distance_px(&block.cameras[camera]).is_some() {
+            continue;
+        }
+        let known = principal_distance::from_known(block, camera);
+        let px = known.unwrap_or_else(|| principal_distance::ASSUMED * longer_side(&block.cameras[camera]));
+        sources[camera] = Some(if known.is_some() { DistanceSource::KnownPoints } else { DistanceSource::Assumed });
+        set_principal_distance_px(&mut block.cameras[camera], px);
+    }
+    block.refresh_rays();
+    sources
+}
+
+/// What given coordinates and given orientations can orient.
+fn from_known(start: &Block) -> Block {
+    let mut block = start.clone();
+    if start.marks.iter().filter(|m| m.known.is_some() && !m.sights.is_empty()).count() >= 3 {
+        block.anchor();
+        for photo in 0..block.views.len() {
+            if block.views[photo].pose.is_none() {
+                growth::resect(&mut block, photo);
+            }
+        }
+        if block.oriented() == 0 {
+            return start.clone();
+        }
+    }
+    if block.oriented() > 0 {
+        grow(&mut block);
+    }
+    block
+}
+
+/// A model of the photos from image points alone, started among those not oriented yet; where the principal distance
+/// is only assumed, several are tried.
+fn from_images(block: &Block, sources: &[Option<DistanceSource>], fine_px: f64) -> Option<Block> {
+    let assumed: Vec<usize> =
+        (0..sources.len()).filter(|&k| sources[k] == Some(DistanceSource::Assumed) && block.oriented() == 0).collect();
+    let others = if assumed.is_empty() { &[][..] } else { &OTHER_DISTANCES[..] };
+    let mut best: Option<(Outcome, Block)> = None;
+    for factor in std::iter::once(&1.0).chain(others) {
+        let mut trial = block.clone();
+        for &camera in &assumed {
+            let px = principal_distance::ASSUMED * longer_side(&trial.cameras[camera]) * factor;
+            set_principal_distance_px(&mut trial.cameras[camera], px);
+        }
+        trial.refresh_rays();
+        let Some(model) = seed::from_first_pair(&trial, fine_px) else { continue };
+        let outcome = Outcome::of(&model);
+        if best.as_ref().is_none_or(|(other, _)| outcome.better_than(other)) {
+            best = Some((outcome, model));
+        }
+        if outcome.is_final(wanted(block), fine_px) {
+            break;
+        }
+    }
+    best.map(|(_, model)| model)
+}
+
+/// The project with what the block found in the places that were empty.
+fn filled(project: &Project, block: &Block) -> Project {
+    let mut project = project.clone();
+    let object = |xyz: Vector3<f64>| -> Option<[f64; 3]> {
+        let xyz = xyz + block.origin;
+        xyz.iter().all(|x| x.is_finite()).then(|| xyz.into())
+    };
+    for (camera, found) in project.cameras.iter_mut().zip(&block.cameras) {
+        for &parameter in camera.interior.parameters() {
+            let free = camera.free.contains(&parameter)
+                || matches!(parameter, Parameter::Fx | Parameter::Fy) && camera.free.contains(&Parameter::F);
+            let empty = camera.interior.get(parameter).is_none();
+            if parameter == Parameter::F || !(empty || free && !camera.sigma.contains_key(&parameter)) {
+                continue;
+            }
+            if let Some(value) = found.interior.get(parameter).filter(|value| value.is_finite()) {
+                camera.interior.set(parameter, value);
+            }
+        }
+    }
+    for (photo, view) in project.photos.iter_mut().zip(&block.views) {
+        if let (Some(pose), false) = (view.pose, view.given) {
+            photo.position = photo.position.or_else(|| object(pose.centre));
+            photo.rotation = photo.rotation.or(Some(rotation::angles(&pose.object_to_camera)));
+        }
+    }
+    for (point, mark) in project.points.iter_mut().zip(&block.marks) {
+        if point.role == Role::Tie && point.xyz.is_none() {
+            point.xyz = mark.xyz.and_then(object);
+        }
+    }
+    project
+}

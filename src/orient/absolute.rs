@@ -1,0 +1,117 @@
+//! From the model's own system to the object's: control points, else distances for the scale and a system that lies in
+//! the object.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::block::{Block, Mark};
+use crate::initial::robust::quantile;
+use crate::initial::similarity::{Similarity, fit_robust};
+use crate::initial::{Pose, Spread};
+use crate::project::{Distance, Project};
+
+/// Where the coordinate system comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Frame {
+    /// Points with given coordinates.
+    Known,
+    /// Given orientations of photos.
+    GivenPhotos,
+    /// The object's own plane.
+    Own,
+}
+
+/// Moves the block into the system of the known points it holds; false with fewer than three, or only ones on a line.
+pub(super) fn to_known(block: &mut Block) -> bool {
+    let with_both = |m: &Mark| m.xyz.zip(m.known).map(|pair| (m.control, pair));
+    let all: Vec<_> = block.marks.iter().filter_map(with_both).collect();
+    // Control points decide where there are enough of them: other given coordinates are initial values.
+    let control: Vec<_> = all.iter().copied().filter(|(control, _)| *control).collect();
+    [control, all].into_iter().any(|pairs| {
+        let (source, target): (Vec<_>, Vec<_>) = pairs.into_iter().map(|(_, pair)| pair).unzip();
+        let Ok((fit, _)) = fit_robust(&source, &target, 0) else { return false };
+        transform(block, &fit.transform);
+        true
+    })
+}
+
+/// Joins a model of other photos to the block by the points both have; whether that was possible.
+pub(super) fn join(block: &mut Block, model: &Block) -> bool {
+    let pairs = block.marks.iter().zip(&model.marks).filter_map(|(b, m)| m.xyz.zip(b.xyz));
+    let (source, target): (Vec<_>, Vec<_>) = pairs.unzip();
+    let Ok((fit, _)) = fit_robust(&source, &target, 0) else { return false };
+    let mut model = model.clone();
+    transform(&mut model, &fit.transform);
+    *block = merged(block.clone(), model);
+    true
+}
+
+/// The block with what it lacks taken from a model in the same system.
+pub(super) fn merged(mut block: Block, model: Block) -> Block {
+    for (view, other) in block.views.iter_mut().zip(model.views) {
+        view.pose = view.pose.or(other.pose);
+    }
+    for (mark, other) in block.marks.iter_mut().zip(model.marks) {
+        mark.xyz = mark.xyz.or(other.xyz);
+    }
+    block
+}
+
+fn transform(block: &mut Block, similarity: &Similarity) {
+    for view in &mut block.views {
+        view.pose = view.pose.map(|pose| similarity.pose(&pose));
+    }
+    for mark in &mut block.marks {
+        mark.xyz = mark.xyz.map(|xyz| similarity.point(&xyz));
+    }
+}
+
+/// Gives a model without known points a scale and a place; the second value tells whether the scale was measured.
+///
+/// Scale: the median of length over model length of the distances, or of two known points, else the object's rms extent
+/// becomes 1 for want of anything better. Place: that of a photo oriented in `before`, else the principal axes of the
+/// object with Z towards the cameras and X to the right of the first of them.
+pub(super) fn to_own(block: &mut Block, project: &Project, before: &Block) -> (Option<Frame>, bool) {
+    let points: Vec<Vector3<f64>> = block.marks.iter().filter_map(|m| m.xyz).collect();
+    let Ok(spread) = Spread::of(&points) else { return (None, false) };
+    let measured = scale(block, &project.distances, project);
+    let size = spread.extent.norm();
+    let factor = measured.unwrap_or(if size > 0.0 { 1.0 / size } else { 1.0 });
+    let given = before.views.iter().zip(&block.views).find_map(|(b, m)| b.pose.zip(m.pose));
+    if let Some((pose, model)) = given {
+        let rotation = pose.object_to_camera.tr_mul(&model.object_to_camera);
+        let similarity =
+            Similarity { scale: factor, rotation, source_centroid: model.centre, target_centroid: pose.centre };
+        transform(block, &similarity);
+        return (Some(Frame::GivenPhotos), measured.is_some());
+    }
+    let poses: Vec<Pose> = block.views.iter().filter_map(|v| v.pose).collect();
+    let cameras = poses.iter().map(|p| p.centre - spread.centroid).sum::<Vector3<f64>>();
+    let mut z = spread.axes.column(2).into_owned();
+    if z.dot(&cameras) < 0.0 {
+        z = -z;
+    }
+    let right = poses.first().map_or(Vector3::x(), |p| p.object_to_camera.row(0).transpose());
+    let flat = right - z * z.dot(&right);
+    let x = if flat.norm() > 1e-3 { flat.normalize() } else { spread.axes.column(0).into_owned() };
+    let rotation = Matrix3::from_rows(&[x.transpose(), z.cross(&x).transpose(), z.transpose()]);
+    let similarity =
+        Similarity { scale: factor, rotation, source_centroid: spread.centroid, target_centroid: Vector3::zeros() };
+    transform(block, &similarity);
+    (Some(Frame::Own), measured.is_some())
+}
+
+/// Object length over model length, by the median over the usable distances, else by two known points.
+fn scale(block: &Block, distances: &[Distance], project: &Project) -> Option<f64> {
+    let place = |id: &str| project.points.iter().position(|p| p.id == id);
+    let of_distance = |d: &Distance| {
+        let (from, to) = (block.marks[place(&d.from)?].xyz?, block.marks[place(&d.to)?].xyz?);
+        Some(d.length / (from - to).norm()).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
+    };
+    let ratios: Vec<f64> = distances.iter().filter_map(of_distance).collect();
+    if !ratios.is_empty() {
+        return Some(quantile(&ratios, 0.5));
+    }
+    let known: Vec<_> = block.marks.iter().filter_map(|m| m.xyz.zip(m.known)).collect();
+    let [(a, known_a), .., (b, known_b)] = known[..] else { return None };
+    Some((known_a - known_b).norm() / (a - b).norm()).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
+}

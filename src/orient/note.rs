@@ -1,0 +1,228 @@
+//! What an orientation has to say, as data: assumptions, and what could not be found and why.
+
+use serde::{Deserialize, Serialize};
+
+use super::absolute::Frame;
+use super::block::{Block, principal_distance_px};
+use crate::initial::Degeneracy;
+use crate::project::{Project, Role};
+
+/// Where a principal distance that was missing comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DistanceSource {
+    /// Photos of known points.
+    KnownPoints,
+    /// A usual value, refined by the network as far as it determines it.
+    Assumed,
+}
+
+/// Where the coordinate system comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SystemSource {
+    /// Points with given coordinates.
+    KnownPoints,
+    /// Photos with given orientation.
+    GivenPhotos,
+    /// Axes laid into the object.
+    Own,
+}
+
+/// Where the scale comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ScaleSource {
+    /// Points or photos with given coordinates, or distances.
+    Given,
+    /// Nothing gives a scale: the object's rms extent was made 1.
+    Arbitrary,
+}
+
+/// Why a photo could not be oriented.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "why", rename_all = "snake_case")]
+pub enum PhotoReason {
+    /// No point was measured in it.
+    NoPoints,
+    /// Too few of its points are known or seen in oriented photos.
+    TooFewPoints {
+        /// How many are.
+        determined: usize,
+        /// How many it takes.
+        needed: usize,
+    },
+    /// Its points do not fit together: wrong identities, or a wrong camera.
+    Disagrees {
+        /// Points that were tried.
+        determined: usize,
+    },
+}
+
+/// Why a point has no coordinates.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "why", rename_all = "snake_case")]
+pub enum PointReason {
+    /// It was not measured.
+    NotMeasured,
+    /// It was measured in one photo only.
+    SeenOnce {
+        /// The photo.
+        photo: String,
+    },
+    /// It was measured in fewer than two oriented photos.
+    TooFewOrientedPhotos {
+        /// How many there are.
+        photos: usize,
+    },
+    /// Its rays are nearly parallel.
+    NearParallel {
+        /// Largest angle between two of them, radians.
+        angle: f64,
+    },
+    /// It would lie behind a camera.
+    BehindCamera {
+        /// The photo.
+        photo: String,
+    },
+    /// Its rays do not meet: wrong identities.
+    RaysDisagree,
+    /// It is a control or check point without coordinates.
+    CoordinatesMissing,
+}
+
+/// Something to say about an orientation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "note", rename_all = "snake_case")]
+pub enum Note {
+    /// A principal distance was missing and has been found or assumed.
+    PrincipalDistance {
+        /// The camera.
+        camera: String,
+        /// The value, in the camera's units.
+        value: f64,
+        /// Where it comes from.
+        source: DistanceSource,
+    },
+    /// The system of the result.
+    System {
+        /// Where it comes from.
+        source: SystemSource,
+        /// Where its scale comes from.
+        scale: ScaleSource,
+    },
+    /// A photo stays without orientation.
+    PhotoNotOriented {
+        /// The photo.
+        photo: String,
+        /// Why.
+        #[serde(flatten)]
+        reason: PhotoReason,
+    },
+    /// A point stays without coordinates.
+    PointNotDetermined {
+        /// The point.
+        point: String,
+        /// Why.
+        #[serde(flatten)]
+        reason: PointReason,
+    },
+    /// A measurement does not agree with the others: a wrong identity, most often.
+    MeasurementDisagrees {
+        /// The photo.
+        photo: String,
+        /// The point.
+        point: String,
+        /// Its distance from where the point should be, pixels; null behind the camera.
+        distance_px: Option<f64>,
+    },
+}
+
+pub(super) fn of_frame(block: &Block, frame: Option<Frame>, scaled: bool) -> Vec<Note> {
+    let source = match frame {
+        None => return Vec::new(),
+        Some(_) if block.oriented() == 0 => return Vec::new(),
+        Some(Frame::Known) => SystemSource::KnownPoints,
+        Some(Frame::GivenPhotos) => SystemSource::GivenPhotos,
+        Some(Frame::Own) => SystemSource::Own,
+    };
+    vec![Note::System { source, scale: if scaled { ScaleSource::Given } else { ScaleSource::Arbitrary } }]
+}
+
+pub(super) fn of_cameras(project: &Project, block: &Block, sources: &[Option<DistanceSource>]) -> Vec<Note> {
+    let given = project.cameras.iter().zip(&block.cameras).zip(sources);
+    given
+        .filter_map(|((camera, found), source)| {
+            let units =
+                if matches!(camera.interior, crate::project::Interior::Brown { .. }) { camera.pitch()[0] } else { 1.0 };
+            let value = principal_distance_px(found)? * units;
+            source.map(|source| Note::PrincipalDistance { camera: camera.id.clone(), value, source })
+        })
+        .collect()
+}
+
+pub(super) fn of_photos(project: &Project, block: &Block) -> Vec<Note> {
+    let missing = project.photos.iter().enumerate().filter(|(k, p)| p.enabled && block.views[*k].pose.is_none());
+    missing
+        .map(|(k, photo)| {
+            let determined = block.determined(k).0.len();
+            let reason = if block.views[k].sights.is_empty() {
+                PhotoReason::NoPoints
+            } else if determined < super::growth::FEWEST {
+                PhotoReason::TooFewPoints { determined, needed: super::growth::FEWEST }
+            } else {
+                PhotoReason::Disagrees { determined }
+            };
+            Note::PhotoNotOriented { photo: photo.id.clone(), reason }
+        })
+        .collect()
+}
+
+pub(super) fn of_points(project: &Project, block: &Block) -> Vec<Note> {
+    let photo_of = |sight: usize| project.photos[block.sights[sight].photo].id.clone();
+    let mut notes = Vec::new();
+    for (k, point) in project.points.iter().enumerate() {
+        let mark = &block.marks[k];
+        let reason = if point.role != Role::Tie {
+            if point.xyz.is_some() {
+                continue;
+            }
+            PointReason::CoordinatesMissing
+        } else if mark.xyz.is_some() || point.xyz.is_some() {
+            continue;
+        } else {
+            let oriented: Vec<usize> =
+                mark.sights.iter().copied().filter(|&s| block.views[block.sights[s].photo].pose.is_some()).collect();
+            match (mark.sights.len(), oriented.len()) {
+                (0, _) => PointReason::NotMeasured,
+                (1, _) => PointReason::SeenOnce { photo: photo_of(mark.sights[0]) },
+                (_, photos @ (0 | 1)) => PointReason::TooFewOrientedPhotos { photos },
+                _ => match block.intersection(k) {
+                    Err(Degeneracy::NearParallel { angle }) => PointReason::NearParallel { angle },
+                    Err(Degeneracy::BehindCamera { ray }) => {
+                        let which = block.rays(k).0;
+                        PointReason::BehindCamera { photo: photo_of(*which.get(ray).unwrap_or(&oriented[0])) }
+                    }
+                    _ => PointReason::RaysDisagree,
+                },
+            }
+        };
+        notes.push(Note::PointNotDetermined { point: point.id.clone(), reason });
+    }
+    notes
+}
+
+pub(super) fn of_observations(project: &Project, block: &Block) -> Vec<Note> {
+    let standing_out = (0..block.sights.len()).filter(|&s| !block.sights[s].taken);
+    standing_out
+        .filter_map(|s| {
+            let distance_px = block.misfit_px(s)?;
+            let sight = &block.sights[s];
+            Some(Note::MeasurementDisagrees {
+                photo: project.photos[sight.photo].id.clone(),
+                point: project.points[sight.point].id.clone(),
+                distance_px: distance_px.is_finite().then_some(distance_px),
+            })
+        })
+        .collect()
+}

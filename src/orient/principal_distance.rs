@@ -1,0 +1,149 @@
+//! The principal distance to start with: given, from known points, or assumed.
+//!
+//! Known points decide it photo by photo (direct linear transformation) or over all photos of a plane (homographies);
+//! either way the value kept is the one whose resections leave the smallest residuals, looked for over the range that
+//! lenses have.
+
+use nalgebra::Vector3;
+
+use super::block::{Block, longer_side, set_principal_distance_px};
+use crate::camera::ideal_from_pixel;
+use crate::initial::dlt::dlt;
+use crate::initial::homography::{of_plane, principal_distance};
+use crate::initial::resection::space_resection;
+use crate::initial::robust::quantile;
+use crate::project::{Camera, Interior};
+
+/// Principal distance assumed when nothing is known, over the longer side of the sensor: a field of view of 45°.
+pub(super) const ASSUMED: f64 = 1.2;
+/// Shortest and longest principal distance looked for, over the longer side of the sensor.
+const RANGE: [f64; 2] = [0.35, 12.0];
+/// Photos and points a photo that take part in the search; more add time and no safety.
+const MOST_PHOTOS: usize = 12;
+const MOST_POINTS: usize = 16;
+
+/// Known points as one photo sees them.
+struct Seen {
+    object: Vec<Vector3<f64>>,
+    pixels: Vec<[f64; 2]>,
+}
+
+/// The principal distance in pixels that known points give a camera; none where no photo sees four of them, or where
+/// they do not determine it.
+pub(super) fn from_known(block: &Block, camera: usize) -> Option<f64> {
+    let seen = seen(block, camera);
+    if seen.is_empty() {
+        return None;
+    }
+    let side = longer_side(&block.cameras[camera]);
+    let cost = |px: f64| misfit(&block.cameras[camera], &seen, px);
+    let steps = 16;
+    let ratio: f64 = RANGE[1] / RANGE[0];
+    let grid = (0..=steps).map(|k| side * RANGE[0] * ratio.powf(f64::from(k) / f64::from(steps)));
+    let candidates = closed_forms(&block.cameras[camera], &seen);
+    let mut best: Option<(f64, f64)> = None;
+    let mut largest: f64 = 0.0;
+    for px in grid.chain(candidates).filter(|px| *px > side * RANGE[0] && *px < side * RANGE[1]) {
+        let value = cost(px);
+        if value.is_finite() {
+            largest = largest.max(value);
+            if best.is_none_or(|(least, _)| value < least) {
+                best = Some((value, px));
+            }
+        }
+    }
+    let (least, start) = best?;
+    let found = golden_section(&cost, start / 1.3, start * 1.3);
+    // Flat valleys (photos parallel to a plane) say nothing; so does the end of the range.
+    let decided = largest > 1.5 * least.min(cost(found)) + 1e-9;
+    let inside = found > 1.02 * side * RANGE[0] && found < 0.98 * side * RANGE[1];
+    (decided && inside).then_some(found)
+}
+
+fn seen(block: &Block, camera: usize) -> Vec<Seen> {
+    let mut all: Vec<Seen> = Vec::new();
+    for view in block.views.iter().filter(|v| v.camera == camera) {
+        let known = view.sights.iter().filter_map(|&s| {
+            let sight = &block.sights[s];
+            block.marks[sight.point].known.map(|xyz| (xyz, sight.pixel))
+        });
+        let (object, pixels): (Vec<_>, Vec<_>) = known.unzip();
+        if object.len() >= 4 {
+            all.push(Seen { object, pixels });
+        }
+    }
+    let keep = |count: usize, most: usize| -> Vec<usize> {
+        (0..count.min(most)).map(|k| k * count / count.min(most)).collect()
+    };
+    keep(all.len(), MOST_PHOTOS)
+        .into_iter()
+        .map(|k| {
+            let some = keep(all[k].object.len(), MOST_POINTS);
+            Seen {
+                object: some.iter().map(|&i| all[k].object[i]).collect(),
+                pixels: some.iter().map(|&i| all[k].pixels[i]).collect(),
+            }
+        })
+        .collect()
+}
+
+/// Median over the photos of the resection's root mean square residual, pixels.
+fn misfit(camera: &Camera, seen: &[Seen], px: f64) -> f64 {
+    let mut camera = camera.clone();
+    set_principal_distance_px(&mut camera, px);
+    let each: Vec<f64> = seen
+        .iter()
+        .map(|photo| {
+            let rays: Option<Vec<[f64; 2]>> = photo.pixels.iter().map(|&p| ideal_from_pixel(&camera, p)).collect();
+            let solved = rays.and_then(|rays| space_resection(&photo.object, &rays).ok());
+            solved.map_or(f64::INFINITY, |s| (s[0].squares() / photo.object.len() as f64).sqrt() * px)
+        })
+        .collect();
+    quantile(&each, 0.5)
+}
+
+/// What direct linear transformations and plane homographies say, pixels.
+fn closed_forms(camera: &Camera, seen: &[Seen]) -> Vec<f64> {
+    let [px, py] = camera.pitch();
+    let principal_point = match camera.interior {
+        Interior::Brown { x0, y0, .. } => [x0, y0],
+        Interior::Opencv { cx, cy, .. } => camera.photo_from_pixel([cx, cy]),
+    };
+    let mut found = Vec::new();
+    let mut planes = Vec::new();
+    for photo in seen {
+        let image: Vec<[f64; 2]> = photo
+            .pixels
+            .iter()
+            .map(|&p| {
+                let [x, y] = camera.photo_from_pixel(p);
+                [x - principal_point[0], y - principal_point[1]]
+            })
+            .collect();
+        match dlt(&photo.object, &image) {
+            Ok(solved) => found.push((solved.cx / px * solved.cy / py).sqrt()),
+            Err(_) => planes.extend(of_plane(&photo.object, &image)),
+        }
+    }
+    let median = (!found.is_empty()).then(|| quantile(&found, 0.5));
+    median.into_iter().chain(principal_distance(&planes).map(|c| c / (px * py).sqrt())).collect()
+}
+
+fn golden_section(cost: &impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
+    let golden = (5f64.sqrt() - 1.0) / 2.0;
+    let (mut a, mut b) = (low.ln(), high.ln());
+    let (mut left, mut right) = (b - golden * (b - a), a + golden * (b - a));
+    let (mut at_left, mut at_right) = (cost(left.exp()), cost(right.exp()));
+    while b - a > 1e-3 {
+        if at_left < at_right {
+            (b, right, at_right) = (right, left, at_left);
+            left = b - golden * (b - a);
+            at_left = cost(left.exp());
+        } else {
+            (a, left, at_left) = (left, right, at_right);
+            right = a + golden * (b - a);
+            at_right = cost(right.exp());
+        }
+    }
+    (0.5 * (a + b)).exp()
+}

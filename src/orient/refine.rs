@@ -1,0 +1,172 @@
+//! A small bundle adjustment of what is oriented so far, so that errors do not pile up from photo to photo.
+
+use std::collections::BTreeMap;
+
+use super::block::{Block, principal_distance_px};
+use crate::adjust::{adjust, apply};
+use crate::adjustment::{AdjustOptions, StatisticsChoice, Termination};
+use crate::initial::Pose;
+use crate::project::{Camera, Datum, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
+use crate::rotation;
+
+/// What of the cameras is estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Freedom {
+    /// Nothing.
+    Held,
+    /// The principal distance and the first term of the radial distortion, where the project leaves them free.
+    Distance,
+    /// Everything the project leaves free.
+    Everything,
+}
+
+/// Fewest photos of a network, and measurements per camera, that a principal distance is estimated from.
+const FEWEST_PHOTOS: usize = 3;
+const FEWEST_SIGHTS: usize = 30;
+/// Most adjustments in a row.
+const MOST_ROUNDS: usize = 4;
+/// Largest factor a principal distance may change by in one refinement.
+const LARGEST_CHANGE: f64 = 2.0;
+
+/// Adjusts poses, points and, as far as asked, cameras; then reviews which measurements agree. Tries with less freedom
+/// where the network does not bear more, and leaves the block as it was where nothing converges.
+pub(super) fn refine(block: &mut Block, freedom: Freedom) {
+    let steps: &[Freedom] = match freedom {
+        Freedom::Held => &[Freedom::Held],
+        Freedom::Distance => &[Freedom::Distance, Freedom::Held],
+        Freedom::Everything => &[Freedom::Everything, Freedom::Distance, Freedom::Held],
+    };
+    for &step in steps {
+        let Some(mut best) = attempt(block, step) else { continue };
+        // Again as long as it changes which measurements agree: those that stood out of a rough model come back in.
+        for _ in 0..MOST_ROUNDS {
+            let Some(next) = attempt(&best, step) else { break };
+            let settled = next.sights.iter().zip(&best.sights).all(|(a, b)| a.taken == b.taken);
+            best = next;
+            if settled {
+                break;
+            }
+        }
+        *block = best;
+        return;
+    }
+    block.review();
+}
+
+fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
+    let part = part(block, freedom)?;
+    let options = AdjustOptions { max_iterations: 30, statistics: StatisticsChoice::None, ..AdjustOptions::default() };
+    let adjustment = adjust(&part, &options, &mut |_| true).ok()?;
+    if adjustment.termination == Termination::Diverged {
+        return None;
+    }
+    let adjusted = apply(&part, &adjustment);
+    let mut next = block.clone();
+    for camera in adjusted.cameras {
+        let place = next.cameras.iter_mut().find(|c| c.id == camera.id)?;
+        let ratio = principal_distance_px(&camera)? / principal_distance_px(place)?;
+        if !(ratio < LARGEST_CHANGE && ratio > 1.0 / LARGEST_CHANGE) {
+            return None;
+        }
+        place.interior = camera.interior;
+    }
+    for photo in &adjusted.photos {
+        next.views[photo.id.parse::<usize>().ok()?].pose = Pose::of_photo(photo);
+    }
+    for point in &adjusted.points {
+        let xyz = point.xyz.filter(|xyz| xyz.iter().all(|x| x.is_finite()))?;
+        next.marks[point.id.parse::<usize>().ok()?].xyz = Some(xyz.into());
+    }
+    next.refresh_rays();
+    next.review();
+    // Points may have been carried behind a camera by what turned out to disagree: they start again.
+    for point in 0..next.marks.len() {
+        let lost = next.marks[point].sights.iter().filter(|&&s| next.misfit_px(s) == Some(f64::INFINITY)).count();
+        if lost > 0 {
+            next.marks[point].xyz = if next.anchored { next.marks[point].known } else { None };
+        }
+    }
+    Some(next)
+}
+
+/// The oriented part as a project of its own; identifiers are places in the whole project.
+fn part(block: &Block, freedom: Freedom) -> Option<Project> {
+    let sigma = Sigma::One(block.noise_px.unwrap_or(1.0).max(0.02));
+    let mut project = Project::default();
+    let mut rays: BTreeMap<usize, usize> = BTreeMap::new();
+    let usable = |s: &&super::block::Sight| {
+        s.taken && s.ray.is_some() && block.views[s.photo].pose.is_some() && block.marks[s.point].xyz.is_some()
+    };
+    for sight in block.sights.iter().filter(usable) {
+        *rays.entry(sight.point).or_default() += 1;
+    }
+    let held = |point: usize| block.anchored && block.marks[point].control && block.marks[point].known.is_some();
+    rays.retain(|point, count| *count >= 2 || held(*point));
+    let mut measured = vec![0; block.views.len()];
+    for sight in block.sights.iter().filter(usable).filter(|s| rays.contains_key(&s.point)) {
+        measured[sight.photo] += 1;
+        project.observations.push(Observation {
+            photo: sight.photo.to_string(),
+            point: sight.point.to_string(),
+            u: sight.pixel[0],
+            v: sight.pixel[1],
+            sigma,
+            enabled: true,
+        });
+    }
+    let mut controls = 0;
+    for &point in rays.keys() {
+        let mark = &block.marks[point];
+        controls += usize::from(held(point));
+        project.points.push(Point {
+            id: point.to_string(),
+            role: if held(point) { Role::Control } else { Role::Tie },
+            sigma: if held(point) { mark.sigma } else { None },
+            xyz: if held(point) { mark.known } else { mark.xyz }.map(Into::into),
+            ..Point::default()
+        });
+    }
+    let mut cameras: BTreeMap<usize, usize> = BTreeMap::new();
+    for (k, view) in block.views.iter().enumerate() {
+        let (Some(pose), true) = (view.pose, measured[k] > 0) else { continue };
+        *cameras.entry(view.camera).or_default() += measured[k];
+        project.photos.push(Photo {
+            id: k.to_string(),
+            camera: block.cameras[view.camera].id.clone(),
+            position: Some(pose.centre.into()),
+            rotation: Some(rotation::angles(&pose.object_to_camera)),
+            interior: view.interior,
+            enabled: true,
+            ..Photo::default()
+        });
+    }
+    for (&camera, &sights) in &cameras {
+        let strong = (project.photos.len() >= FEWEST_PHOTOS || controls >= 6) && sights >= FEWEST_SIGHTS;
+        project.cameras.push(freed(
+            block,
+            camera,
+            if strong && !block.cameras[camera].per_photo { freedom } else { Freedom::Held },
+        ));
+    }
+    let kind = if controls >= 3 { DatumKind::Control } else { DatumKind::Free };
+    project.datum = Datum { kind, points: None };
+    (project.photos.len() >= 2 || controls >= 3).then_some(project)
+}
+
+/// The camera with what may be estimated of it at this freedom, and nothing else.
+fn freed(block: &Block, camera: usize, freedom: Freedom) -> Camera {
+    let mut part = block.cameras[camera].clone();
+    let distance = match part.interior {
+        Interior::Brown { .. } => Parameter::C,
+        Interior::Opencv { .. } => Parameter::F,
+    };
+    if freedom != Freedom::Everything {
+        part.free.retain(|p| freedom == Freedom::Distance && *p == Parameter::K1);
+        part.sigma.clear();
+    }
+    let has_distance = [Parameter::C, Parameter::F, Parameter::Fx, Parameter::Fy].iter().any(|p| part.free.contains(p));
+    if freedom != Freedom::Held && block.adjustable[camera] && !has_distance {
+        part.free.push(distance);
+    }
+    part
+}

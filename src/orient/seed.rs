@@ -1,0 +1,141 @@
+//! A first pair for networks without known points.
+//!
+//! Pairs that share many points are oriented relative to each other; the ones with many agreeing points and good
+//! intersection angles become starts. Every start is grown over all photos, since only the whole network tells a true
+//! start from the mirror solution of a plane or from a wrong principal distance.
+
+use super::block::Block;
+use super::growth::grow;
+use crate::initial::Pose;
+use crate::initial::relative::{Relative, relative_orientation};
+
+/// Pairs that are oriented relative to each other, and starts that are grown at most.
+const MOST_PAIRS: usize = 16;
+const MOST_STARTS: usize = 8;
+/// Angle, 20°, beyond which a pair gains nothing by a wider base.
+const WIDE: f64 = 0.35;
+
+/// A first pair with its relative orientation.
+struct Start {
+    photos: [usize; 2],
+    relative: Relative,
+    score: f64,
+}
+
+/// How good a grown network is: photos oriented, then the noise that remains in pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outcome {
+    pub photos: usize,
+    pub noise_px: f64,
+}
+
+impl Outcome {
+    pub fn of(block: &Block) -> Self {
+        Self { photos: block.oriented(), noise_px: block.noise_px.unwrap_or(f64::INFINITY) }
+    }
+
+    pub fn better_than(&self, other: &Self) -> bool {
+        self.photos > other.photos || self.photos == other.photos && self.noise_px < other.noise_px
+    }
+
+    /// Everything that can be is oriented and the residuals are measuring noise: nothing better is to be expected.
+    pub fn is_final(&self, wanted: usize, fine_px: f64) -> bool {
+        self.photos >= wanted && self.noise_px <= fine_px
+    }
+}
+
+/// The block grown from its best first pair among photos without pose; none when no pair can be oriented.
+///
+/// `fine_px` is the noise below which a network that holds all photos is taken without looking further.
+pub(super) fn from_first_pair(block: &Block, fine_px: f64) -> Option<Block> {
+    let wanted = block.views.iter().filter(|v| !v.sights.is_empty()).count();
+    let mut best: Option<(Outcome, Block)> = None;
+    for start in starts(block).into_iter().take(MOST_STARTS) {
+        let mut trial = block.clone();
+        // A model of its own: what is oriented already comes in again by growth.
+        trial.anchored = false;
+        trial.views.iter_mut().for_each(|view| view.pose = None);
+        trial.marks.iter_mut().for_each(|mark| mark.xyz = None);
+        trial.noise_px = None;
+        let [first, second] = start.photos;
+        trial.views[first].pose = Some(Pose::identity());
+        trial.views[second].pose = Some(start.relative.pose);
+        for ((a, b), taken) in common(block, first, second).into_iter().zip(&start.relative.inliers) {
+            trial.sights[a].taken = *taken;
+            trial.sights[b].taken = *taken;
+        }
+        grow(&mut trial);
+        let outcome = Outcome::of(&trial);
+        if best.as_ref().is_none_or(|(other, _)| outcome.better_than(other)) {
+            best = Some((outcome, trial));
+        }
+        if outcome.is_final(wanted, fine_px) {
+            break;
+        }
+    }
+    best.map(|(_, block)| block).filter(|block| block.oriented() >= 2)
+}
+
+/// Measurements of the points that both photos show.
+fn common(block: &Block, first: usize, second: usize) -> Vec<(usize, usize)> {
+    let mut of_second: Vec<Option<usize>> = vec![None; block.marks.len()];
+    let measured = |s: usize| block.sights[s].ray.is_some();
+    for &s in block.views[second].sights.iter().filter(|&&s| measured(s)) {
+        of_second[block.sights[s].point] = Some(s);
+    }
+    let firsts = block.views[first].sights.iter().filter(|&&s| measured(s));
+    firsts.filter_map(|&a| of_second[block.sights[a].point].map(|b| (a, b))).collect()
+}
+
+/// Number of common points of every pair of photos without pose, most first.
+fn pairs(block: &Block) -> Vec<(usize, [usize; 2])> {
+    let n = block.views.len();
+    let mut counts = vec![0usize; n * n];
+    for mark in &block.marks {
+        for (k, &a) in mark.sights.iter().enumerate() {
+            for &b in &mark.sights[k + 1..] {
+                let (a, b) = (block.sights[a].photo, block.sights[b].photo);
+                counts[a.min(b) * n + a.max(b)] += 1;
+            }
+        }
+    }
+    let free = |k: usize| block.views[k].pose.is_none();
+    let mut pairs: Vec<(usize, [usize; 2])> = Vec::new();
+    for a in 0..n {
+        for b in a + 1..n {
+            if counts[a * n + b] >= 5 && free(a) && free(b) {
+                pairs.push((counts[a * n + b], [a, b]));
+            }
+        }
+    }
+    pairs.sort_by_key(|&(count, photos)| (std::cmp::Reverse(count), photos));
+    pairs
+}
+
+fn starts(block: &Block) -> Vec<Start> {
+    let mut starts: Vec<Start> = Vec::new();
+    let pairs = pairs(block);
+    // Pairs with nearly as many points as the best, spread over the list so that wide bases are among them.
+    let most = pairs.first().map_or(0, |p| p.0);
+    let rich = pairs.iter().take_while(|p| 10 * p.0 >= 6 * most).count();
+    let chosen = rich.min(MOST_PAIRS);
+    let spread = (0..chosen).map(|k| k * rich / chosen.max(1)).chain(rich..pairs.len()).take(MOST_PAIRS);
+    for k in spread {
+        let (_, photos) = pairs[k];
+        let [first, second] = photos;
+        let (a, b): (Vec<_>, Vec<_>) = common(block, first, second)
+            .into_iter()
+            .filter_map(|(a, b)| Some((block.sights[a].ray?, block.sights[b].ray?)))
+            .unzip();
+        let units = block.pixels_per_unit(first).min(block.pixels_per_unit(second));
+        // Distances of noise alone; distortion widens the robust scale by itself.
+        let Ok(found) = relative_orientation(&a, &b, 0.5 / units, k as u64) else { continue };
+        for relative in found {
+            let agreeing = relative.inliers.iter().filter(|taken| **taken).count();
+            let score = agreeing as f64 * (relative.angle / WIDE).min(1.0);
+            starts.push(Start { photos, relative, score });
+        }
+    }
+    starts.sort_by(|a, b| b.score.total_cmp(&a.score));
+    starts
+}

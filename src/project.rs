@@ -1,0 +1,278 @@
+//! The document: what was photographed, measured and given. Format "sightline", version 1.
+//!
+//! Every view, file and test reads this one document. Fields may be added, never renamed or given another meaning.
+
+mod identifier;
+mod parameter;
+mod validation;
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use identifier::{identifier, identifier_option_list};
+pub use parameter::{Interior, Parameter};
+
+/// The document.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Project {
+    /// Always "sightline".
+    pub format: String,
+    /// Version of the format, 1.
+    pub version: u32,
+    /// Name for people.
+    #[serde(default)]
+    pub name: String,
+    /// Length unit of object coordinates, for people.
+    #[serde(default = "default_unit")]
+    pub unit: String,
+    /// Cameras.
+    #[serde(default)]
+    pub cameras: Vec<Camera>,
+    /// Photos.
+    #[serde(default)]
+    pub photos: Vec<Photo>,
+    /// Object points.
+    #[serde(default)]
+    pub points: Vec<Point>,
+    /// Image observations.
+    #[serde(default)]
+    pub observations: Vec<Observation>,
+    /// Measured distances.
+    #[serde(default)]
+    pub distances: Vec<Distance>,
+    /// Datum.
+    #[serde(default)]
+    pub datum: Datum,
+}
+
+fn default_unit() -> String {
+    "mm".into()
+}
+
+impl Default for Project {
+    fn default() -> Self {
+        Self {
+            format: "sightline".into(),
+            version: 1,
+            name: String::new(),
+            unit: default_unit(),
+            cameras: Vec::new(),
+            photos: Vec::new(),
+            points: Vec::new(),
+            observations: Vec::new(),
+            distances: Vec::new(),
+            datum: Datum::default(),
+        }
+    }
+}
+
+/// A camera: sensor grid and interior orientation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Camera {
+    /// Identifier.
+    #[serde(deserialize_with = "identifier")]
+    pub id: String,
+    /// Width of the sensor grid in pixels.
+    pub width: u32,
+    /// Height of the sensor grid in pixels.
+    pub height: u32,
+    /// Size of a pixel in millimetres; null: photo coordinates are in pixels.
+    #[serde(default)]
+    pub pixel_pitch: Option<[f64; 2]>,
+    /// Model and its parameters.
+    #[serde(flatten)]
+    pub interior: Interior,
+    /// Parameters to be estimated.
+    #[serde(default)]
+    pub free: Vec<Parameter>,
+    /// Parameters observed with an a priori sigma; these are estimated too.
+    #[serde(default)]
+    pub sigma: BTreeMap<Parameter, f64>,
+    /// Whether every photo has an interior orientation of its own, starting from this one.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub per_photo: bool,
+}
+
+/// A photo and its exterior orientation.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Photo {
+    /// Identifier.
+    #[serde(deserialize_with = "identifier")]
+    pub id: String,
+    /// Identifier of its camera.
+    #[serde(deserialize_with = "identifier")]
+    pub camera: String,
+    /// File name.
+    #[serde(default)]
+    pub file: String,
+    /// Projection centre in the object system.
+    #[serde(default)]
+    pub position: Option<[f64; 3]>,
+    /// Omega, phi, kappa in radians.
+    #[serde(default)]
+    pub rotation: Option<[f64; 3]>,
+    /// Standard errors of the given projection centre, per axis; null: not observed. Used under the control datum.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sigma_position: Option<[Option<f64>; 3]>,
+    /// The photo's own interior orientation, for a camera whose photos have one each.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interior: Option<Interior>,
+    /// Whether it takes part.
+    #[serde(default = "yes")]
+    pub enabled: bool,
+}
+
+/// What a point is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// Determined by the adjustment.
+    #[default]
+    Tie,
+    /// Known: fixed or weighted.
+    Control,
+    /// Known, but compared only.
+    Check,
+}
+
+/// An object point.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// Identifier.
+    #[serde(deserialize_with = "identifier")]
+    pub id: String,
+    /// What it is for.
+    #[serde(default)]
+    pub role: Role,
+    /// Coordinates: given (control, check) or initial (tie).
+    #[serde(default)]
+    pub xyz: Option<[f64; 3]>,
+    /// Standard errors of given coordinates; null or 0 on an axis fixes that axis of a control point.
+    #[serde(default)]
+    pub sigma: Option<[Option<f64>; 3]>,
+    /// Diameter of the circular target in the object's unit.
+    #[serde(default)]
+    pub diameter: Option<f64>,
+}
+
+/// A priori standard error of an image observation in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Sigma {
+    /// The same for u and v.
+    One(f64),
+    /// For u and for v.
+    Two([f64; 2]),
+}
+
+impl Sigma {
+    /// For u and for v.
+    pub fn both(self) -> [f64; 2] {
+        match self {
+            Self::One(s) => [s, s],
+            Self::Two(s) => s,
+        }
+    }
+}
+
+/// An image observation: a point measured in a photo, in pixels.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Observation {
+    /// Identifier of the photo.
+    #[serde(deserialize_with = "identifier")]
+    pub photo: String,
+    /// Identifier of the point.
+    #[serde(deserialize_with = "identifier")]
+    pub point: String,
+    /// To the right.
+    pub u: f64,
+    /// Downwards.
+    pub v: f64,
+    /// A priori standard error.
+    pub sigma: Sigma,
+    /// Whether it takes part.
+    #[serde(default = "yes")]
+    pub enabled: bool,
+}
+
+/// A measured distance between two points (scale bar).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Distance {
+    /// Identifier of one end.
+    #[serde(deserialize_with = "identifier")]
+    pub from: String,
+    /// Identifier of the other end.
+    #[serde(deserialize_with = "identifier")]
+    pub to: String,
+    /// Length in the project's unit.
+    pub length: f64,
+    /// Standard error of the length.
+    pub sigma: f64,
+}
+
+/// Kind of datum.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DatumKind {
+    /// Control points.
+    Control,
+    /// As few constraints as the datum defect asks for.
+    Minimal,
+    /// Inner constraints.
+    #[default]
+    Free,
+}
+
+/// Datum.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Datum {
+    /// Kind.
+    pub kind: DatumKind,
+    /// Points of the inner constraints, or those that carry the minimal ones; null: all, or chosen automatically.
+    #[serde(default, deserialize_with = "identifier_option_list")]
+    pub points: Option<Vec<String>>,
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl Camera {
+    /// A camera with nothing to be estimated; photo coordinates in pixels.
+    pub fn new(id: impl Into<String>, width: u32, height: u32, interior: Interior) -> Self {
+        Self {
+            id: id.into(),
+            width,
+            height,
+            pixel_pitch: None,
+            interior,
+            free: Vec::new(),
+            sigma: BTreeMap::new(),
+            per_photo: false,
+        }
+    }
+
+    /// Width and height of a pixel in photo units (1 without a pitch).
+    pub fn pitch(&self) -> [f64; 2] {
+        self.pixel_pitch.unwrap_or([1.0, 1.0])
+    }
+
+    /// Photo coordinates (x right, y up, origin at the image centre) of a pixel position.
+    pub fn photo_from_pixel(&self, [u, v]: [f64; 2]) -> [f64; 2] {
+        let [px, py] = self.pitch();
+        [(u - f64::from(self.width) / 2.0) * px, (f64::from(self.height) / 2.0 - v) * py]
+    }
+
+    /// Pixel position of photo coordinates.
+    pub fn pixel_from_photo(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [px, py] = self.pitch();
+        [x / px + f64::from(self.width) / 2.0, f64::from(self.height) / 2.0 - y / py]
+    }
+
+    /// Parameters that the adjustment estimates: the free and the observed ones, in the model's order, each once.
+    pub fn estimated(&self) -> Vec<Parameter> {
+        let wanted = |p: &Parameter| self.free.contains(p) || self.sigma.contains_key(p);
+        self.interior.parameters().iter().copied().filter(wanted).collect()
+    }
+}

@@ -1,0 +1,4 @@
+//! Statistics: test distributions and the reliability of single observations.
+
+pub mod distribution;
+pub mod reliability;

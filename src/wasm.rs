@@ -1,0 +1,272 @@
+//! The JavaScript face: the engine's functions on plain objects and bytes. Nothing is computed here.
+//!
+//! What crosses the border has the field names of the document ([`crate::project`]) and of the results
+//! ([`crate::adjustment`], [`crate::detection`]); `sightline.d.ts` declares them. Arguments of a wrong kind and unknown options are
+//! errors that name the field. Errors are thrown as Error with `code`, `message`, `where` and `data`.
+
+mod fault;
+mod table;
+mod value;
+
+use js_sys::{Uint8Array, Uint8ClampedArray, Uint16Array};
+use serde::Serialize;
+use wasm_bindgen::prelude::*;
+
+use crate::adjustment::{AdjustOptions, Iteration};
+use crate::detection::DetectOptions;
+use crate::experiments::ExperimentOptions;
+use crate::image::{Grey, Samples};
+use crate::network::Network;
+use crate::{Error, adjust, decode, detect, exchange, exif, experiments, matching, network, orient};
+use fault::thrown;
+
+#[wasm_bindgen(typescript_custom_section)]
+const DECLARATIONS: &str = include_str!("wasm/sightline.d.ts");
+
+type Thrown<T = JsValue> = Result<T, JsValue>;
+
+/// Runs when the module starts.
+#[wasm_bindgen(start)]
+pub fn start() {
+    fault::throw_panics();
+}
+
+/// Version of the engine.
+#[wasm_bindgen]
+pub fn version() -> String {
+    env!("CARGO_PKG_VERSION").into()
+}
+
+/// Finds and measures the targets of a photo, from the bytes of its file (PNG, JPEG, TIFF; 8 or 16 bits).
+#[wasm_bindgen(js_name = detect, unchecked_return_type = "Detection")]
+pub fn detect_file(
+    #[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer")] bytes: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
+) -> Thrown {
+    let found = || {
+        let options: DetectOptions = value::options(&options, &[])?;
+        let grey = decode::grey(&value::bytes(&bytes, "bytes")?, options.channel)?;
+        detect::detect(&grey.view()?, &options)
+    };
+    found().map(|detection| value::write(&detection)).map_err(|error| thrown(&error))
+}
+
+/// Finds and measures the targets of a grey picture, given row by row from the top left.
+#[wasm_bindgen(js_name = detectGray, unchecked_return_type = "Detection")]
+pub fn detect_grey(
+    #[wasm_bindgen(unchecked_param_type = "number")] width: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] height: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Uint8Array | Uint8ClampedArray | Uint16Array")] samples: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
+) -> Thrown {
+    let found = || {
+        let options: DetectOptions = value::options(&options, &[])?;
+        let (width, height) = (value::whole(&width, "width")?, value::whole(&height, "height")?);
+        let grey = Grey { width, height, samples: samples_of(&samples)? };
+        detect::detect(&grey.view()?, &options)
+    };
+    found().map(|detection| value::write(&detection)).map_err(|error| thrown(&error))
+}
+
+fn samples_of(samples: &JsValue) -> crate::Result<Samples> {
+    if let Some(bytes) = samples.dyn_ref::<Uint8Array>() {
+        return Ok(Samples::U8(bytes.to_vec()));
+    }
+    if let Some(bytes) = samples.dyn_ref::<Uint8ClampedArray>() {
+        return Ok(Samples::U8(bytes.to_vec()));
+    }
+    let words = samples.dyn_ref::<Uint16Array>().map(|words| Samples::U16(words.to_vec()));
+    words.ok_or_else(|| value::invalid("samples", "samples are a Uint8Array or a Uint16Array, row by row"))
+}
+
+/// Measures the one target at a place of a photo, in a window around it; null where there is none.
+#[wasm_bindgen(js_name = measureAt, unchecked_return_type = "Target | null")]
+pub fn measure_at(
+    #[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer")] bytes: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] u: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] v: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
+) -> Thrown {
+    let found = || {
+        let options: DetectOptions = value::options(&options, &[])?;
+        let (u, v) = (value::number(&u, "u")?, value::number(&v, "v")?);
+        let grey = decode::grey(&value::bytes(&bytes, "bytes")?, options.channel)?;
+        detect::measure_at(&grey.view()?, u, v, &options)
+    };
+    found().map(|target| value::write(&target)).map_err(|error| thrown(&error))
+}
+
+/// What the file says of a photo and its camera: the size of the stored grid, and EXIF. Hints for initial values.
+#[wasm_bindgen(js_name = photoInfo, unchecked_return_type = "PhotoInfo")]
+pub fn photo_info(#[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer")] bytes: JsValue) -> Thrown {
+    #[derive(Serialize)]
+    struct Description {
+        width: u32,
+        height: u32,
+        bits: u32,
+        #[serde(flatten)]
+        info: exif::PhotoInfo,
+    }
+    let found = || {
+        let bytes = value::bytes(&bytes, "bytes")?;
+        let decode::Size { width, height, bits } = decode::size(&bytes)?;
+        Ok(Description { width, height, bits, info: exif::read(&bytes) })
+    };
+    found().map(|description| value::write(&description)).map_err(|error: Error| thrown(&error))
+}
+
+/// Names coded targets after their codes and gathers their measurements; doubtful ones are listed, not used.
+#[wasm_bindgen(js_name = nameCoded, unchecked_return_type = "Coded")]
+pub fn name_coded(#[wasm_bindgen(unchecked_param_type = "PhotoTargets[]")] photos: JsValue) -> Thrown {
+    let photos = value::read::<Vec<matching::PhotoTargets>>(&photos, "photos");
+    photos.map(|photos| value::write(&matching::name_coded(&photos))).map_err(|error| thrown(&error))
+}
+
+/// Moves approximate marks of an earlier measurement onto the targets that were found within a radius in pixels.
+#[wasm_bindgen(js_name = snapMarks, unchecked_return_type = "Snapped")]
+pub fn snap_marks(
+    #[wasm_bindgen(unchecked_param_type = "Mark[]")] marks: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "PhotoTargets[]")] photos: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] radius: JsValue,
+) -> Thrown {
+    let snapped = || {
+        let (marks, photos) = (value::read::<Vec<_>>(&marks, "marks")?, value::read::<Vec<_>>(&photos, "photos")?);
+        Ok(matching::snap(&marks, &photos, value::number(&radius, "radius")?))
+    };
+    snapped().map(|snapped| value::write(&snapped)).map_err(|error: Error| thrown(&error))
+}
+
+/// Matches targets of oriented photos that have no name yet: to points that are there, and to new ones.
+#[wasm_bindgen(js_name = matchUncoded, unchecked_return_type = "Matching")]
+pub fn match_uncoded(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "PhotoTargets[]")] photos: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "MatchOptions")] options: JsValue,
+) -> Thrown {
+    let matched = || {
+        let options: matching::MatchOptions = value::options(&options, &[])?;
+        let photos = value::read::<Vec<matching::PhotoTargets>>(&photos, "photos")?;
+        matching::match_uncoded(&value::project(&project)?, &photos, &options)
+    };
+    matched().map(|matching| value::write(&matching)).map_err(|error| thrown(&error))
+}
+
+/// Fills in every initial value that can be found; the project comes back with `notes` on what was assumed and what could not be
+/// found.
+#[wasm_bindgen(js_name = orient, unchecked_return_type = "OrientedProject")]
+pub fn orient_project(#[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue) -> Thrown {
+    let oriented = value::project(&project).and_then(|project| orient::orient(&project));
+    oriented.map(value::oriented_object).map_err(|error| thrown(&error))
+}
+
+/// Adjusts the project; every iteration is shown to `options.on_iteration`, which stops the work by returning false.
+#[wasm_bindgen(js_name = adjust, unchecked_return_type = "Adjustment")]
+pub fn adjust_project(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "AdjustOptions")] options: JsValue,
+) -> Thrown {
+    let mut exception = None;
+    let mut adjusted = || {
+        let callback = value::callback(&options, "on_iteration")?;
+        let options: AdjustOptions = value::options(&options, &["on_iteration"])?;
+        let mut goes_on = |iteration: &Iteration| {
+            let Some(callback) = &callback else { return true };
+            match callback.call1(&JsValue::NULL, &value::write(iteration)) {
+                Ok(answer) => answer.as_bool() != Some(false),
+                Err(error) => {
+                    exception = Some(error);
+                    false
+                }
+            }
+        };
+        adjust::adjust(&value::project(&project)?, &options, &mut goes_on)
+    };
+    let adjusted = adjusted();
+    // What the caller's own function throws is the caller's.
+    match exception {
+        Some(error) => Err(error),
+        None => adjusted.map(value::adjustment_object).map_err(|error| thrown(&error)),
+    }
+}
+
+/// The project with the adjusted values as new initial values; what is given stays as given.
+#[wasm_bindgen(js_name = applyAdjustment, unchecked_return_type = "Project")]
+pub fn apply_adjustment(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Adjustment")] adjustment: JsValue,
+) -> Thrown {
+    let applied = || Ok(adjust::apply(&value::project(&project)?, &value::read(&adjustment, "adjustment")?));
+    applied().map(value::project_object).map_err(|error: Error| thrown(&error))
+}
+
+/// Computes what a network on paper would give: a project with its observations, exact, noisy or measured in rendered photos.
+#[wasm_bindgen(unchecked_return_type = "Project")]
+pub fn simulate(#[wasm_bindgen(unchecked_param_type = "Network")] network: JsValue) -> Thrown {
+    let simulated = || network::simulate(&value::read::<Network>(&network, "")?);
+    simulated().map(value::project_object).map_err(|error| thrown(&error))
+}
+
+/// Renders one photo of a network: a grey picture, row by row, for `detectGray` or for looking at.
+#[wasm_bindgen(js_name = renderPhoto, unchecked_return_type = "Picture")]
+pub fn render_photo(
+    #[wasm_bindgen(unchecked_param_type = "Network")] network: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "string")] station: JsValue,
+) -> Thrown {
+    let rendered = || network::photo(&value::read::<Network>(&network, "")?, &value::text(&station, "station")?);
+    rendered().map(|grey| value::picture(&grey)).map_err(|error| thrown(&error))
+}
+
+/// Runs one of the papers' experiments; each step is shown to `options.on_progress(done, of)`, which stops it by returning false.
+#[wasm_bindgen(js_name = runExperiment, unchecked_return_type = "Experiment")]
+pub fn run_experiment(
+    #[wasm_bindgen(unchecked_param_type = "ExperimentName")] name: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "ExperimentOptions")] options: JsValue,
+) -> Thrown {
+    let mut exception = None;
+    let mut ran = || {
+        let callback = value::callback(&options, "on_progress")?;
+        let chosen: ExperimentOptions = value::options(&options, &["on_progress"])?;
+        let mut goes_on = |done: usize, of: usize| {
+            let Some(callback) = &callback else { return true };
+            match callback.call2(&JsValue::NULL, &JsValue::from(done as f64), &JsValue::from(of as f64)) {
+                Ok(answer) => answer.as_bool() != Some(false),
+                Err(error) => {
+                    exception = Some(error);
+                    false
+                }
+            }
+        };
+        experiments::run(&value::text(&name, "name")?, &chosen, &mut goes_on)
+    };
+    let ran = ran();
+    match exception {
+        Some(error) => Err(error),
+        None => ran.map(|experiment| value::write(&experiment)).map_err(|error| thrown(&error)),
+    }
+}
+
+/// Reads files of a foreign format as a project, or as the part of one that the format holds.
+#[wasm_bindgen(js_name = importProject, unchecked_return_type = "Project")]
+pub fn import_project(
+    #[wasm_bindgen(unchecked_param_type = "ImportFormat")] format: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Record<string, Uint8Array | ArrayBuffer | string>")] files: JsValue,
+) -> Thrown {
+    let read = || exchange::import(&value::text(&format, "format")?, &value::files(&files)?);
+    read().map(value::project_object).map_err(|error| thrown(&error))
+}
+
+/// Writes a project in a foreign format, with the results of its adjustment where the format has a place for them.
+#[wasm_bindgen(js_name = exportProject, unchecked_return_type = "Record<string, Uint8Array>")]
+pub fn export_project(
+    #[wasm_bindgen(unchecked_param_type = "ExportFormat")] format: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "Adjustment | null")] adjustment: JsValue,
+) -> Thrown {
+    let written = || {
+        let project = value::project(&project)?;
+        let absent = adjustment.is_undefined() || adjustment.is_null();
+        let adjustment = if absent { None } else { Some(value::read(&adjustment, "adjustment")?) };
+        exchange::export(&value::text(&format, "format")?, &project, adjustment.as_ref())
+    };
+    written().map(|files| value::files_object(&files)).map_err(|error: Error| thrown(&error))
+}

@@ -1,0 +1,542 @@
+/** Name of a parameter of the interior orientation; "f" stands for fx and fy as one. */
+export type Parameter = "c" | "x0" | "y0" | "k1" | "k2" | "k3" | "p1" | "p2" | "b1" | "b2" | "f" | "fx" | "fy" | "cx" | "cy";
+
+/** Interior orientation: a correction added to the measured photo coordinates. Lengths in photo units (mm with a pixel pitch, else pixels). */
+export interface BrownInterior {
+  model: "brown";
+  /** Principal distance; null: not known yet. */
+  c?: number | null;
+  x0?: number;
+  y0?: number;
+  k1?: number;
+  k2?: number;
+  k3?: number;
+  p1?: number;
+  p2?: number;
+  b1?: number;
+  b2?: number;
+}
+
+/** Interior orientation: ideal to image on normalised coordinates; fx, fy, cx, cy in the pixel frame (OpenCV's cx is ours - 0.5). */
+export interface OpencvInterior {
+  model: "opencv";
+  /** Focal lengths in pixels; null: not known yet. */
+  fx?: number | null;
+  fy?: number | null;
+  cx: number;
+  cy: number;
+  k1?: number;
+  k2?: number;
+  p1?: number;
+  p2?: number;
+  k3?: number;
+}
+
+export type Interior = BrownInterior | OpencvInterior;
+
+interface CameraBase {
+  id: string | number;
+  /** Sensor grid in pixels. */
+  width: number;
+  height: number;
+  /** Size of a pixel in millimetres; null: photo coordinates are in pixels. */
+  pixel_pitch?: [number, number] | null;
+  /** Parameters to be estimated. */
+  free?: Parameter[];
+  /** Parameters observed with an a priori standard error; these are estimated too. */
+  sigma?: Partial<Record<Parameter, number>>;
+  /** Whether every photo has an interior orientation of its own. */
+  per_photo?: boolean;
+}
+
+export type Camera = CameraBase & Interior;
+
+export interface Photo {
+  id: string | number;
+  camera: string | number;
+  file?: string;
+  /** Projection centre in the object system. */
+  position?: [number, number, number] | null;
+  /** Omega, phi, kappa in radians. */
+  rotation?: [number, number, number] | null;
+  enabled?: boolean;
+  /** Standard errors of a given projection centre. */
+  sigma_position?: [number | null, number | null, number | null] | null;
+  /** The photo's own interior orientation, for a camera with per_photo. */
+  interior?: Interior | null;
+}
+
+export interface Point {
+  id: string | number;
+  role?: "tie" | "control" | "check";
+  /** Given (control, check) or initial (tie). */
+  xyz?: [number, number, number] | null;
+  /** Standard errors of given coordinates; null or 0 fixes that axis of a control point. */
+  sigma?: [number | null, number | null, number | null] | null;
+  /** Diameter of the circular target in the object's unit. */
+  diameter?: number | null;
+}
+
+/** A point measured in a photo, in pixels. */
+export interface Observation {
+  photo: string | number;
+  point: string | number;
+  u: number;
+  v: number;
+  sigma: number | [number, number];
+  enabled?: boolean;
+}
+
+export interface Distance {
+  from: string | number;
+  to: string | number;
+  length: number;
+  sigma: number;
+}
+
+export interface Datum {
+  kind: "control" | "minimal" | "free";
+  points?: (string | number)[] | null;
+}
+
+/** The document. Fields may be left out where they are optional; what the engine returns has them all. */
+export interface Project {
+  format: "sightline";
+  version: 1;
+  name?: string;
+  unit?: string;
+  cameras?: Camera[];
+  photos?: Photo[];
+  points?: Point[];
+  observations?: Observation[];
+  distances?: Distance[];
+  datum?: Datum;
+}
+
+export interface Iteration {
+  sigma0: number;
+  step: number;
+  damping: number;
+}
+
+export interface AdjustOptions {
+  /** [50] */
+  max_iterations?: number;
+  /** ["full"] */
+  statistics?: "none" | "precision" | "full";
+  /** [null] */
+  robust?: null | "huber" | "tukey";
+  /** [false] */
+  snooping?: boolean;
+  /** ["corrected"] */
+  residuals?: "corrected" | "measured";
+  /** Points whose full covariance matrix is wanted [none]. */
+  covariance_of?: string[];
+  /** Called after every iteration; returning false stops. */
+  on_iteration?: (iteration: Iteration) => void | boolean;
+}
+
+export interface Correlation {
+  names: string[];
+  matrix: number[][];
+}
+
+export interface AdjustedCameraResult {
+  /** The photo whose own interior orientation this is. */
+  photo?: string;
+  /** Standard errors of the estimated parameters. */
+  sigma: Partial<Record<Parameter, number>>;
+  correlation: Correlation;
+}
+
+export type AdjustedCamera = Omit<CameraBase, "sigma"> & Interior & AdjustedCameraResult;
+
+export interface AdjustedPhoto {
+  id: string;
+  position: [number, number, number];
+  rotation: [number, number, number];
+  sigma_position: [number, number, number] | null;
+  /** Null where the attitude leaves the angles undefined (phi of 90 degrees). */
+  sigma_rotation: [number, number, number] | null;
+  /** Photo units. */
+  rms_x: number;
+  rms_y: number;
+  points: number;
+  /** Of X, Y, Z, omega, phi, kappa and the camera's estimated parameters. */
+  correlation?: Correlation;
+}
+
+export interface AdjustedPoint {
+  id: string;
+  xyz: [number, number, number];
+  sigma?: [number, number, number];
+  /** xx, xy, xz, yy, yz, zz */
+  covariance?: [number, number, number, number, number, number];
+  rays: number;
+}
+
+export interface AdjustedObservation {
+  photo: string;
+  point: string;
+  /** Residuals in photo units (brown) or pixels (opencv). */
+  vx: number;
+  vy: number;
+  /** Redundancy numbers. */
+  rx: number | null;
+  ry: number | null;
+  /** Baarda's w. */
+  wx: number | null;
+  wy: number | null;
+  /** Minimal detectable bias. */
+  mdb_x: number | null;
+  mdb_y: number | null;
+  /** External reliability: how far a bias of that size moves the point, in the project's unit. */
+  effect_x: number | null;
+  effect_y: number | null;
+  /** Factor on the weight from robust weighting; absent where it is 1. */
+  weight?: number;
+  enabled: boolean;
+}
+
+/** An observation of another kind than image coordinates. */
+export type GivenObservation = {
+  residual: number;
+  sigma: number;
+  reliability: { redundancy: number; w: number | null; mdb: number | null } | null;
+} & (
+  | { kind: "control"; point: string; axis: number }
+  | { kind: "position"; photo: string; axis: number }
+  | { kind: "distance"; from: string; to: string }
+  | { kind: "parameter"; camera: string; photo: string | null; parameter: Parameter }
+);
+
+/** What the search for gross errors did with an observation. */
+export interface GrossError {
+  photo: string;
+  point: string;
+  action: "removed" | "restored" | "downweighted";
+  statistic: number;
+  limit: number;
+  round: number;
+}
+
+/** What a solvable network is weak in. */
+export type Advice =
+  | { kind: "high_correlation"; camera: string; photo: string | null; first: string; second: string; correlation: number }
+  | { kind: "low_redundancy"; observations: [string, string][] }
+  | { kind: "two_rays"; points: string[] }
+  | { kind: "narrow_intersection"; points: [string, number][] }
+  | { kind: "behind_camera"; observations: [string, string][] }
+  | { kind: "distance_unused"; distances: [string, string][] }
+  | { kind: "gross_errors_unsettled" };
+
+/** The result; no number in it is NaN or infinite. */
+export interface Adjustment {
+  termination: "converged" | "iteration_limit" | "diverged" | "stopped";
+  iterations: Iteration[];
+  observations_count: number;
+  unknowns: number;
+  constraints: number;
+  redundancy: number;
+  /** Null where the redundancy is 0. */
+  sigma0: number | null;
+  global_test: { statistic: number; lower: number; upper: number; passed: boolean } | null;
+  cameras: AdjustedCamera[];
+  photos: AdjustedPhoto[];
+  points: AdjustedPoint[];
+  /** In the project's order. */
+  observations: AdjustedObservation[];
+  check_points: { id: string; difference: [number, number, number] | null }[];
+  precision: {
+    rms_sigma: [number, number, number];
+    mean_q: [number, number, number];
+    largest_dimension: number;
+    relative: number | null;
+  } | null;
+  check_statistics: {
+    count: number;
+    min: [number, number, number];
+    max: [number, number, number];
+    mean: [number, number, number];
+    standard_deviation: [number, number, number] | null;
+    rms: [number, number, number];
+  } | null;
+  given: GivenObservation[];
+  gross_errors: GrossError[];
+  advice: Advice[];
+  /** Of the points asked for, three rows each in their order. */
+  covariance?: { points: string[]; matrix: number[][] };
+}
+
+export interface DetectOptions {
+  /** ["least_squares"] */
+  method?: "least_squares" | "ellipse" | "intensity" | "gradient";
+  /** ["auto"] */
+  polarity?: "auto" | "bright" | "dark";
+  /** ["grey"] */
+  channel?: "grey" | "red" | "green" | "blue";
+  /** ["none"] */
+  codes?: "none" | "ring-12" | "ring-14" | "ring-16" | "ring-20" | "auto";
+  /** Smallest full axis of a target in pixels [5]. */
+  min_diameter?: number;
+  /** Largest full axis of a target in pixels [400]. */
+  max_diameter?: number;
+}
+
+/** How good a target's image is. */
+export interface Quality {
+  fit_rms: number;
+  noise: number;
+  edge_width: number;
+  saturated: number;
+  roundness: number;
+  occluded: number;
+  code_margin: number | null;
+  code_note: string | null;
+}
+
+/** A target of a photo: pixels, radians; major and minor are the ellipse's full axes. */
+export interface Target {
+  u: number;
+  v: number;
+  sigma_u: number;
+  sigma_v: number;
+  covariance_uv: number;
+  major: number;
+  minor: number;
+  angle: number;
+  contrast: number;
+  polarity: "bright" | "dark";
+  code: number | null;
+  quality: Quality;
+}
+
+export type RejectionReason =
+  | "too_small" | "too_large" | "not_an_ellipse" | "too_flat" | "low_contrast" | "touching" | "saturated" | "at_border" | "occluded"
+  | "code_ring" | "no_fit";
+
+export interface Detection {
+  width: number;
+  height: number;
+  bits: number;
+  targets: Target[];
+  rejected: Partial<Record<RejectionReason, number>>;
+  rejected_blobs: { u: number; v: number; diameter: number; reason: RejectionReason }[];
+}
+
+/** What a photo's file says; null where it says nothing. */
+export interface PhotoInfo {
+  width: number;
+  height: number;
+  bits: number;
+  make: string | null;
+  model: string | null;
+  focal_length_mm: number | null;
+  focal_length_35mm: number | null;
+  pixel_pitch: [number, number] | null;
+  /** How the stored grid has to be turned for showing, 1 to 8. */
+  orientation: number;
+  date: string | null;
+}
+
+/** The targets detected in one photo. */
+export interface PhotoTargets {
+  photo: string;
+  targets: Target[];
+}
+
+/** A target whose identity is in doubt: shown to the user, not used. */
+export interface Doubtful {
+  photo: string;
+  u: number;
+  v: number;
+  points: string[];
+  reason: "duplicate_code" | "ambiguous" | "disagrees";
+}
+
+export interface Coded {
+  points: Point[];
+  observations: Observation[];
+  doubtful: Doubtful[];
+}
+
+/** An approximate measurement: a point seen at a place of a photo. */
+export interface Mark {
+  photo: string;
+  point: string;
+  u: number;
+  v: number;
+  sigma: number;
+}
+
+export interface MatchOptions {
+  /** Largest distance of a target from where its point should appear, pixels [null: from the residuals]. */
+  tolerance_px?: number | null;
+  /** Fewest rays of a new point [3]. */
+  min_rays?: number;
+}
+
+export interface Matching {
+  /** New points, with coordinates. */
+  points: Point[];
+  /** New observations, of new points and of points that were there. */
+  observations: Observation[];
+  doubtful: Doubtful[];
+}
+
+/** Something to say about an orientation: an assumption, or what could not be found and why. */
+export type Note =
+  | { note: "principal_distance"; camera: string; value: number; source: "known_points" | "assumed" }
+  | { note: "system"; source: "known_points" | "given_photos" | "own"; scale: "given" | "arbitrary" }
+  | ({ note: "photo_not_oriented"; photo: string } & (
+      | { why: "no_points" }
+      | { why: "too_few_points"; determined: number; needed: number }
+      | { why: "disagrees"; determined: number }
+    ))
+  | ({ note: "point_not_determined"; point: string } & (
+      | { why: "not_measured" | "rays_disagree" | "coordinates_missing" }
+      | { why: "seen_once" | "behind_camera"; photo: string }
+      | { why: "too_few_oriented_photos"; photos: number }
+      | { why: "near_parallel"; angle: number }
+    ))
+  | { note: "measurement_disagrees"; photo: string; point: string; distance_px: number | null };
+
+export interface OrientedProject extends Project {
+  notes: Note[];
+}
+
+export interface Snapped {
+  observations: Observation[];
+  unsnapped: { mark: Mark; reason: "no_detection" | "no_target" | "contested" | "marked_twice"; points?: string[] }[];
+}
+
+/** A photo of a network: either its rotation (omega, phi, kappa in radians) or the point it is aimed at with a roll. */
+export interface Station {
+  id: string;
+  camera: string;
+  position: [number, number, number];
+  rotation?: [number, number, number] | null;
+  look_at?: [number, number, number] | null;
+  roll?: number;
+}
+
+export interface NetworkPoint {
+  id: string;
+  role?: "tie" | "control" | "check";
+  xyz: [number, number, number];
+  sigma?: [number | null, number | null, number | null] | null;
+  /** Direction the target faces; null: seen from everywhere, and not rendered. */
+  normal?: [number, number, number] | null;
+  diameter?: number | null;
+  ring?: { sectors: number; code: number } | null;
+  grey?: number | null;
+  patch?: { ratio: number; grey: number } | null;
+}
+
+/** A parallelogram that fills the view and hides what lies behind it. */
+export interface Face {
+  corner: [number, number, number];
+  along: [number, number, number];
+  across: [number, number, number];
+  grey?: number;
+  texture?: number;
+  grain?: number;
+}
+
+/** A network on paper, from which a project is simulated. */
+export interface Network {
+  name?: string;
+  unit?: string;
+  cameras: Camera[];
+  stations: Station[];
+  points: NetworkPoint[];
+  faces?: Face[];
+  background?: number;
+  distances?: { from: string; to: string; sigma: number }[];
+  datum?: Datum;
+  /** Largest angle between the ray and the direction a target faces, radians. */
+  max_incidence?: number;
+  /** Points nearer than this to the picture's border are not measured, pixels. */
+  margin?: number;
+  /** A priori standard error of the observations, pixels [0.1]. */
+  sigma?: number | [number, number];
+  /** Standard deviation of the noise, pixels; null: that of sigma. */
+  noise?: number | [number, number] | null;
+  /** ["noisy"] */
+  observations?: "exact" | "noisy" | "rendered";
+  seed?: number;
+  exposure?: { psf?: number; vignetting?: number; read_noise?: number; shot_noise?: number; bits?: 8 | 16; seed?: number };
+  detect?: DetectOptions;
+}
+
+/** A grey picture, row by row from the top left. */
+export interface Picture {
+  width: number;
+  height: number;
+  samples: Uint8Array | Uint16Array;
+}
+
+export type ImportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "photomodeler" | "aicon" | "dbat";
+export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "csv" | "tsv";
+
+/** What every function throws. */
+export interface SightlineError extends Error {
+  /** Stable name of the kind of error. */
+  code: string;
+  where: { file?: string; photo?: string; point?: string; camera?: string; line?: number; field?: string };
+  /** The values that the sentence is made of. */
+  data: { code: string; [name: string]: unknown } | null;
+}
+
+/** The papers' experiments. */
+export type ExperimentName = "kang" | "film" | "lee-calibration" | "lee-structure" | "kim";
+
+/** What may be varied; what is left out has the paper's value. */
+export interface ExperimentOptions {
+  /** Seed of all noise. */
+  seed?: number;
+  /** Standard deviation of image coordinates, µm (kang, film, lee-structure). */
+  image_sigma_um?: number | null;
+  /** Standard deviation of the pixels' noise, share of full scale (lee-calibration, kim). */
+  pixel_noise?: number | null;
+  /** Standard error of control coordinates, mm (kang, lee-structure, kim). */
+  control_sigma_mm?: number | null;
+  /** Rounds of Monte Carlo (kang). */
+  rounds?: number | null;
+  /** Network of the project to open: "1.4-5A", "H'" (kang), "I-free" (lee-structure). */
+  network?: string | null;
+  /** Photos left out of the second run (lee-calibration). */
+  left_out?: string[] | null;
+  /** How centres are measured for the adjustment (lee-calibration). */
+  method?: "least_squares" | "ellipse" | "intensity" | "gradient" | null;
+  /** Told how far the experiment is; stops it by returning false. */
+  on_progress?: (done: number, of: number) => void | boolean;
+}
+
+/** Something to draw: a point with its role, or a photo with its viewing direction. */
+export interface Drawn {
+  id: string;
+  xyz: [number, number, number];
+  direction?: [number, number, number];
+  role?: "tie" | "control" | "check";
+}
+
+/** Result of an experiment. Cells are numbers, names or null; `paper` marks what the paper prints. */
+export interface Experiment {
+  name: ExperimentName;
+  drawings: { id: string; unit: string; points: Drawn[]; photos: Drawn[] }[];
+  figures: { id: string; unit: string; ours: number; paper: number | null; independent: number | null }[];
+  tables: {
+    id: string;
+    columns: { id: string; unit: string; decimals: number; paper: boolean }[];
+    rows: (number | string | null)[][];
+  }[];
+  charts: {
+    id: string;
+    x: { id: string; unit: string };
+    y: { id: string; unit: string };
+    series: { id: string; paper: boolean; points: [number, number][] }[];
+  }[];
+  /** Ready to be opened and adjusted. */
+  project: Project;
+}

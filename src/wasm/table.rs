@@ -1,0 +1,202 @@
+//! The long tables: columns of numbers on this side, `tables.js` makes rows of objects of them on the other.
+
+use std::collections::HashMap;
+
+use js_sys::{Array, Float64Array, JsString, Uint32Array};
+use wasm_bindgen::prelude::*;
+
+use crate::adjustment::{AdjustedObservation, AdjustedPoint};
+use crate::error::{Error, Place, Result};
+use crate::project::{Observation, Point, Role, Sigma};
+
+#[wasm_bindgen(module = "/src/wasm/tables.js")]
+extern "C" {
+    type Columns;
+    #[wasm_bindgen(method, getter)]
+    fn row(this: &Columns) -> Option<u32>;
+    #[wasm_bindgen(method, getter)]
+    fn field(this: &Columns) -> String;
+    #[wasm_bindgen(method, getter)]
+    fn expected(this: &Columns) -> String;
+    #[wasm_bindgen(method, getter)]
+    fn numbers(this: &Columns) -> Float64Array;
+    #[wasm_bindgen(method, getter)]
+    fn places(this: &Columns) -> Uint32Array;
+    #[wasm_bindgen(method, getter)]
+    fn names(this: &Columns) -> Vec<String>;
+
+    #[wasm_bindgen(js_name = readObservations)]
+    fn read_observations(rows: &Array) -> Columns;
+    #[wasm_bindgen(js_name = readPoints)]
+    fn read_points(rows: &Array) -> Columns;
+    #[wasm_bindgen(js_name = writeObservations)]
+    fn write_observations(numbers: &Float64Array, places: &Uint32Array, names: &Array) -> Array;
+    #[wasm_bindgen(js_name = writePoints)]
+    fn write_points(numbers: &Float64Array, places: &Uint32Array, names: &Array) -> Array;
+    #[wasm_bindgen(js_name = writeAdjustedObservations)]
+    fn write_adjusted_observations(numbers: &Float64Array, places: &Uint32Array, names: &Array) -> Array;
+    #[wasm_bindgen(js_name = writeAdjustedPoints)]
+    fn write_adjusted_points(numbers: &Float64Array, places: &Uint32Array, names: &Array) -> Array;
+}
+
+/// Bits of an observation's flags.
+const ENABLED: u32 = 1;
+const TWO_SIGMAS: u32 = 2;
+/// Bits of a point's flags, above its role.
+const COORDINATES: u32 = 4;
+const SIGMAS: u32 = 8;
+
+/// Observations of a project from its rows.
+pub fn observations(rows: &JsValue) -> Result<Vec<Observation>> {
+    let Some(rows) = list(rows, "observations")? else { return Ok(Vec::new()) };
+    let columns = checked(read_observations(&rows), &rows, "observations")?;
+    let (numbers, places, names) = (columns.numbers().to_vec(), columns.places().to_vec(), columns.names());
+    let row = |(n, p): (&[f64], &[u32])| Observation {
+        photo: names[p[0] as usize].clone(),
+        point: names[p[1] as usize].clone(),
+        u: n[0],
+        v: n[1],
+        sigma: if p[2] & TWO_SIGMAS == 0 { Sigma::One(n[2]) } else { Sigma::Two([n[2], n[3]]) },
+        enabled: p[2] & ENABLED != 0,
+    };
+    Ok(numbers.chunks_exact(4).zip(places.chunks_exact(3)).map(row).collect())
+}
+
+/// Points of a project from their rows.
+pub fn points(rows: &JsValue) -> Result<Vec<Point>> {
+    let Some(rows) = list(rows, "points")? else { return Ok(Vec::new()) };
+    let columns = checked(read_points(&rows), &rows, "points")?;
+    let (numbers, flags) = (columns.numbers().to_vec(), columns.places().to_vec());
+    let row = |((id, n), flags): ((String, &[f64]), u32)| Point {
+        id,
+        role: [Role::Tie, Role::Control, Role::Check][(flags & 3) as usize],
+        xyz: (flags & COORDINATES != 0).then(|| [n[0], n[1], n[2]]),
+        sigma: (flags & SIGMAS != 0)
+            .then(|| [n[3], n[4], n[5]].map(|sigma| Some(sigma).filter(|sigma| !sigma.is_nan()))),
+        diameter: Some(n[6]).filter(|diameter| !diameter.is_nan()),
+    };
+    Ok(columns.names().into_iter().zip(numbers.chunks_exact(7)).zip(flags).map(row).collect())
+}
+
+/// Rows of a project's observations.
+pub fn observation_rows(observations: &[Observation]) -> Array {
+    let mut names = Names::default();
+    let (mut numbers, mut places) =
+        (Vec::with_capacity(4 * observations.len()), Vec::with_capacity(3 * observations.len()));
+    // Rows are taken apart by name everywhere below, so that the compiler misses a new field before a reader does.
+    for Observation { photo, point, u, v, sigma, enabled } in observations {
+        let [su, sv] = sigma.both();
+        numbers.extend([*u, *v, su, sv]);
+        let two = if matches!(sigma, Sigma::Two(_)) { TWO_SIGMAS } else { 0 };
+        let flags = two | if *enabled { ENABLED } else { 0 };
+        places.extend([names.number(photo), names.number(point), flags]);
+    }
+    write_observations(&columns(&numbers), &Uint32Array::from(places.as_slice()), &names.list)
+}
+
+/// Rows of a project's points.
+pub fn point_rows(points: &[Point]) -> Array {
+    let names: Array = points.iter().map(|point| JsString::from(point.id.as_str())).collect();
+    let (mut numbers, mut flags) = (Vec::with_capacity(7 * points.len()), Vec::with_capacity(points.len()));
+    for Point { id: _, role, xyz, sigma, diameter } in points {
+        numbers.extend(xyz.unwrap_or([f64::NAN; 3]));
+        numbers.extend(sigma.unwrap_or_default().map(|sigma| sigma.unwrap_or(f64::NAN)));
+        numbers.push(diameter.unwrap_or(f64::NAN));
+        let role = match role {
+            Role::Tie => 0,
+            Role::Control => 1,
+            Role::Check => 2,
+        };
+        let coordinates = if xyz.is_some() { COORDINATES } else { 0 };
+        let sigmas = if sigma.is_some() { SIGMAS } else { 0 };
+        flags.push(role | coordinates | sigmas);
+    }
+    write_points(&columns(&numbers), &Uint32Array::from(flags.as_slice()), &names)
+}
+
+/// Rows of adjusted observations.
+pub fn adjusted_observation_rows(observations: &[AdjustedObservation]) -> Array {
+    let mut names = Names::default();
+    let (mut numbers, mut places) =
+        (Vec::with_capacity(11 * observations.len()), Vec::with_capacity(3 * observations.len()));
+    for AdjustedObservation {
+        photo,
+        point,
+        vx,
+        vy,
+        rx,
+        ry,
+        wx,
+        wy,
+        mdb_x,
+        mdb_y,
+        effect_x,
+        effect_y,
+        weight,
+        enabled,
+    } in observations
+    {
+        numbers.extend([*vx, *vy]);
+        numbers.extend(
+            [rx, ry, wx, wy, mdb_x, mdb_y, effect_x, effect_y, weight].map(|number| number.unwrap_or(f64::NAN)),
+        );
+        places.extend([names.number(photo), names.number(point), u32::from(*enabled)]);
+    }
+    write_adjusted_observations(&columns(&numbers), &Uint32Array::from(places.as_slice()), &names.list)
+}
+
+/// Rows of adjusted points.
+pub fn adjusted_point_rows(points: &[AdjustedPoint]) -> Array {
+    let names: Array = points.iter().map(|point| JsString::from(point.id.as_str())).collect();
+    let (mut numbers, mut places) = (Vec::with_capacity(12 * points.len()), Vec::with_capacity(2 * points.len()));
+    for AdjustedPoint { id: _, xyz, sigma, covariance, rays } in points {
+        numbers.extend(*xyz);
+        numbers.extend(sigma.unwrap_or([f64::NAN; 3]));
+        numbers.extend(covariance.unwrap_or([f64::NAN; 6]));
+        places.extend([*rays as u32, u32::from(sigma.is_some()) + 2 * u32::from(covariance.is_some())]);
+    }
+    write_adjusted_points(&columns(&numbers), &Uint32Array::from(places.as_slice()), &names)
+}
+
+fn columns(numbers: &[f64]) -> Float64Array {
+    Float64Array::from(numbers)
+}
+
+/// Identifiers numbered by their first appearance.
+#[derive(Default)]
+struct Names<'a> {
+    numbers: HashMap<&'a str, u32>,
+    list: Array,
+}
+
+impl<'a> Names<'a> {
+    fn number(&mut self, name: &'a str) -> u32 {
+        *self.numbers.entry(name).or_insert_with(|| self.list.push(&JsString::from(name)) - 1)
+    }
+}
+
+/// A list, or nothing where it is left out.
+fn list(rows: &JsValue, field: &str) -> Result<Option<Array>> {
+    match rows.dyn_ref::<Array>() {
+        Some(rows) => Ok(Some(rows.clone())),
+        None if rows.is_undefined() || rows.is_null() => Ok(None),
+        None => Err(Error::Invalid { detail: format!("{field} is a list of objects"), at: Place::field(field) }),
+    }
+}
+
+/// The columns, or what is wrong in which row, with the photo and point that the row names.
+fn checked(columns: Columns, rows: &Array, table: &str) -> Result<Columns> {
+    let Some(row) = columns.row() else { return Ok(columns) };
+    let (field, expected) = (columns.field(), columns.expected());
+    let source = rows.get(row);
+    let text = |name: &str| {
+        let value = js_sys::Reflect::get(&source, &JsValue::from_str(name)).ok()?;
+        value.as_string().or_else(|| value.as_f64().map(|number| number.to_string()))
+    };
+    let (photo, point) = if table == "points" { (None, text("id")) } else { (text("photo"), text("point")) };
+    let path = if field.is_empty() { format!("{table}[{row}]") } else { format!("{table}[{row}].{field}") };
+    Err(Error::Invalid {
+        detail: format!("{path} is not {expected}"),
+        at: Place { photo, point, field: Some(path), ..Place::default() },
+    })
+}

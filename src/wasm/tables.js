@@ -1,0 +1,185 @@
+// The long tables of a project and of an adjustment, between rows of plain objects and columns of numbers.
+//
+// A call across the border costs more than the row it fetches: here a table crosses in three typed arrays. Identifiers are
+// numbered by their first appearance; a number that is null is NaN in its column, and NaN itself is refused on the way in.
+// A row that is not what it should be comes back as { row, field, expected }.
+
+class Names {
+  list = [];
+  #numbers = new Map();
+
+  /** Number of an identifier: text, or a number as many point lists have it; -1 for anything else. */
+  number(id) {
+    const text = typeof id === 'number' && Number.isFinite(id) ? String(id) : id;
+    if (typeof text !== 'string') return -1;
+    let number = this.#numbers.get(text);
+    if (number === undefined) {
+      number = this.list.length;
+      this.list.push(text);
+      this.#numbers.set(text, number);
+    }
+    return number;
+  }
+}
+
+const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
+const isRow = (row) => typeof row === 'object' && row !== null && !Array.isArray(row);
+
+/** Three numbers, each perhaps null, into a column; whether they are that. */
+function three(value, column, at, nullable) {
+  if (!Array.isArray(value) && !ArrayBuffer.isView(value)) return false;
+  if (value.length !== 3) return false;
+  for (let axis = 0; axis < 3; axis++) {
+    if (isNumber(value[axis])) column[at + axis] = value[axis];
+    else if (!nullable || (value[axis] !== null && value[axis] !== undefined)) return false;
+  }
+  return true;
+}
+
+/** Columns u, v, sigma_u, sigma_v; photo, point, flags (1: enabled, 2: two sigmas). */
+export function readObservations(rows) {
+  const names = new Names();
+  const numbers = new Float64Array(4 * rows.length);
+  const places = new Uint32Array(3 * rows.length);
+  for (let row = 0; row < rows.length; row++) {
+    const source = rows[row];
+    if (!isRow(source)) return { row, field: '', expected: 'an object' };
+    const { u, v, sigma, enabled } = source;
+    const photo = names.number(source.photo);
+    if (photo < 0) return { row, field: 'photo', expected: 'a photo id' };
+    const point = names.number(source.point);
+    if (point < 0) return { row, field: 'point', expected: 'a point id' };
+    if (!isNumber(u)) return { row, field: 'u', expected: 'a finite number' };
+    if (!isNumber(v)) return { row, field: 'v', expected: 'a finite number' };
+    let su = sigma;
+    let sv = sigma;
+    let flags = 0;
+    if (typeof sigma !== 'number' && sigma?.length === 2) {
+      [su, sv] = sigma;
+      flags = 2;
+    }
+    if (!isNumber(su) || !isNumber(sv)) return { row, field: 'sigma', expected: 'a number or two' };
+    if (enabled === undefined || enabled === true) flags |= 1;
+    else if (enabled !== false) return { row, field: 'enabled', expected: 'true or false' };
+    numbers[4 * row] = u;
+    numbers[4 * row + 1] = v;
+    numbers[4 * row + 2] = su;
+    numbers[4 * row + 3] = sv;
+    places[3 * row] = photo;
+    places[3 * row + 1] = point;
+    places[3 * row + 2] = flags;
+  }
+  return { numbers, places, names: names.list };
+}
+
+const ROLES = ['tie', 'control', 'check'];
+
+/** Columns x, y, z, sx, sy, sz, diameter; id, flags (0, 1, 2: role, 4: coordinates, 8: sigmas). */
+export function readPoints(rows) {
+  const list = [];
+  const numbers = new Float64Array(7 * rows.length).fill(NaN);
+  const places = new Uint32Array(rows.length);
+  for (let row = 0; row < rows.length; row++) {
+    const source = rows[row];
+    if (!isRow(source)) return { row, field: '', expected: 'an object' };
+    const { id, role, xyz, sigma, diameter } = source;
+    if (typeof id === 'string') list.push(id);
+    else if (isNumber(id)) list.push(String(id));
+    else return { row, field: 'id', expected: 'a point id' };
+    let flags = role === undefined ? 0 : ROLES.indexOf(role);
+    if (flags < 0) return { row, field: 'role', expected: 'tie, control or check' };
+    if (xyz !== null && xyz !== undefined) {
+      if (!three(xyz, numbers, 7 * row, false)) return { row, field: 'xyz', expected: 'three finite numbers or null' };
+      flags |= 4;
+    }
+    if (sigma !== null && sigma !== undefined) {
+      if (!three(sigma, numbers, 7 * row + 3, true)) return { row, field: 'sigma', expected: 'three values, numbers or null, or null' };
+      flags |= 8;
+    }
+    if (diameter !== null && diameter !== undefined) {
+      if (!isNumber(diameter)) return { row, field: 'diameter', expected: 'a number or null' };
+      numbers[7 * row + 6] = diameter;
+    }
+    places[row] = flags;
+  }
+  return { numbers, places, names: list };
+}
+
+const orNull = (value) => (value === value ? value : null);
+
+/** The reverse of readObservations. */
+export function writeObservations(numbers, places, names) {
+  const rows = new Array(places.length / 3);
+  for (let row = 0; row < rows.length; row++) {
+    const [n, p] = [4 * row, 3 * row];
+    const flags = places[p + 2];
+    rows[row] = {
+      photo: names[places[p]],
+      point: names[places[p + 1]],
+      u: numbers[n],
+      v: numbers[n + 1],
+      sigma: flags & 2 ? [numbers[n + 2], numbers[n + 3]] : numbers[n + 2],
+      enabled: (flags & 1) === 1,
+    };
+  }
+  return rows;
+}
+
+/** The reverse of readPoints. */
+export function writePoints(numbers, places, names) {
+  const rows = new Array(places.length);
+  for (let row = 0; row < rows.length; row++) {
+    const n = 7 * row;
+    const flags = places[row];
+    rows[row] = {
+      id: names[row],
+      role: ROLES[flags & 3],
+      xyz: flags & 4 ? [numbers[n], numbers[n + 1], numbers[n + 2]] : null,
+      sigma: flags & 8 ? [orNull(numbers[n + 3]), orNull(numbers[n + 4]), orNull(numbers[n + 5])] : null,
+      diameter: orNull(numbers[n + 6]),
+    };
+  }
+  return rows;
+}
+
+/** Columns vx, vy, rx, ry, wx, wy, mdb_x, mdb_y, effect_x, effect_y, weight; photo, point, enabled. A weight of 1 has no field. */
+export function writeAdjustedObservations(numbers, places, names) {
+  const rows = new Array(places.length / 3);
+  for (let row = 0; row < rows.length; row++) {
+    const [n, p] = [11 * row, 3 * row];
+    const observation = {
+      photo: names[places[p]],
+      point: names[places[p + 1]],
+      vx: numbers[n],
+      vy: numbers[n + 1],
+      rx: orNull(numbers[n + 2]),
+      ry: orNull(numbers[n + 3]),
+      wx: orNull(numbers[n + 4]),
+      wy: orNull(numbers[n + 5]),
+      mdb_x: orNull(numbers[n + 6]),
+      mdb_y: orNull(numbers[n + 7]),
+      effect_x: orNull(numbers[n + 8]),
+      effect_y: orNull(numbers[n + 9]),
+      enabled: places[p + 2] === 1,
+    };
+    const weight = numbers[n + 10];
+    if (weight === weight) observation.weight = weight;
+    rows[row] = observation;
+  }
+  return rows;
+}
+
+/** Columns x, y, z, three sigmas, six covariances; rays, flags (1: sigmas, 2: covariances); an absent one has no field. */
+export function writeAdjustedPoints(numbers, places, names) {
+  const rows = new Array(places.length / 2);
+  for (let row = 0; row < rows.length; row++) {
+    const n = 12 * row;
+    const flags = places[2 * row + 1];
+    const point = { id: names[row], xyz: [numbers[n], numbers[n + 1], numbers[n + 2]] };
+    if (flags & 1) point.sigma = [numbers[n + 3], numbers[n + 4], numbers[n + 5]];
+    if (flags & 2) point.covariance = Array.from(numbers.subarray(n + 6, n + 12));
+    point.rays = places[2 * row];
+    rows[row] = point;
+  }
+  return rows;
+}

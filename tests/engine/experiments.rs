@@ -1,0 +1,124 @@
+//! The papers' figures.
+
+use sightline::experiments::{Experiment, ExperimentOptions, NAMES, run};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+fn result(name: &str) -> Experiment {
+    run(name, &ExperimentOptions::default(), &mut |_, _| true).expect(name)
+}
+
+fn figure(result: &Experiment, id: &str) -> f64 {
+    result.figures.iter().find(|f| f.id == id).unwrap_or_else(|| panic!("no figure {id}")).ours
+}
+
+/// Every table is rectangular, every number finite, and the project can be adjusted as it stands.
+fn well_formed(result: &Experiment) {
+    assert!(!result.drawings.is_empty() && !result.charts.is_empty() && !result.tables.is_empty());
+    for table in &result.tables {
+        assert!(!table.rows.is_empty(), "{} is empty", table.id);
+        assert!(table.rows.iter().all(|row| row.len() == table.columns.len()), "{} is ragged", table.id);
+    }
+    assert!(result.figures.iter().all(|f| f.ours.is_finite()), "{:?}", result.figures);
+    assert!(result.charts.iter().flat_map(|c| &c.series).flat_map(|s| &s.points).flatten().all(|x| x.is_finite()));
+    result.project.validate().unwrap();
+    let adjustment = sightline::adjust::adjust(&result.project, &Default::default(), &mut |_| true).unwrap();
+    assert_eq!(adjustment.termination, sightline::adjustment::Termination::Converged);
+}
+
+#[test]
+fn kang_and_yeu() {
+    let kang = result("kang");
+    well_formed(&kang);
+    let mut with_independent = 0;
+    for f in &kang.figures {
+        if let Some(independent) = f.independent {
+            assert!((f.ours - independent).abs() <= 0.5, "{f:?}");
+            with_independent += 1;
+        }
+        if f.id.starts_with("observations") || f.id.starts_with("unknowns") {
+            assert_eq!(Some(f.ours), f.paper, "{f:?}");
+        } else if let (Some(paper), false) = (f.paper, f.id.starts_with("m0_mean")) {
+            assert!((f.ours - paper).abs() <= 4.0, "{f:?}");
+        }
+        if f.id.starts_with("monte_carlo") {
+            assert!(f.ours.abs() <= 3.0, "{f:?}");
+        }
+    }
+    assert_eq!(with_independent, 8);
+    let rows = |id: &str| kang.tables.iter().find(|t| t.id == id).map(|t| t.rows.len());
+    assert_eq!((rows("single"), rows("mixed"), rows("pairwise")), (Some(60), Some(16), Some(15)));
+}
+
+#[test]
+fn film() {
+    let film = result("film");
+    well_formed(&film);
+    // The film shrinks differently along and across: a similarity cannot follow, an affine transformation can.
+    assert!(figure(&film, "marks_sigma0/similarity") > 3.0 * figure(&film, "marks_sigma0/affine"));
+    // Marks are read to 1.5 µm.
+    assert!((figure(&film, "marks_sigma0/affine") / 1.5 - 1.0).abs() < 0.25);
+    // With the lens corrected, the bundle's residuals are what the readings' 3 µm make them (5 % of 75 redundant).
+    let corrected = figure(&film, "sigma0/affine-corrected");
+    assert!((corrected - 1.0).abs() < 0.16 && corrected < figure(&film, "sigma0/affine"), "{corrected}");
+    assert!(figure(&film, "distortion_sigma0") < 0.3);
+}
+
+#[test]
+fn lee_structure() {
+    let lee = result("lee-structure");
+    well_formed(&lee);
+    for datum in ["control", "free"] {
+        let depth = |network: &str| figure(&lee, &format!("sy/{network}-{datum}"));
+        assert!(depth("III") < depth("I") && depth("I") < depth("II"), "{datum}");
+    }
+    for network in ["I", "II", "III"] {
+        for axis in ["x", "y", "z"] {
+            assert!(figure(&lee, &format!("gain_{axis}/{network}")) > 0.0, "{axis} {network}");
+        }
+    }
+}
+
+#[test]
+fn lee_calibration() {
+    let lee = result("lee-calibration");
+    well_formed(&lee);
+    assert!(figure(&lee, "relative/all") >= 46_400.0 && figure(&lee, "relative/reduced") >= 46_400.0);
+    for label in ["all", "reduced"] {
+        for parameter in ["c", "x0", "y0", "k1", "k2", "k3", "p1", "p2"] {
+            let error = figure(&lee, &format!("error_{parameter}/{label}"));
+            assert!(error.abs() <= 2.5, "{parameter} off by {error} sigma ({label})");
+        }
+    }
+    assert!(figure(&lee, "residual_px_x/reduced") <= 0.037 && figure(&lee, "residual_px_y/reduced") <= 0.031);
+    // The estimators, best first, and the best is no centroid.
+    let estimators = lee.tables.iter().find(|t| t.id == "estimators").expect("estimators");
+    assert_eq!(estimators.rows.len(), 4);
+    assert!(figure(&lee, "centre_rms/least_squares") <= figure(&lee, "centre_rms/intensity"));
+}
+
+#[test]
+fn kim() {
+    let kim = result("kim");
+    well_formed(&kim);
+    assert_eq!(figure(&kim, "check_points"), 15.0);
+    assert!(figure(&kim, "iterations") <= 6.0);
+    for axis in ["x", "y", "z"] {
+        let rms = kim.figures.iter().find(|f| f.id == format!("rms/{axis}")).expect("rms");
+        assert!(rms.ours < rms.paper.expect("the paper's"), "{rms:?}");
+    }
+}
+
+#[test]
+fn names_options_and_stopping() {
+    let unknown = run("nobody", &ExperimentOptions::default(), &mut |_, _| true).expect_err("unknown");
+    assert_eq!(unknown.code(), "unknown");
+    let wrong = ExperimentOptions { image_sigma_um: Some(f64::NAN), ..ExperimentOptions::default() };
+    assert_eq!(run("kang", &wrong, &mut |_, _| true).expect_err("sigma").code(), "invalid");
+    for name in NAMES {
+        let stopped = run(name, &ExperimentOptions::default(), &mut |_, _| false).expect_err("stopped");
+        assert_eq!(stopped.code(), "cancelled", "{name}");
+    }
+    let nowhere = ExperimentOptions { network: Some("9.9-2A".into()), rounds: Some(0), ..ExperimentOptions::default() };
+    assert_eq!(run("kang", &nowhere, &mut |_, _| true).expect_err("network").code(), "unknown");
+}

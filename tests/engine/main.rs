@@ -1,0 +1,19 @@
+//! The engine from outside, natively and as wasm in Node: one binary, one topic a module.
+
+mod behaviour;
+mod data;
+mod document;
+mod exchange;
+mod experiments;
+mod gross_errors;
+mod monte_carlo;
+mod naming;
+mod networks;
+mod oracle;
+mod orientation;
+mod painter;
+mod panel;
+mod photos;
+mod published;
+mod sharp;
+mod targets;

@@ -1,0 +1,400 @@
+//! The adjustment against plain dense least squares: every parameter in one vector, derivatives by automatic
+//! differentiation of the equations as they stand, no elimination, the datum by the pseudo-inverse's own null space.
+
+use crate::networks::{Uniform, Wanted, brown, exact, noisy, opencv};
+use nalgebra::{DMatrix, DVector};
+use num_dual::{Dual64, DualNum};
+use sightline::adjust::adjust;
+use sightline::adjustment::{AdjustOptions, Adjustment, Given, ResidualPlace, Termination};
+use sightline::noise::Noise;
+use sightline::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+/// What one entry of the parameter vector is.
+#[derive(Clone, Debug, PartialEq)]
+enum Unknown {
+    Photo(usize, usize),
+    Camera(usize, Parameter),
+    Point(usize, usize),
+}
+
+/// The problem of an adjusted project: unknowns with their values, and everything known.
+struct Dense<'a> {
+    project: &'a Project,
+    adjustment: &'a Adjustment,
+    measured: bool,
+    unknowns: Vec<Unknown>,
+    values: Vec<f64>,
+}
+
+impl<'a> Dense<'a> {
+    fn new(project: &'a Project, adjustment: &'a Adjustment, measured: bool) -> Self {
+        let (mut unknowns, mut values) = (Vec::new(), Vec::new());
+        for (k, photo) in adjustment.photos.iter().enumerate() {
+            for (n, value) in photo.position.iter().chain(&photo.rotation).enumerate() {
+                unknowns.push(Unknown::Photo(k, n));
+                values.push(*value);
+            }
+        }
+        for (k, camera) in adjustment.cameras.iter().enumerate() {
+            for parameter in camera.camera.estimated() {
+                unknowns.push(Unknown::Camera(k, parameter));
+                values.push(camera.camera.interior.get(parameter).expect("of the model"));
+            }
+        }
+        for (k, point) in adjustment.points.iter().enumerate() {
+            let given = project.points.iter().find(|p| p.id == point.id).expect("of the project");
+            let held = |a: usize| {
+                project.datum.kind == DatumKind::Control
+                    && given.role == Role::Control
+                    && !given.sigma.and_then(|s| s[a]).is_some_and(|s| s > 0.0)
+            };
+            for a in (0..3).filter(|a| !held(*a)) {
+                unknowns.push(Unknown::Point(k, a));
+                values.push(point.xyz[a]);
+            }
+        }
+        Self { project, adjustment, measured, unknowns, values }
+    }
+
+    /// Weighted residuals of all observations at the values, with the derivative in one direction.
+    fn residuals(&self, direction: Option<usize>) -> Vec<Dual64> {
+        let mut photos: Vec<[Dual64; 6]> = self
+            .adjustment
+            .photos
+            .iter()
+            .map(|p| std::array::from_fn(|k| Dual64::from(if k < 3 { p.position[k] } else { p.rotation[k - 3] })))
+            .collect();
+        let mut points: Vec<[Dual64; 3]> = self.adjustment.points.iter().map(|p| p.xyz.map(Dual64::from)).collect();
+        let mut cameras: Vec<Vec<(Parameter, Dual64)>> = self
+            .adjustment
+            .cameras
+            .iter()
+            .map(|c| {
+                let interior = c.camera.interior;
+                let all = interior.parameters().iter().filter(|p| **p != Parameter::F);
+                all.map(|p| (*p, Dual64::from(interior.get(*p).expect("known")))).collect()
+            })
+            .collect();
+        if let Some(n) = direction {
+            match &self.unknowns[n] {
+                Unknown::Photo(k, at) => photos[*k][*at].eps = 1.0,
+                Unknown::Point(k, a) => points[*k][*a].eps = 1.0,
+                Unknown::Camera(k, Parameter::F) => {
+                    let interior = self.adjustment.cameras[*k].camera.interior;
+                    let ratio =
+                        interior.get(Parameter::Fy).expect("known") / interior.get(Parameter::Fx).expect("known");
+                    for (parameter, value) in &mut cameras[*k] {
+                        match parameter {
+                            Parameter::Fx => value.eps = 1.0,
+                            Parameter::Fy => value.eps = ratio,
+                            _ => {}
+                        }
+                    }
+                }
+                Unknown::Camera(k, parameter) => {
+                    cameras[*k].iter_mut().filter(|(p, _)| p == parameter).for_each(|(_, v)| v.eps = 1.0);
+                }
+            }
+        }
+        let mut list = Vec::new();
+        let photo_at = |id: &str| self.adjustment.photos.iter().position(|p| p.id == id).expect("adjusted");
+        let point_at = |id: &str| self.adjustment.points.iter().position(|p| p.id == id).expect("adjusted");
+        for o in self.project.observations.iter().filter(|o| o.enabled) {
+            let photo = photo_at(&o.photo);
+            let camera_id = &self.project.photos.iter().find(|p| p.id == o.photo).expect("known").camera;
+            let own = |c: &sightline::adjustment::AdjustedCamera| {
+                c.camera.id == *camera_id && c.photo.as_ref().is_none_or(|id| *id == o.photo)
+            };
+            let camera = self.adjustment.cameras.iter().position(own).expect("adjusted");
+            let template = self.project.cameras.iter().find(|c| c.id == *camera_id).expect("known");
+            let p = camera_point(&photos[photo], &points[point_at(&o.point)]);
+            let e = image_residual(template, &cameras[camera], p, [o.u, o.v], self.measured);
+            let sigma = o.sigma.both();
+            let unit = if matches!(template.interior, Interior::Brown { .. }) { template.pitch() } else { [1.0; 2] };
+            list.extend((0..2).map(|s| e[s] / (sigma[s] * unit[s])));
+        }
+        let controlled = self.project.datum.kind == DatumKind::Control;
+        for given in &self.adjustment.given {
+            let e = match &given.what {
+                Given::Control { point, axis } => {
+                    let known = self.project.points.iter().find(|p| p.id == *point).expect("known").xyz.expect("given");
+                    points[point_at(point)][*axis] - known[*axis]
+                }
+                Given::Position { photo, axis } => {
+                    assert!(controlled);
+                    let known = self.project.photos.iter().find(|p| p.id == *photo).expect("known");
+                    photos[photo_at(photo)][*axis] - known.position.expect("given")[*axis]
+                }
+                Given::Distance { from, to } => {
+                    let d = self.project.distances.iter().find(|d| d.from == *from && d.to == *to).expect("known");
+                    let (a, b) = (points[point_at(from)], points[point_at(to)]);
+                    let squares = (0..3).map(|k| (a[k] - b[k]).powi(2)).fold(Dual64::from(0.0), |s, x| s + x);
+                    squares.sqrt() - d.length
+                }
+                Given::Parameter { camera, photo, parameter } => {
+                    let at = self.adjustment.cameras.iter().position(|c| c.camera.id == *camera && c.photo == *photo);
+                    let known = self.project.cameras.iter().find(|c| c.id == *camera).expect("known");
+                    let wanted = if *parameter == Parameter::F { Parameter::Fx } else { *parameter };
+                    let value =
+                        cameras[at.expect("adjusted")].iter().find(|(p, _)| *p == wanted).expect("of the model").1;
+                    value - known.interior.get(*parameter).expect("given")
+                }
+            };
+            list.push(e / given.sigma);
+        }
+        list
+    }
+
+    fn design(&self) -> (DMatrix<f64>, DVector<f64>) {
+        let e: Vec<f64> = self.residuals(None).iter().map(|d| d.re).collect();
+        let mut a = DMatrix::zeros(e.len(), self.unknowns.len());
+        for n in 0..self.unknowns.len() {
+            let column = self.residuals(Some(n));
+            a.set_column(n, &DVector::from_iterator(e.len(), column.iter().map(|d| d.eps)));
+        }
+        (a, DVector::from_vec(e))
+    }
+}
+
+/// M·(X - XL) with M = Mκ Mφ Mω written out as three turns.
+fn camera_point(photo: &[Dual64; 6], x: &[Dual64; 3]) -> [Dual64; 3] {
+    let d: [Dual64; 3] = std::array::from_fn(|k| x[k] - photo[k]);
+    let (so, co) = photo[3].sin_cos();
+    let d = [d[0], co * d[1] + so * d[2], co * d[2] - so * d[1]];
+    let (sp, cp) = photo[4].sin_cos();
+    let d = [cp * d[0] - sp * d[2], d[1], sp * d[0] + cp * d[2]];
+    let (sk, ck) = photo[5].sin_cos();
+    [ck * d[0] + sk * d[1], ck * d[1] - sk * d[0], d[2]]
+}
+
+fn image_residual(
+    camera: &Camera,
+    values: &[(Parameter, Dual64)],
+    p: [Dual64; 3],
+    pixel: [f64; 2],
+    measured: bool,
+) -> [Dual64; 2] {
+    let q = |parameter: Parameter| values.iter().find(|(p, _)| *p == parameter).expect("of the model").1;
+    if let Interior::Opencv { .. } = camera.interior {
+        let (a, b) = (-p[0] / p[2], p[1] / p[2]);
+        let r2 = a * a + b * b;
+        let radial = r2 * q(Parameter::K1) + r2 * r2 * q(Parameter::K2) + r2 * r2 * r2 * q(Parameter::K3) + 1.0;
+        let (p1, p2) = (q(Parameter::P1), q(Parameter::P2));
+        let ad = a * radial + p1 * a * b * 2.0 + p2 * (r2 + a * a * 2.0);
+        let bd = b * radial + p1 * (r2 + b * b * 2.0) + p2 * a * b * 2.0;
+        return [
+            q(Parameter::Fx) * ad + q(Parameter::Cx) - pixel[0],
+            q(Parameter::Fy) * bd + q(Parameter::Cy) - pixel[1],
+        ];
+    }
+    let [px, py] = camera.pitch();
+    let x = (pixel[0] - f64::from(camera.width) / 2.0) * px;
+    let y = (f64::from(camera.height) / 2.0 - pixel[1]) * py;
+    let correction = |x: Dual64, y: Dual64| {
+        let r2 = x * x + y * y;
+        let radial = r2 * q(Parameter::K1) + r2 * r2 * q(Parameter::K2) + r2 * r2 * r2 * q(Parameter::K3);
+        let (p1, p2) = (q(Parameter::P1), q(Parameter::P2));
+        [
+            x * radial + p1 * (r2 + x * x * 2.0) + p2 * x * y * 2.0 + q(Parameter::B1) * x + q(Parameter::B2) * y,
+            y * radial + p2 * (r2 + y * y * 2.0) + p1 * x * y * 2.0,
+        ]
+    };
+    let ideal = [-q(Parameter::C) * p[0] / p[2], -q(Parameter::C) * p[1] / p[2]];
+    if measured {
+        let mut b = ideal;
+        for _ in 0..80 {
+            let [dx, dy] = correction(b[0], b[1]);
+            b = [ideal[0] - dx, ideal[1] - dy];
+        }
+        return [b[0] + q(Parameter::X0) - x, b[1] + q(Parameter::Y0) - y];
+    }
+    let (x, y) = (-q(Parameter::X0) + x, -q(Parameter::Y0) + y);
+    let [dx, dy] = correction(x, y);
+    [ideal[0] - x - dx, ideal[1] - y - dy]
+}
+
+fn close(got: f64, expected: f64, scale: f64, what: &str) {
+    assert!((got - expected).abs() <= 1e-9 * scale, "{what}: {got} against {expected}");
+}
+
+/// Compares parameters, cofactors and redundancy numbers.
+fn compare(project: &Project, options: &AdjustOptions) {
+    let adjustment = adjust(project, options, &mut |_| true).expect("solvable");
+    assert_eq!(adjustment.termination, Termination::Converged);
+    let dense = Dense::new(project, &adjustment, options.residuals == ResidualPlace::Measured);
+    let (a, e) = dense.design();
+    assert_eq!(a.nrows(), adjustment.observations_count);
+    // Columns of one size, since the parameters' own differ by many powers of ten.
+    let size = DVector::from_iterator(a.ncols(), a.column_iter().map(|c| c.norm()));
+    let mut scaled = a.clone();
+    scaled.column_iter_mut().zip(size.iter()).for_each(|(mut c, s)| c /= *s);
+    let normal = scaled.transpose() * &scaled;
+    let controlled = project.datum.kind == DatumKind::Control;
+    let defect = if controlled {
+        0
+    } else if project.distances.is_empty() {
+        7
+    } else {
+        6
+    };
+    assert_eq!(adjustment.constraints, defect);
+    let n = a.ncols();
+    let redundancy = a.nrows() + defect - dense_unknowns(&adjustment, n);
+    assert_eq!(adjustment.redundancy, redundancy);
+
+    // Constraints: the null space on the datum's coordinates, or the held coordinates.
+    let mut constraints = DMatrix::zeros(n, defect);
+    if defect > 0 {
+        let eigen = normal.clone().symmetric_eigen();
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|i, j| eigen.eigenvalues[*i].total_cmp(&eigen.eigenvalues[*j]));
+        assert!(eigen.eigenvalues[order[defect]] > 1e-9 && eigen.eigenvalues[order[defect - 1]] < 1e-12);
+        let mut held = 0;
+        for (k, unknown) in dense.unknowns.iter().enumerate() {
+            let Unknown::Point(point, axis) = unknown else { continue };
+            let id = &adjustment.points[*point].id;
+            let carrier = project.datum.points.as_ref().is_none_or(|list| list.contains(id));
+            if project.datum.kind == DatumKind::Minimal {
+                if adjustment.points[*point].sigma.expect("full")[*axis] < 1e-12 {
+                    constraints[(k, held)] = 1.0;
+                    held += 1;
+                }
+            } else if carrier {
+                for (j, at) in order[..defect].iter().enumerate() {
+                    // A null vector x/size in the parameters' own units; its constraint back in scaled ones.
+                    constraints[(k, j)] = eigen.eigenvectors[(k, *at)] / size[k] / size[k];
+                }
+            }
+        }
+        assert!(project.datum.kind != DatumKind::Minimal || held == defect, "{held} coordinates are held");
+        let most = constraints.amax();
+        constraints /= most;
+    }
+    let mut bordered = DMatrix::zeros(n + defect, n + defect);
+    bordered.view_mut((0, 0), (n, n)).copy_from(&normal);
+    bordered.view_mut((0, n), (n, defect)).copy_from(&constraints);
+    bordered.view_mut((n, 0), (defect, n)).copy_from(&constraints.transpose());
+    let inverse = bordered.try_inverse().expect("regular");
+    let q = inverse.view((0, 0), (n, n)).into_owned();
+    let scaled_step = -(&q * scaled.transpose() * &e);
+
+    let cost = e.norm_squared();
+    let variance = if redundancy > 0 { cost / redundancy as f64 } else { 1.0 };
+    close(adjustment.sigma0.expect("redundant"), variance.sqrt(), variance.sqrt(), "sigma0");
+    let sigma = |k: usize| (variance * q[(k, k)]).max(0.0).sqrt() / size[k];
+    for (k, unknown) in dense.unknowns.iter().enumerate() {
+        let step = scaled_step[k] / size[k];
+        let magnitude = match unknown {
+            Unknown::Photo(_, n) if *n >= 3 => 1.0,
+            // Parameters near 0 have no size of their own: a ten-millionth of the standard error.
+            Unknown::Camera(..) => 100.0 * sigma(k),
+            _ => 1000.0,
+        };
+        assert!(step.abs() <= 1e-9 * magnitude, "{unknown:?} {} is off by {step}", dense.values[k]);
+        let got = match unknown {
+            Unknown::Photo(photo, n) if *n < 3 => adjustment.photos[*photo].sigma_position.expect("full")[*n],
+            Unknown::Photo(photo, n) => adjustment.photos[*photo].sigma_rotation.expect("full")[n - 3],
+            Unknown::Camera(camera, parameter) => adjustment.cameras[*camera].sigma[parameter],
+            Unknown::Point(point, axis) => adjustment.points[*point].sigma.expect("full")[*axis],
+        };
+        close(got, sigma(k), sigma(k).max(1e-6), &format!("sigma of {unknown:?}"));
+    }
+    for (k, unknown) in dense.unknowns.iter().enumerate() {
+        for (j, other) in dense.unknowns.iter().enumerate().skip(k) {
+            if let (Unknown::Point(p, a), Unknown::Point(o, b)) = (unknown, other)
+                && p == o
+            {
+                let at = [[0, 1, 2], [1, 3, 4], [2, 4, 5]][*a][*b];
+                let expected = variance * q[(k, j)] / size[k] / size[j];
+                let scale = (sigma(k) * sigma(j)).max(1e-6);
+                close(adjustment.points[*p].covariance.expect("full")[at], expected, scale, "covariance");
+            }
+        }
+    }
+    let redundancy_numbers: Vec<f64> = (0..a.nrows())
+        .map(|i| {
+            let row = scaled.row(i);
+            1.0 - (row * &q * row.transpose())[(0, 0)]
+        })
+        .collect();
+    let mut sum = 0.0;
+    let enabled = adjustment.observations.iter().filter(|o| o.enabled);
+    let ours: Vec<f64> = enabled
+        .flat_map(|o| [o.rx.expect("full"), o.ry.expect("full")])
+        .chain(adjustment.given.iter().map(|g| g.reliability.expect("full").redundancy))
+        .collect();
+    assert_eq!(ours.len(), redundancy_numbers.len());
+    for (k, (got, expected)) in ours.iter().zip(&redundancy_numbers).enumerate() {
+        close(*got, *expected, 1.0, &format!("redundancy number {k}"));
+        sum += got;
+    }
+    close(sum, redundancy as f64, redundancy as f64, "sum of the redundancy numbers");
+}
+
+fn dense_unknowns(adjustment: &Adjustment, n: usize) -> usize {
+    assert_eq!(adjustment.unknowns, n);
+    n
+}
+
+fn run(wanted: &Wanted, seeds: std::ops::Range<u64>) {
+    for seed in seeds {
+        let mut noise = Noise::new(seed, 3);
+        let mut project = noisy(&exact(wanted, seed), &mut noise);
+        // Some rays are missing, and sigmas differ.
+        let mut random = Uniform(seed + 100);
+        project.observations.retain(|_| random.between(0.0, 1.0) > 0.15);
+        for place in [ResidualPlace::Corrected, ResidualPlace::Measured] {
+            compare(&project, &AdjustOptions { residuals: place, ..AdjustOptions::default() });
+        }
+    }
+}
+
+const MANY: [Parameter; 7] =
+    [Parameter::C, Parameter::X0, Parameter::Y0, Parameter::K1, Parameter::K2, Parameter::P1, Parameter::B1];
+
+#[test]
+fn free_networks_agree_with_dense_least_squares() {
+    run(&Wanted::default(), 0..3);
+    let some = (2..9).map(|k| format!("p{k}")).collect();
+    let well_determined = [Parameter::C, Parameter::K1, Parameter::P1];
+    run(&Wanted { datum_points: Some(some), cameras: vec![brown(&well_determined)], ..Wanted::default() }, 3..5);
+    run(&Wanted { distances: (2, 0.05), ..Wanted::default() }, 5..7);
+}
+
+#[test]
+fn minimal_datums_agree_with_dense_least_squares() {
+    run(&Wanted { datum: DatumKind::Minimal, ..Wanted::default() }, 10..12);
+    run(&Wanted { datum: DatumKind::Minimal, distances: (1, 0.1), ..Wanted::default() }, 12..14);
+    let chosen = Some(["p1", "p5", "p7"].map(String::from).to_vec());
+    run(&Wanted { datum: DatumKind::Minimal, datum_points: chosen, ..Wanted::default() }, 14..16);
+}
+
+#[test]
+fn controlled_networks_agree_with_dense_least_squares() {
+    let control = |control| Wanted { datum: DatumKind::Control, control, ..Wanted::default() };
+    run(&control((5, 0.0)), 20..22);
+    run(&control((5, 0.1)), 22..24);
+    run(&Wanted { centre_sigma: 0.5, distances: (1, 0.05), ..control((3, 0.2)) }, 24..26);
+    run(&Wanted { centre_sigma: 1.0, ..control((0, 0.0)) }, 26..28);
+}
+
+#[test]
+fn every_choice_of_cameras_agrees_with_dense_least_squares() {
+    let opencv_free = [Parameter::F, Parameter::Cx, Parameter::Cy, Parameter::K1, Parameter::P1];
+    run(&Wanted { cameras: vec![opencv(&opencv_free)], ..Wanted::default() }, 30..32);
+    let separate = [Parameter::Fx, Parameter::Fy, Parameter::K1, Parameter::K2];
+    run(&Wanted { photos: 8, cameras: vec![brown(&MANY), opencv(&separate)], ..Wanted::default() }, 32..34);
+    let mut observed = brown(&[Parameter::C, Parameter::K1]);
+    observed.sigma = [(Parameter::C, 0.01), (Parameter::X0, 0.02), (Parameter::Y0, 0.02)].into();
+    run(&Wanted { cameras: vec![observed], ..Wanted::default() }, 34..36);
+    let mut own = brown(&[Parameter::C, Parameter::X0]);
+    own.per_photo = true;
+    run(&Wanted { points: 24, cameras: vec![own.clone()], ..Wanted::default() }, 36..38);
+    run(
+        &Wanted { points: 24, cameras: vec![own, opencv(&[Parameter::F])], distances: (1, 0.1), ..Wanted::default() },
+        38..40,
+    );
+    run(&Wanted { cameras: vec![brown(&[])], ..Wanted::default() }, 40..42);
+}

@@ -1,0 +1,115 @@
+//! Pictures of targets from an independent renderer: exact along each of many sub-rows, a sum across them. It shares
+//! neither formula nor code with the engine's own rendering.
+
+use sightline::image::{Grey, Samples};
+use sightline::noise::Noise;
+
+/// A blurred ellipse: centre, semi-axes, angle of the first one, grey difference.
+#[derive(Clone, Copy, Debug)]
+pub struct Spot {
+    pub u: f64,
+    pub v: f64,
+    pub a: f64,
+    pub b: f64,
+    pub angle: f64,
+    pub contrast: f64,
+}
+
+/// A picture in the making, in grey levels.
+pub struct Canvas {
+    pub width: usize,
+    pub height: usize,
+    pub levels: Vec<f64>,
+}
+
+const SUB_ROWS: i32 = 24;
+
+impl Canvas {
+    pub fn new(width: usize, height: usize, level: f64) -> Self {
+        Self { width, height, levels: vec![level; width * height] }
+    }
+
+    /// Adds a spot as a camera with a Gaussian point spread of sigma `s` and square pixels sees it.
+    pub fn add(&mut self, spot: &Spot, s: f64) {
+        let reach = 5.0 * s + 1.0;
+        let (sine, cosine) = spot.angle.sin_cos();
+        // x' M x = 1
+        let (ia, ib) = (spot.a.powi(-2), spot.b.powi(-2));
+        let m11 = cosine * cosine * ia + sine * sine * ib;
+        let m12 = sine * cosine * (ia - ib);
+        let m22 = sine * sine * ia + cosine * cosine * ib;
+        let half = (m11 / (m11 * m22 - m12 * m12)).sqrt();
+        let count = (2.0 * half * f64::from(SUB_ROWS)).ceil() as i32;
+        let step = 2.0 * half / f64::from(count);
+        for k in 0..count {
+            let dy = -half + (f64::from(k) + 0.5) * step;
+            let rest = m12 * m12 * dy * dy - m11 * (m22 * dy * dy - 1.0);
+            let (middle, wide) = (spot.u - m12 * dy / m11, rest.max(0.0).sqrt() / m11);
+            let row = spot.v + dy;
+            for y in range(row - reach, row + reach, self.height) {
+                let down = box_of(y as f64 + 0.5 - row, s) * step;
+                for x in range(middle - wide - reach, middle + wide + reach, self.width) {
+                    let place = x as f64 + 0.5;
+                    let across = ramp(place - middle + wide, s) - ramp(place - middle - wide, s);
+                    self.levels[y * self.width + x] += spot.contrast * down * across;
+                }
+            }
+        }
+    }
+
+    /// The picture with noise, rounded to 8 bits.
+    pub fn expose(&self, noise: f64, seed: u64) -> Grey {
+        let mut source = Noise::new(seed, 0);
+        let samples =
+            self.levels.iter().map(|level| (level + noise * source.normal()).round().clamp(0.0, 255.0) as u8).collect();
+        Grey { width: self.width, height: self.height, samples: Samples::U8(samples) }
+    }
+}
+
+fn range(from: f64, to: f64, size: usize) -> std::ops::Range<usize> {
+    from.floor().max(0.0) as usize..(to.ceil().max(0.0) as usize).min(size)
+}
+
+/// Mean of a blurred point over a pixel at distance t.
+fn box_of(t: f64, s: f64) -> f64 {
+    below((t + 0.5) / s) - below((t - 0.5) / s)
+}
+
+/// Mean of a blurred step over a pixel at distance t.
+fn ramp(t: f64, s: f64) -> f64 {
+    let integral = |t: f64| t * below(t / s) + s * (-t * t / (2.0 * s * s)).exp() / std::f64::consts::TAU.sqrt();
+    integral(t + 0.5) - integral(t - 0.5)
+}
+
+/// Normal distribution by its continued fraction and series.
+fn below(z: f64) -> f64 {
+    let density = (-z * z / 2.0).exp() / std::f64::consts::TAU.sqrt();
+    if z.abs() < 3.0 {
+        let (mut term, mut sum) = (z, z);
+        for k in 1..60 {
+            term *= z * z / f64::from(2 * k + 1);
+            sum += term;
+        }
+        return 0.5 + density * sum;
+    }
+    let mut fraction = 0.0;
+    for k in (1..40).rev() {
+        fraction = f64::from(k) / (z.abs() + fraction);
+    }
+    let tail = density / (z.abs() + fraction);
+    if z < 0.0 { tail } else { 1.0 - tail }
+}
+
+/// Repeatable uniform numbers from 0 to 1.
+pub struct Uniform(pub u64);
+
+impl Uniform {
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+}

@@ -1,0 +1,37 @@
+//! Pictures without blur and without noise, as programs draw them.
+
+use sightline::detect::detect;
+use sightline::detection::{DetectOptions, Method};
+use sightline::image::{GreyView, SamplesView};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+/// A bright disc on dark ground, each pixel the mean of 16 x 16 places.
+fn disc(width: usize, height: usize, [u, v]: [f64; 2], radius: f64) -> Vec<u8> {
+    let inside = |x: usize, y: usize| {
+        let place = |i: usize| {
+            (x as f64 + ((i % 16) as f64 + 0.5) / 16.0 - u).hypot(y as f64 + ((i / 16) as f64 + 0.5) / 16.0 - v)
+        };
+        (0..256).filter(|&i| place(i) < radius).count() as f64 / 256.0
+    };
+    (0..width * height).map(|i| (40.0 + 160.0 * inside(i % width, i / width)).round() as u8).collect()
+}
+
+#[test]
+fn sharp_discs_are_measured_by_every_method() {
+    // What each method can do without the blur that it interpolates on; the gradient then stands on single pixels.
+    let methods =
+        [(Method::LeastSquares, 0.01), (Method::Ellipse, 0.02), (Method::Intensity, 0.05), (Method::Gradient, 0.2)];
+    for radius in [3.4, 5.0, 9.5, 20.0] {
+        for (method, tolerance) in methods {
+            let samples = disc(80, 60, [41.3, 28.8], radius);
+            let view = GreyView::new(80, 60, SamplesView::U8(&samples)).expect("a picture");
+            let found = detect(&view, &DetectOptions { method, ..DetectOptions::default() }).expect("valid options");
+            assert_eq!(found.targets.len(), 1, "radius {radius}, {method:?}: {:?}", found.rejected);
+            let target = &found.targets[0];
+            let off = (target.u - 41.3).hypot(target.v - 28.8);
+            assert!(off < tolerance, "radius {radius}, {method:?}: off by {off} px");
+            assert!((target.major - 2.0 * radius).abs() < 0.2, "radius {radius}, {method:?}: {}", target.major);
+        }
+    }
+}

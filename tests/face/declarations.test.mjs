@@ -1,0 +1,107 @@
+// The declarations are written by hand: the compiler compares them with what the engine really returns.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+
+import { document, root, sightline, thrown } from './engine.mjs';
+
+/** Compiles a text against pkg/ with literals of results in it; the compiler's complaints. */
+function complaints(body) {
+  const folder = join(root, 'e2e/out');
+  mkdirSync(folder, { recursive: true });
+  const file = join(folder, 'literals.ts');
+  writeFileSync(file, `import type * as S from '../../pkg/sightline.js';\n${body}\nexport {};\n`);
+  const options = ['--strict', '--exactOptionalPropertyTypes', '--noEmit', '--target', 'es2022', '--module', 'nodenext', '--lib', 'es2022,dom', '--types', ''];
+  const compiler = join(root, 'e2e/node_modules/typescript/bin/tsc');
+  const { status, stdout } = spawnSync(process.execPath, [compiler, ...options, file], { encoding: 'utf8' });
+  return status === 0 ? '' : stdout;
+}
+
+const literal = (name, type, value) => `const ${name}: ${type} = ${JSON.stringify(value)};`;
+
+/** A network of four stations that see nine targets, to be simulated or rendered. */
+const network = () => ({
+  cameras: [{ id: 'c', width: 400, height: 300, pixel_pitch: null, model: 'brown', c: 500, free: ['c'], sigma: { x0: 1 } }],
+  stations: [0, 1, 2, 3].map((k) => ({ id: `s${k}`, camera: 'c', position: [2 * Math.cos(1.6 * k), 2 * Math.sin(1.6 * k), 3], look_at: [0, 0, 0], roll: 1.5 * k })),
+  points: Array.from({ length: 9 }, (_, k) => ({
+    id: `p${k}`, xyz: [(k % 3) * 0.6 - 0.6, Math.floor(k / 3) * 0.6 - 0.6, 0.1 * (k % 2)], normal: [0, 0, 1], diameter: 0.12,
+    role: k === 0 ? 'control' : k === 8 ? 'check' : 'tie', sigma: k % 8 === 0 ? [0.01, 0.01, 0.01] : null,
+  })),
+  distances: [{ from: 'p0', to: 'p5', sigma: 0.001 }],
+});
+
+/** The same without what orientation finds. */
+const bare = (project) => ({
+  ...project,
+  photos: project.photos.map((photo) => ({ ...photo, position: null, rotation: null })),
+  points: project.points.map((point) => (point.role === 'tie' ? { ...point, xyz: null } : { ...point, role: 'tie', xyz: null, sigma: null })),
+});
+
+/** The targets of all its photos. */
+const photosOf = (project) =>
+  project.photos.map(({ id }) => {
+    const { width, height, samples } = sightline.renderPhoto(network(), id);
+    return { photo: id, targets: sightline.detectGray(width, height, samples).targets };
+  });
+
+/** Targets of one of its photos. */
+function detection() {
+  const { width, height, samples } = sightline.renderPhoto(network(), 's0');
+  return sightline.detectGray(width, height, samples, { codes: 'ring-14' });
+}
+
+test('every field that the engine returns is declared, and every declared field is there', () => {
+  const found = detection();
+  assert.ok(found.targets.length >= 7);
+  const targets = [{ ...found.targets[0], code: 7 }];
+  const photos = [{ photo: 'a', targets }];
+  const marks = [{ photo: 'a', point: '7', u: targets[0].u + 1, v: targets[0].v, sigma: 0.1 }, { photo: 'b', point: '7', u: 1, v: 1, sigma: 0.1 }];
+  const text = new TextEncoder().encode(JSON.stringify(document()));
+  const project = sightline.simulate(network());
+  const coarse = structuredClone(project);
+  coarse.observations[3].u += 20;
+  const adjustments = [
+    sightline.adjust(project, { covariance_of: ['p1', 'p2'] }),
+    sightline.adjust(project, { statistics: 'none' }),
+    sightline.adjust(coarse, { snooping: true }),
+    sightline.adjust(coarse, { robust: 'huber' }),
+    sightline.adjust({ ...project, datum: { kind: 'control', points: null }, points: project.points.map((point, k) => (k % 2 ? point : { ...point, role: 'control', sigma: [0.01, null, 0.02] })) }),
+  ];
+  const literals = [
+    literal('network', 'S.Network', network()),
+    literal('simulated', 'S.Project', project),
+    literal('oriented', 'S.OrientedProject', sightline.orient(bare(project))),
+    literal('partly', 'S.OrientedProject', sightline.orient({ ...bare(project), observations: project.observations.filter(({ photo, point }, k) => photo !== 's3' && (point !== 'p4' || k < 9)) })),
+    literal('matching', 'S.Matching', sightline.matchUncoded(project, photosOf(project))),
+    ...adjustments.map((adjustment, k) => literal(`adjustment${k}`, 'S.Adjustment', adjustment)),
+    literal('project', 'S.Project', sightline.importProject('sightline', { 'project.json': text })),
+    literal('detection', 'S.Detection', found),
+    literal('coded', 'S.Coded', sightline.nameCoded([{ photo: 'a', targets: [...targets, ...targets] }, { photo: 'b', targets }])),
+    literal('snapped', 'S.Snapped', sightline.snapMarks(marks, photos, 3)),
+  ];
+  assert.equal(complaints(literals.join('\n')), '');
+});
+
+test('the comparison notices a field too many and one too few', () => {
+  const target = detection().targets[0];
+  assert.match(complaints(literal('target', 'S.Target', { ...target, extra: 1 })), /extra/);
+  const { sigma_u, ...less } = target;
+  assert.match(complaints(literal('target', 'S.Target', less)), /sigma_u/);
+});
+
+test('the options that are declared are those that exist', () => {
+  const declared = readFileSync(join(root, 'pkg/sightline.d.ts'), 'utf8');
+  for (const [name, action] of [
+    ['AdjustOptions', (options) => sightline.adjust(sightline.simulate(network()), options)],
+    ['DetectOptions', (options) => sightline.detectGray(1, 1, new Uint8Array(1), options)],
+    ['MatchOptions', (options) => sightline.matchUncoded(sightline.simulate(network()), [], options)],
+  ]) {
+    const body = declared.split(`export interface ${name} {`)[1].split('\n}')[0];
+    const fields = [...body.matchAll(/^\s+(\w+)\?:/gm)].map((match) => match[1]);
+    const error = thrown(() => action({ no_such_option: 1 }));
+    const known = error.message.match(/the options are (\w+(?:, \w+)*)/)[1].split(', ');
+    assert.deepEqual(fields.sort(), known.sort(), name);
+  }
+});

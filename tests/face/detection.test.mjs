@@ -1,0 +1,94 @@
+// Targets from pixels and from files.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { data, sightline, skip, thrown } from './engine.mjs';
+
+/** A bright disc on dark ground, its edge averaged over 16 x 16 places a pixel. */
+function disc(width, height, u, v, radius, depth) {
+  const samples = depth === 16 ? new Uint16Array(width * height) : new Uint8Array(width * height);
+  const [low, high] = depth === 16 ? [8000, 50000] : [40, 200];
+  for (let y = 0; y < height; y++) {
+    for (let x = 0; x < width; x++) {
+      let inside = 0;
+      for (let i = 0; i < 256; i++) {
+        if (Math.hypot(x + ((i & 15) + 0.5) / 16 - u, y + ((i >> 4) + 0.5) / 16 - v) < radius) inside++;
+      }
+      samples[y * width + x] = Math.round(low + ((high - low) * inside) / 256);
+    }
+  }
+  return samples;
+}
+
+test('a disc is measured where it is, in 8 and in 16 bits, by every method', () => {
+  // An edge without blur is more than the gradient can stand on; the others hardly notice.
+  const methods = { least_squares: 0.01, ellipse: 0.02, intensity: 0.05, gradient: 0.2 };
+  for (const depth of [8, 16]) {
+    for (const [method, tolerance] of Object.entries(methods)) {
+      const found = sightline.detectGray(80, 60, disc(80, 60, 41.3, 28.8, 9.5, depth), { method });
+      assert.deepEqual([found.width, found.height, found.bits, found.targets.length], [80, 60, depth, 1], method);
+      const [target] = found.targets;
+      assert.ok(Math.hypot(target.u - 41.3, target.v - 28.8) < tolerance, `${method}: ${target.u}, ${target.v}`);
+      assert.ok(Math.abs(target.major - 19) < 0.3 && target.polarity === 'bright' && target.code === null);
+      assert.ok(target.sigma_u > 0 && target.sigma_v > 0);
+    }
+  }
+  const dark = disc(80, 60, 41.3, 28.8, 9.5, 8).map((value) => 255 - value);
+  assert.equal(sightline.detectGray(80, 60, dark).targets[0].polarity, 'dark');
+  assert.equal(sightline.detectGray(80, 60, dark, { polarity: 'bright' }).targets.length, 0);
+});
+
+test('what is no picture, no size and no option is named', () => {
+  const samples = new Uint8Array(12);
+  const cases = [
+    [() => sightline.detectGray(4, 4, samples), 'samples'],
+    [() => sightline.detectGray(0, 0, new Uint8Array(0)), 'samples'],
+    [() => sightline.detectGray('4', 3, samples), 'width'],
+    [() => sightline.detectGray(4, -3, samples), 'height'],
+    [() => sightline.detectGray(4, 2.5, samples), 'height'],
+    [() => sightline.detectGray(4, 3, [...samples]), 'samples'],
+    [() => sightline.detectGray(4, 3, new Float32Array(12)), 'samples'],
+    [() => sightline.detectGray(4, 3, samples, { min_diametre: 3 }), 'min_diametre'],
+    [() => sightline.detectGray(4, 3, samples, { method: 'magic' }), 'method'],
+    [() => sightline.detectGray(4, 3, samples, { min_diameter: NaN }), 'min_diameter'],
+    [() => sightline.detectGray(4, 3, samples, { max_diameter: 'large' }), 'max_diameter'],
+    [() => sightline.detectGray(4, 3, samples, { min_diameter: -1 }), 'min_diameter'],
+    [() => sightline.detectGray(4, 3, samples, []), 'options'],
+    [() => sightline.detectGray(4, 3, samples, 'fast'), 'options'],
+    [() => sightline.detect('a.jpg'), 'bytes'],
+    [() => sightline.measureAt(samples, 'left', 0), 'u'],
+  ];
+  for (const [action, field] of cases) {
+    const error = thrown(action);
+    assert.deepEqual([error.code, error.where.field], ['invalid', field], `${action}: ${error.message}`);
+  }
+  assert.equal(thrown(() => sightline.detect(new Uint8Array(0))).code, 'unknown_image_format');
+  assert.equal(thrown(() => sightline.detect(new TextEncoder().encode('no picture'))).code, 'unknown_image_format');
+  assert.deepEqual(sightline.detectGray(4, 3, samples, undefined), sightline.detectGray(4, 3, samples, null));
+});
+
+test('photographs: dots of a calibration sheet, codes of a panel', { skip }, () => {
+  const sheet = data('camcal/photos/P8250021.JPG');
+  const info = sightline.photoInfo(sheet);
+  assert.deepEqual([info.width, info.height, info.bits], [2272, 1704, 8]);
+  assert.match(info.model, /C4040Z/);
+  const dots = sightline.detect(sheet, { channel: 'green' });
+  assert.ok(dots.targets.filter((target) => target.polarity === 'dark').length >= 90, `${dots.targets.length} targets`);
+  const near = sightline.measureAt(sheet, 1429, 1456, { channel: 'green' });
+  assert.ok(Math.hypot(near.u - 1429.1871, near.v - 1456.4278) < 0.3);
+  assert.equal(sightline.measureAt(sheet, 20, 20, { channel: 'green' }), null);
+
+  const photos = ['043_0005_Scaled.tif', '043_0021_Scaled.tif'].map((name) => {
+    const { targets } = sightline.detect(data(`panel/${name}`), { codes: 'ring-14' });
+    return { photo: name, targets };
+  });
+  const coded = sightline.nameCoded(photos);
+  assert.ok(coded.points.length >= 40, `${coded.points.length} codes`);
+  const both = coded.observations.filter(({ photo }) => photo === photos[0].photo).map(({ point }) => point);
+  assert.equal(new Set(both).size, both.length, 'a code stands once in a photo');
+  const marks = coded.observations.map(({ photo, point, u, v }) => ({ photo, point, u: u + 0.7, v: v - 0.4, sigma: 0.5 }));
+  const snapped = sightline.snapMarks(marks, photos, 3);
+  assert.deepEqual(snapped.observations.map(({ u, v }) => [u, v]), coded.observations.map(({ u, v }) => [u, v]));
+  const cut = data('panel/043_0005_Scaled.tif').subarray(0, 5000);
+  assert.equal(thrown(() => sightline.detect(cut)).code, 'broken_image');
+});

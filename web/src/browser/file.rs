@@ -1,0 +1,98 @@
+//! Files that people hand over, and files that are handed to them.
+
+use js_sys::{Array, Uint8Array};
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::JsFuture;
+use web_sys::{BlobPropertyBag, DataTransfer, FileList, HtmlAnchorElement, HtmlInputElement, Url};
+
+use super::worker::{Bytes, describe};
+
+/// A file's content, on the disk or in the browser's memory, read only when it is needed.
+#[derive(Clone)]
+pub struct Blob(web_sys::Blob);
+
+/// A file with its name.
+#[derive(Clone)]
+pub struct NamedFile {
+    pub name: String,
+    pub content: Blob,
+}
+
+impl Blob {
+    pub fn from_bytes(bytes: &Bytes) -> Result<Self, String> {
+        web_sys::Blob::new_with_u8_array_sequence(&Array::of1(&bytes.0)).map(Self).map_err(|e| describe(&e))
+    }
+
+    pub async fn read(&self) -> Result<Vec<u8>, String> {
+        let buffer = JsFuture::from(self.0.array_buffer()).await.map_err(|e| describe(&e))?;
+        Ok(Uint8Array::new(&buffer).to_vec())
+    }
+
+    pub(super) fn from_js(value: &JsValue) -> Self {
+        Self(value.clone().unchecked_into())
+    }
+
+    pub(super) fn as_js(&self) -> JsValue {
+        self.0.clone().into()
+    }
+}
+
+fn listed(files: Option<FileList>) -> Vec<NamedFile> {
+    let Some(files) = files else { return Vec::new() };
+    let mut all: Vec<_> = (0..files.length())
+        .filter_map(|i| files.get(i))
+        .map(|f| NamedFile { name: f.name(), content: Blob(f.into()) })
+        .collect();
+    all.sort_by(|a, b| a.name.cmp(&b.name));
+    all
+}
+
+/// The files dropped or pasted with an event, in the order of their names.
+pub fn dropped(transfer: Option<DataTransfer>) -> Vec<NamedFile> {
+    listed(transfer.and_then(|t| t.files()))
+}
+
+/// Opens the browser's file chooser; `on_files` gets what was chosen.
+pub fn choose(accept: &str, multiple: bool, on_files: impl FnOnce(Vec<NamedFile>) + 'static) {
+    let Some(document) = web_sys::window().and_then(|w| w.document()) else { return };
+    let Ok(element) = document.create_element("input") else { return };
+    let input: HtmlInputElement = element.unchecked_into();
+    input.set_type("file");
+    input.set_accept(accept);
+    input.set_multiple(multiple);
+    input.set_hidden(true);
+    // In the document, so that tests and assistive tools see it.
+    if let Some(body) = document.body() {
+        let _ = body.append_child(&input);
+    }
+    let chosen = input.clone();
+    let on_change = Closure::once_into_js(move |_: web_sys::Event| {
+        let files = listed(chosen.files());
+        chosen.remove();
+        on_files(files);
+    });
+    input.set_onchange(Some(on_change.unchecked_ref()));
+    input.click();
+}
+
+/// Hands a file to the person, in the browser's own way.
+pub fn download(name: &str, kind: &str, bytes: &[u8]) -> Result<(), String> {
+    let options = BlobPropertyBag::new();
+    options.set_type(kind);
+    let content = Array::of1(&Uint8Array::from(bytes));
+    let save = || -> Result<(), JsValue> {
+        let blob = web_sys::Blob::new_with_u8_array_sequence_and_options(&content, &options)?;
+        let url = Url::create_object_url_with_blob(&blob)?;
+        let document = web_sys::window().and_then(|w| w.document()).ok_or("no document")?;
+        let anchor: HtmlAnchorElement = document.create_element("a")?.unchecked_into();
+        anchor.set_href(&url);
+        anchor.set_download(name);
+        anchor.click();
+        // The download has its own reference after a moment.
+        super::page::after(60_000, move || {
+            let _ = Url::revoke_object_url(&url);
+        });
+        Ok(())
+    };
+    save().map_err(|e| describe(&e))
+}

@@ -1,0 +1,8 @@
+//! Everything that speaks JavaScript: files, workers, canvases, storage, keys. Nothing else in the desk does.
+
+pub mod canvas;
+pub mod event;
+pub mod file;
+pub mod page;
+pub mod picture;
+pub mod worker;

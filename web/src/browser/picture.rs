@@ -1,0 +1,32 @@
+//! Pictures for the screen, kept on JavaScript's side. The engine decodes them: a browser would rotate, colour-manage
+//! or refuse them.
+
+use js_sys::Uint8ClampedArray;
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::JsFuture;
+use web_sys::{ImageBitmap, ImageData};
+
+use super::worker::{Bytes, describe};
+
+/// A picture that a canvas can draw.
+#[derive(Clone)]
+pub struct Picture {
+    pub(super) bitmap: ImageBitmap,
+    pub width: u32,
+    pub height: u32,
+}
+
+impl Picture {
+    /// From red, green, blue, alpha bytes, row by row.
+    pub async fn from_rgba(bytes: Bytes, width: u32, height: u32) -> Result<Self, String> {
+        let make = || -> Result<js_sys::Promise, JsValue> {
+            let clamped = Uint8ClampedArray::new(&bytes.0.buffer());
+            let data = ImageData::new_with_js_u8_clamped_array_and_sh(&clamped, width, height)?;
+            let window = web_sys::window().ok_or("no window")?;
+            window.create_image_bitmap_with_image_data(&data)
+        };
+        let promise = make().map_err(|e| describe(&e))?;
+        let bitmap = JsFuture::from(promise).await.map_err(|e| describe(&e))?;
+        Ok(Self { bitmap: bitmap.unchecked_into(), width, height })
+    }
+}

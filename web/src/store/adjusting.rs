@@ -1,0 +1,130 @@
+//! Orientation and adjustment in a worker, iteration by iteration, and what follows from the result.
+
+use std::sync::Arc;
+
+use leptos::prelude::*;
+use sightline::adjustment::Iteration;
+use sightline::project::Parameter;
+
+use super::document::{self, Change};
+use super::pool;
+use super::{Desk, JobKind, Step};
+use crate::format;
+use crate::i18n::{errors, text};
+use crate::protocol::{Answer, Request};
+
+impl Desk {
+    /// Orients what is not oriented and adjusts everything.
+    pub fn adjust(self) {
+        self.adjust_then(|_| {});
+    }
+
+    fn adjust_then(self, then: fn(Self)) {
+        let input = self.document.with_untracked(|d| d.project.clone());
+        let options = self.adjust_options.get_untracked();
+        self.iterations.set(Vec::new());
+        self.adjust_failure.set(None);
+        self.notice.set(None);
+        self.go(Step::Adjust);
+        let batch = self.start_job(JobKind::Adjusting, options.max_iterations, || {});
+        let request = Request::Adjust { project: Box::new((*input).clone()), options };
+        let on_outcome = move |outcome: pool::Outcome| match outcome {
+            pool::Outcome::Answer(Answer::Oriented { notes }, _) => self.notes.set(notes),
+            pool::Outcome::Answer(Answer::Iteration(iteration), _) => {
+                self.iterations.update(|all: &mut Vec<Iteration>| all.push(iteration));
+                self.step_job(batch);
+            }
+            pool::Outcome::Answer(Answer::Adjusted { oriented, adjustment }, _) => {
+                self.end_job();
+                let outcome =
+                    document::Outcome { input: input.clone(), oriented: Arc::new(*oriented), adjustment: *adjustment };
+                self.iterations.set(outcome.adjustment.iterations.clone());
+                self.change(Change::Adjusted, |document| document.result = Some(Arc::new(outcome)));
+                then(self);
+            }
+            pool::Outcome::Answer(Answer::Failed(error), _) => {
+                self.end_job();
+                self.adjust_failure.set(Some(*error.clone()));
+                self.warn(move || errors::sentence(&error));
+            }
+            pool::Outcome::Answer(Answer::Unreadable { detail }, _) | pool::Outcome::Crashed(detail) => {
+                self.end_job();
+                self.warn_crash(detail);
+            }
+            pool::Outcome::Answer(..) => {}
+        };
+        self.pool.with_value(|pool| pool.submit(batch, request, Vec::new(), on_outcome));
+    }
+
+    /// Names the targets without a code by where the oriented photos see them.
+    pub fn match_uncoded(self) {
+        self.match_then(|_| {});
+    }
+
+    /// Matches, adjusts and shows the result.
+    pub fn match_then_adjust(self) {
+        self.match_then(|desk| {
+            desk.notice.set(None);
+            desk.adjust_then(|desk| desk.go(Step::Results));
+        });
+    }
+
+    fn match_then(self, then: fn(Self)) {
+        let (project, targets) = self.document.with_untracked(|d| {
+            let oriented = d
+                .current()
+                .map_or_else(|| (*d.project).clone(), |r| sightline::adjust::apply(&r.oriented, &r.adjustment));
+            (oriented, d.photo_targets())
+        });
+        let batch = self.start_job(JobKind::Matching, 1, || {});
+        let request = Request::Match { project: Box::new(project), targets };
+        let on_outcome = move |outcome: pool::Outcome| {
+            if let pool::Outcome::Answer(Answer::Iteration(_) | Answer::Oriented { .. }, _) = outcome {
+                return;
+            }
+            self.end_job();
+            match outcome {
+                pool::Outcome::Answer(Answer::Matched(matching), _) => {
+                    self.take_matching(*matching);
+                    then(self);
+                }
+                pool::Outcome::Answer(Answer::Failed(error), _) => self.warn(move || errors::sentence(&error)),
+                pool::Outcome::Answer(Answer::Unreadable { detail }, _) | pool::Outcome::Crashed(detail) => {
+                    self.warn_crash(detail);
+                }
+                pool::Outcome::Answer(..) => {}
+            }
+        };
+        self.pool.with_value(|pool| pool.submit(batch, request, Vec::new(), on_outcome));
+    }
+
+    /// Lets a camera's parameter be estimated or held.
+    pub fn set_free(self, camera: &str, parameter: Parameter, free: bool) {
+        self.change(Change::ParametersChosen(camera.to_owned()), |document| {
+            if let Some(camera) = document.project_mut().cameras.iter_mut().find(|c| c.id == camera) {
+                camera.free.retain(|p| *p != parameter);
+                camera.sigma.remove(&parameter);
+                if free {
+                    camera.free.push(parameter);
+                    let order = camera.interior.parameters().to_vec();
+                    camera.free.sort_by_key(|p| order.iter().position(|o| o == p));
+                }
+            }
+        });
+    }
+
+    /// Takes an initial value of a camera's parameter as typed.
+    pub fn set_initial(self, camera: &str, parameter: Parameter, typed: &str) {
+        let Some(value) = format::parse(typed) else {
+            let typed = typed.to_owned();
+            self.warn(move || text::not_a_number(&typed));
+            self.document.notify();
+            return;
+        };
+        self.change(Change::ParametersChosen(camera.to_owned()), |document| {
+            if let Some(camera) = document.project_mut().cameras.iter_mut().find(|c| c.id == camera) {
+                camera.interior.set(parameter, value);
+            }
+        });
+    }
+}

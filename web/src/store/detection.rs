@@ -1,0 +1,53 @@
+//! Targets: every photo is a task of the worker pool; what is found is in the document at once.
+
+use leptos::prelude::*;
+use sightline::detection::Detection;
+
+use super::document::Change;
+use super::pool::Outcome;
+use super::{Desk, JobKind};
+use crate::i18n::{errors, text};
+use crate::protocol::{Answer, Request};
+
+impl Desk {
+    /// Finds the targets of every photo whose file is here.
+    pub fn detect_targets(self) {
+        let options = self.detect_options.get_untracked();
+        let photos = self.document.with_untracked(|d| {
+            let here = |id: &String| self.files.with_untracked(|files| files.get(id).map(|f| f.content.clone()));
+            d.project.photos.iter().filter_map(|p| here(&p.id).map(|file| (p.id.clone(), file))).collect::<Vec<_>>()
+        });
+        if photos.is_empty() {
+            self.warn(|| text::no_photo_files().to_owned());
+            return;
+        }
+        // One change for all photos; each photo's targets join it as they come.
+        self.change(Change::TargetsDetected, |_| {});
+        let batch = self.start_job(JobKind::Detecting, photos.len(), || {});
+        for (id, file) in photos {
+            let on_outcome = move |outcome: Outcome| {
+                match outcome {
+                    Outcome::Answer(Answer::Detected(detection), _) => self.add_detection(&id, *detection),
+                    Outcome::Answer(Answer::Failed(error), _) => {
+                        let photo = id.clone();
+                        self.warn(move || text::photo_failed(&photo, errors::sentence(&error)));
+                    }
+                    Outcome::Answer(Answer::Unreadable { detail }, _) | Outcome::Crashed(detail) => {
+                        let photo = id.clone();
+                        self.warn(move || text::photo_failed(&photo, text::worker_lost(&detail)));
+                    }
+                    Outcome::Answer(..) => return,
+                }
+                if self.step_job(batch) {
+                    self.end_job();
+                }
+            };
+            let request = Request::Detect { options: options.clone() };
+            self.pool.with_value(|pool| pool.submit(batch, request, vec![file], on_outcome));
+        }
+    }
+
+    fn add_detection(self, photo: &str, detection: Detection) {
+        self.change_on(|document| document.take_detection(photo, detection));
+    }
+}

@@ -1,0 +1,179 @@
+//! The document of the desk, what has been done to it, and undoing that.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use sightline::adjustment::Adjustment;
+use sightline::detection::Detection;
+use sightline::matching::Doubtful;
+use sightline::project::Project;
+
+/// Everything that is undone and saved together. Parts are shared between states, so that a state is cheap to keep.
+#[derive(Clone, Debug, Default)]
+pub struct Document {
+    pub project: Arc<Project>,
+    /// Targets by photo.
+    pub detections: Arc<BTreeMap<String, Arc<Detection>>>,
+    /// Targets whose name is in doubt, from the last matching.
+    pub doubtful: Arc<Vec<Doubtful>>,
+    /// The last adjustment, whether or not the project has changed since.
+    pub result: Option<Arc<Outcome>>,
+}
+
+/// An adjustment with what it was made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// The project it was made from.
+    pub input: Arc<Project>,
+    /// The same with the initial values that orientation found.
+    pub oriented: Arc<Project>,
+    pub adjustment: Adjustment,
+}
+
+impl Document {
+    /// Whether the result belongs to an earlier state of the project.
+    pub fn out_of_date(&self) -> bool {
+        let same = |result: &Arc<Outcome>| Arc::ptr_eq(&result.input, &self.project) || result.input == self.project;
+        self.result.as_ref().is_some_and(|result| !same(result))
+    }
+
+    /// The result, where it belongs to the project as it is.
+    pub fn current(&self) -> Option<&Arc<Outcome>> {
+        self.result.as_ref().filter(|_| !self.out_of_date())
+    }
+
+    /// Whether no project is open: an opened one has a name at least.
+    pub fn is_empty(&self) -> bool {
+        self.project.photos.is_empty() && self.project.points.is_empty() && self.project.name.is_empty()
+    }
+
+    /// Whether nothing has changed between two states.
+    pub fn same(&self, other: &Self) -> bool {
+        let results = match (&self.result, &other.result) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+            (None, None) => true,
+            _ => false,
+        };
+        results && Arc::ptr_eq(&self.project, &other.project) && Arc::ptr_eq(&self.detections, &other.detections)
+    }
+
+    pub fn project_mut(&mut self) -> &mut Project {
+        Arc::make_mut(&mut self.project)
+    }
+
+    pub fn detections_mut(&mut self) -> &mut BTreeMap<String, Arc<Detection>> {
+        Arc::make_mut(&mut self.detections)
+    }
+}
+
+/// What a change did, for saying so.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Change {
+    PhotosAdded(usize),
+    PhotoRemoved(String),
+    PhotoSwitched(String),
+    CameraEdited(String),
+    CameraAssigned { photos: usize, camera: String },
+    TargetsDetected,
+    TargetMeasured(String),
+    Named(String),
+    Renamed { from: String, to: String },
+    Moved { point: String, photo: String },
+    ObservationRemoved { point: String, photo: String },
+    ObservationSwitched { point: String, photo: String },
+    PointRemoved(String),
+    MarksTaken(usize),
+    Matched(usize),
+    ControlTaken(usize),
+    RoleSet(String),
+    DistanceAdded { from: String, to: String },
+    DistanceRemoved { from: String, to: String },
+    DatumChosen,
+    ParametersChosen(String),
+    Adjusted,
+    UnitSet,
+    Opened,
+}
+
+/// States before and after the present one.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    past: Vec<(Change, Document)>,
+    future: Vec<(Change, Document)>,
+}
+
+impl History {
+    /// Remembers the state before a change.
+    pub fn push(&mut self, change: Change, before: Document) {
+        self.past.push((change, before));
+        self.future.clear();
+    }
+
+    /// The state before the last change; `present` can be got back.
+    pub fn undo(&mut self, present: Document) -> Option<Document> {
+        let (change, state) = self.past.pop()?;
+        self.future.push((change, present));
+        Some(state)
+    }
+
+    pub fn redo(&mut self, present: Document) -> Option<Document> {
+        let (change, state) = self.future.pop()?;
+        self.past.push((change, present));
+        Some(state)
+    }
+
+    /// What would be undone.
+    pub fn last(&self) -> Option<&Change> {
+        self.past.last().map(|(change, _)| change)
+    }
+
+    /// What would be done again.
+    pub fn next(&self) -> Option<&Change> {
+        self.future.last().map(|(change, _)| change)
+    }
+
+    /// What has changed since the present result was found, latest last.
+    pub fn since(&self, present: &Document) -> Vec<Change> {
+        let same = |a: &Option<Arc<Outcome>>, b: &Option<Arc<Outcome>>| match (a, b) {
+            (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+            _ => false,
+        };
+        let mut changes: Vec<_> = self
+            .past
+            .iter()
+            .rev()
+            .take_while(|(_, state)| same(&state.result, &present.result))
+            .map(|(change, _)| change.clone())
+            .collect();
+        changes.reverse();
+        changes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_after_the_adjustment_makes_it_out_of_date_and_undoing_it_does_not() {
+        let mut document = Document::default();
+        let mut history = History::default();
+        let adjustment = serde_json::from_str(
+            r#"{"termination":"converged","iterations":[],"observations_count":0,"unknowns":0,"constraints":0,
+                "redundancy":0,"sigma0":null,"global_test":null,"cameras":[],"photos":[],"points":[],"observations":[],
+                "check_points":[],"precision":null}"#,
+        )
+        .unwrap();
+        let input = document.project.clone();
+        document.result = Some(Arc::new(Outcome { oriented: input.clone(), input, adjustment }));
+        assert!(!document.out_of_date());
+        history.push(Change::UnitSet, document.clone());
+        document.project_mut().unit = "m".into();
+        assert!(document.out_of_date() && document.current().is_none());
+        assert_eq!(history.since(&document), [Change::UnitSet]);
+        let document = history.undo(document).unwrap();
+        assert!(!document.out_of_date());
+        let document = history.redo(document).unwrap();
+        assert_eq!(document.project.unit, "m");
+    }
+}

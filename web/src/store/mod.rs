@@ -1,0 +1,376 @@
+//! What the desk knows and does, apart from how it looks. Components read its signals and call its verbs.
+
+pub mod adjusting;
+pub mod cameras;
+pub mod control;
+pub mod detection;
+pub mod document;
+pub mod identity;
+pub mod intake;
+pub mod pictures;
+pub mod pool;
+pub mod sample;
+pub mod saving;
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use leptos::prelude::*;
+use sightline::Error;
+use sightline::adjustment::{AdjustOptions, Iteration};
+use sightline::detection::{Codes, DetectOptions};
+use sightline::exif::PhotoInfo;
+use sightline::orient::Note;
+
+use crate::browser::file::Blob;
+use crate::browser::page;
+use crate::browser::picture::Picture;
+use crate::i18n::{errors, text};
+use control::Pasted;
+use document::{Change, Document, History};
+use identity::Marks;
+use pool::{Batch, Pool};
+
+/// The steps of the path, and the page before it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Step {
+    #[default]
+    Start,
+    Photos,
+    Targets,
+    Identities,
+    Control,
+    Adjust,
+    Results,
+}
+
+impl Step {
+    /// The steps in their order, without the start page.
+    pub const ROW: [Self; 6] =
+        [Self::Photos, Self::Targets, Self::Identities, Self::Control, Self::Adjust, Self::Results];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::Photos => "photos",
+            Self::Targets => "targets",
+            Self::Identities => "identities",
+            Self::Control => "control",
+            Self::Adjust => "adjust",
+            Self::Results => "results",
+        }
+    }
+
+    fn from_name(name: &str) -> Self {
+        Self::ROW.into_iter().find(|s| s.name() == name).unwrap_or_default()
+    }
+}
+
+/// Colours of the page.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Theme {
+    #[default]
+    Light,
+    Dark,
+    /// For reading in sunlight: the strongest contrast.
+    Sun,
+}
+
+impl Theme {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Light => "light",
+            Self::Dark => "dark",
+            Self::Sun => "sun",
+        }
+    }
+
+    pub fn next(self) -> Self {
+        match self {
+            Self::Light => Self::Dark,
+            Self::Dark => Self::Sun,
+            Self::Sun => Self::Light,
+        }
+    }
+}
+
+/// What is chosen, the same in photo, table and plot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    pub photo: Option<String>,
+    pub point: Option<String>,
+    /// Place in the photo's list of targets.
+    pub target: Option<usize>,
+}
+
+/// Work under way, in the one action slot.
+#[derive(Clone)]
+pub struct Job {
+    pub kind: JobKind,
+    pub done: usize,
+    pub total: usize,
+    batch: Batch,
+    /// Keeps what is done when the rest is cancelled.
+    keep: Rc<dyn Fn()>,
+}
+
+/// Kinds of long work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JobKind {
+    Opening,
+    Detecting,
+    Adjusting,
+    Matching,
+    Saving,
+    OpeningProject,
+    Sample,
+}
+
+/// A photo's file as it was dropped.
+#[derive(Clone)]
+pub struct PhotoFile {
+    pub name: String,
+    pub content: Blob,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    pub info: PhotoInfo,
+    pub small: Picture,
+    pub digest: u64,
+}
+
+/// A file that was not taken, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    pub file: String,
+    pub reason: Reason,
+}
+
+/// Why a file was not taken.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reason {
+    /// The engine refused it.
+    Engine(Error),
+    /// The same content as another photo.
+    Duplicate { of: String },
+    /// The browser could not read it, or its worker was lost.
+    Unreadable(String),
+}
+
+/// Something to tell, in whatever language is in use when it is read.
+#[derive(Clone)]
+pub struct Notice {
+    pub warning: bool,
+    pub text: Arc<dyn Fn() -> String + Send + Sync>,
+}
+
+/// The desk: signals of everything it knows. Copy it wherever it is needed.
+#[derive(Clone, Copy)]
+pub struct Desk {
+    pub document: RwSignal<Document>,
+    history: RwSignal<History>,
+    pub step: RwSignal<Step>,
+    pub theme: RwSignal<Theme>,
+    pub selection: RwSignal<Selection>,
+    /// Where the pointer is in the photo, in pixels.
+    pub cursor: RwSignal<Option<[f64; 2]>>,
+    /// A place in the photo that the photo view should show.
+    pub centre_on: RwSignal<Option<[f64; 2]>>,
+    pub detect_options: RwSignal<DetectOptions>,
+    pub adjust_options: RwSignal<AdjustOptions>,
+    /// Iterations of the adjustment under way or done last.
+    pub iterations: RwSignal<Vec<Iteration>>,
+    /// What the last orientation had to say.
+    pub notes: RwSignal<Vec<Note>>,
+    /// Why the last adjustment gave no result.
+    pub adjust_failure: RwSignal<Option<Error>>,
+    /// Marks of an earlier measurement, waiting to be taken.
+    pub marks: RwSignal<Option<Marks>>,
+    /// Control points, waiting to be taken.
+    pub pasted: RwSignal<Option<Pasted>>,
+    pub files: RwSignal<BTreeMap<String, PhotoFile>, LocalStorage>,
+    pictures: RwSignal<Vec<pictures::Shown>, LocalStorage>,
+    pub problems: RwSignal<Vec<Problem>>,
+    pub notice: RwSignal<Option<Notice>>,
+    /// When the document was saved last, and as what.
+    pub saved: RwSignal<Option<(String, Document)>>,
+    pub job: RwSignal<Option<Job>, LocalStorage>,
+    pub pool: StoredValue<Pool, LocalStorage>,
+}
+
+impl Desk {
+    pub fn new() -> Self {
+        let theme = match page::preference("theme").as_deref() {
+            Some("dark") => Theme::Dark,
+            Some("sun") => Theme::Sun,
+            Some(_) => Theme::Light,
+            None if page::prefers_dark() => Theme::Dark,
+            None => Theme::Light,
+        };
+        Self {
+            document: RwSignal::default(),
+            history: RwSignal::default(),
+            step: RwSignal::default(),
+            theme: RwSignal::new(theme),
+            selection: RwSignal::default(),
+            cursor: RwSignal::default(),
+            centre_on: RwSignal::default(),
+            // Whoever has coded targets expects them to be read; photos without rings are the same either way.
+            detect_options: RwSignal::new(DetectOptions { codes: Codes::Auto, ..DetectOptions::default() }),
+            adjust_options: RwSignal::default(),
+            iterations: RwSignal::default(),
+            notes: RwSignal::default(),
+            adjust_failure: RwSignal::default(),
+            marks: RwSignal::default(),
+            pasted: RwSignal::default(),
+            files: RwSignal::new_local(BTreeMap::new()),
+            pictures: RwSignal::new_local(Vec::new()),
+            problems: RwSignal::default(),
+            notice: RwSignal::default(),
+            saved: RwSignal::default(),
+            job: RwSignal::new_local(None),
+            pool: StoredValue::new_local(Pool::default()),
+        }
+    }
+
+    /// Changes the document so that it can be undone.
+    pub fn change(self, change: Change, edit: impl FnOnce(&mut Document)) {
+        let before = self.document.get_untracked();
+        self.history.update(|history| history.push(change, before));
+        self.document.update(edit);
+    }
+
+    /// Goes on with the change before: the two are undone together.
+    pub fn change_on(self, edit: impl FnOnce(&mut Document)) {
+        self.document.update(edit);
+    }
+
+    pub fn undo(self) {
+        let present = self.document.get_untracked();
+        if let Some(state) = self.history.try_update(|h| h.undo(present)).flatten() {
+            self.document.set(state);
+        }
+    }
+
+    pub fn redo(self) {
+        let present = self.document.get_untracked();
+        if let Some(state) = self.history.try_update(|h| h.redo(present)).flatten() {
+            self.document.set(state);
+        }
+    }
+
+    /// What has changed since the result was found.
+    pub fn changes_since_result(self) -> Vec<Change> {
+        self.document.with(|d| self.history.with(|h| h.since(d)))
+    }
+
+    /// What undoing would take back.
+    pub fn undoable(self) -> Option<Change> {
+        self.history.with(|h| h.last().cloned())
+    }
+
+    /// What would be done again.
+    pub fn redoable(self) -> Option<Change> {
+        self.history.with(|h| h.next().cloned())
+    }
+
+    pub fn go(self, step: Step) {
+        self.step.set(step);
+        page::set_hash(step.name());
+    }
+
+    /// Follows the address after '#', where the step is open already.
+    pub fn follow_hash(self) {
+        let step = Step::from_name(&page::hash());
+        let empty = self.document.with_untracked(Document::is_empty);
+        let allowed = if empty { Step::Start } else { step };
+        if self.step.get_untracked() != allowed {
+            self.step.set(allowed);
+        }
+    }
+
+    pub fn set_theme(self, theme: Theme) {
+        page::set_preference("theme", theme.name());
+        self.theme.set(theme);
+    }
+
+    /// Tells something until it is dismissed or something newer is told.
+    pub fn tell(self, text: impl Fn() -> String + Send + Sync + 'static) {
+        self.notice.set(Some(Notice { warning: false, text: Arc::new(text) }));
+    }
+
+    /// Tells what went wrong.
+    pub fn warn(self, text: impl Fn() -> String + Send + Sync + 'static) {
+        self.notice.set(Some(Notice { warning: true, text: Arc::new(text) }));
+    }
+
+    pub fn warn_error(self, error: Error) {
+        self.warn(move || errors::sentence(&error));
+    }
+
+    pub fn warn_crash(self, detail: String) {
+        self.warn(move || text::worker_lost(&detail));
+    }
+
+    /// Takes the action slot for long work.
+    fn start_job(self, kind: JobKind, total: usize, keep: impl Fn() + 'static) -> Batch {
+        let batch = self.pool.with_value(Pool::batch);
+        self.job.set(Some(Job { kind, done: 0, total, batch, keep: Rc::new(keep) }));
+        batch
+    }
+
+    /// Counts one more piece of long work as done; true when it was the last.
+    fn step_job(self, batch: Batch) -> bool {
+        let mut last = false;
+        self.job.update(|job| {
+            if let Some(job) = job.as_mut().filter(|job| job.batch == batch) {
+                job.done += 1;
+                last = job.done == job.total;
+            }
+        });
+        last
+    }
+
+    fn end_job(self) {
+        self.job.set(None);
+    }
+
+    /// Stops long work at once and keeps what is done.
+    pub fn cancel(self) {
+        if let Some(job) = self.job.get_untracked() {
+            self.pool.with_value(|pool| pool.cancel(job.batch));
+            self.job.set(None);
+            (job.keep)();
+        }
+    }
+
+    /// Takes back what is chosen or asked.
+    pub fn escape(self) {
+        self.selection.update(|s| {
+            s.point = None;
+            s.target = None;
+        });
+    }
+
+    /// Shows a photo further on in the list.
+    pub fn next_photo(self, step: isize) {
+        let next = self.document.with_untracked(|d| {
+            let now = self.selection.with_untracked(|s| s.photo.clone());
+            let place = d.project.photos.iter().position(|p| Some(&p.id) == now.as_ref()).unwrap_or(0);
+            d.project.photos.get(place.checked_add_signed(step)?).map(|p| p.id.clone())
+        });
+        if let Some(photo) = next {
+            self.select_photo(&photo);
+        }
+    }
+
+    /// Shows a photo, with nothing in it chosen.
+    pub fn select_photo(self, photo: &str) {
+        self.selection.update(|s| {
+            if s.photo.as_deref() != Some(photo) {
+                s.photo = Some(photo.to_owned());
+                s.target = None;
+            }
+        });
+    }
+}

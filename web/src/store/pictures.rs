@@ -1,0 +1,72 @@
+//! Full pictures for the photo view, decoded by the workers when they are asked for; the last few are kept.
+
+use leptos::prelude::*;
+use leptos::task::spawn_local;
+
+use super::Desk;
+use super::pool::Outcome;
+use crate::browser::picture::Picture;
+use crate::i18n::{errors, text};
+use crate::protocol::{Answer, Request};
+
+/// Decoded pictures kept: a photo of 24 megapixels takes 96 MB.
+const KEPT: usize = 3;
+
+/// A photo's picture, or the asking for it.
+#[derive(Clone)]
+pub struct Shown {
+    photo: String,
+    digest: u64,
+    picture: Option<Picture>,
+}
+
+impl Desk {
+    /// The picture of a photo, as soon as it is there; the small one serves meanwhile.
+    pub fn picture(self, photo: &str) -> Option<Picture> {
+        let digest = self.files.with(|files| files.get(photo).map(|file| file.digest))?;
+        let is = |shown: &&Shown| shown.photo == photo && shown.digest == digest;
+        if let Some(shown) = self.pictures.with(|all| all.iter().find(is).cloned()) {
+            return shown.picture;
+        }
+        self.ask_for_picture(photo.to_owned(), digest);
+        None
+    }
+
+    fn ask_for_picture(self, photo: String, digest: u64) {
+        let Some(file) = self.files.with_untracked(|files| files.get(&photo).map(|f| f.content.clone())) else {
+            return;
+        };
+        self.pictures.update_untracked(|all| {
+            all.push(Shown { photo: photo.clone(), digest, picture: None });
+            if all.len() > KEPT {
+                all.remove(0);
+            }
+        });
+        let on_outcome = move |outcome: Outcome| match outcome {
+            Outcome::Answer(Answer::Picture { width, height }, bytes) => {
+                let Some(bytes) = bytes.into_iter().next() else { return };
+                let photo = photo.clone();
+                spawn_local(async move {
+                    match Picture::from_rgba(bytes, width, height).await {
+                        Ok(picture) => self.pictures.update(|all| {
+                            if let Some(shown) = all.iter_mut().find(|s| s.photo == photo && s.digest == digest) {
+                                shown.picture = Some(picture);
+                            }
+                        }),
+                        Err(detail) => self.warn(move || text::photo_failed(&photo, text::unreadable(&detail))),
+                    }
+                });
+            }
+            Outcome::Answer(Answer::Failed(error), _) => {
+                let photo = photo.clone();
+                self.warn(move || text::photo_failed(&photo, errors::sentence(&error)));
+            }
+            Outcome::Answer(Answer::Unreadable { detail }, _) | Outcome::Crashed(detail) => {
+                let photo = photo.clone();
+                self.warn(move || text::photo_failed(&photo, text::unreadable(&detail)));
+            }
+            Outcome::Answer(..) => {}
+        };
+        self.pool.with_value(|pool| pool.submit_first(Request::Picture, vec![file], on_outcome));
+    }
+}

@@ -1,0 +1,90 @@
+//! The bundled sample: photos rendered and measured by the workers, then oriented, matched and adjusted.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use leptos::prelude::*;
+use leptos::task::spawn_local;
+use sightline::detection::Detection;
+use sightline::sample;
+
+use super::document::{Change, Document};
+use super::intake::SMALL_SIDE;
+use super::pool::Outcome;
+use super::{Desk, JobKind, PhotoFile, Selection, Step};
+use crate::browser::file::Blob;
+use crate::browser::picture::Picture;
+use crate::browser::worker::Bytes;
+use crate::i18n::text;
+use crate::protocol::{Answer, Opened, Request};
+
+type Made = Rc<RefCell<BTreeMap<String, (PhotoFile, Detection)>>>;
+
+impl Desk {
+    /// Opens the sample project and adjusts it; the project that was open can be got back by undoing.
+    pub fn open_sample(self) {
+        let names = sample::files();
+        let made = Made::default();
+        let keep = made.clone();
+        let batch = self.start_job(JobKind::Sample, names.len(), move || self.put_sample(&keep));
+        for name in names {
+            let made = made.clone();
+            let request = Request::SamplePhoto { name: name.clone(), max_side: SMALL_SIDE };
+            let on_outcome = move |outcome: Outcome| match outcome {
+                Outcome::Answer(Answer::SamplePhoto { opened, detection }, bytes) => {
+                    let (made, name) = (made.clone(), name.clone());
+                    spawn_local(async move {
+                        if let Some(file) = photo_file(name.clone(), *opened, bytes).await {
+                            made.borrow_mut().insert(name, (file, *detection));
+                        }
+                        if self.step_job(batch) {
+                            self.end_job();
+                            self.put_sample(&made);
+                            self.match_then_adjust();
+                        }
+                    });
+                }
+                other => {
+                    self.end_job();
+                    self.tell_failure(other);
+                }
+            };
+            self.pool.with_value(|pool| pool.submit(batch, request, Vec::new(), on_outcome));
+        }
+    }
+
+    /// Puts the sample on the desk with the photos that are made.
+    fn put_sample(self, made: &Made) {
+        let mut project = match sample::project() {
+            Ok(project) => project,
+            Err(error) => return self.warn_error(error),
+        };
+        let made = made.take();
+        project.photos.retain(|photo| made.contains_key(&photo.file));
+        project.name = text::sample_name().to_owned();
+        let photos = project.photos.iter().map(|p| (p.id.clone(), p.file.clone())).collect::<Vec<_>>();
+        let first = photos.first().map(|(id, _)| id.clone());
+        let mut files = BTreeMap::new();
+        let mut document = Document { project: project.into(), ..Document::default() };
+        for (id, name) in photos {
+            if let Some((file, detection)) = made.get(&name) {
+                files.insert(id.clone(), file.clone());
+                document.take_detection(&id, detection.clone());
+            }
+        }
+        self.change(Change::Opened, |d| *d = document);
+        self.forget_waiting();
+        self.files.set(files);
+        self.selection.set(Selection { photo: first, ..Selection::default() });
+        self.go(Step::Targets);
+    }
+}
+
+async fn photo_file(name: String, opened: Opened, bytes: Vec<Bytes>) -> Option<PhotoFile> {
+    let mut bytes = bytes.into_iter();
+    let (photo, small) = (bytes.next()?, bytes.next()?);
+    let small = Picture::from_rgba(small, opened.small[0], opened.small[1]).await.ok()?;
+    let content = Blob::from_bytes(&photo).ok()?;
+    Some(PhotoFile { name, content, size: opened.size, info: opened.info, small, digest: opened.digest })
+}

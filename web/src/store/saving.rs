@@ -1,0 +1,231 @@
+//! Project files: saving, opening, exporting, and the sample project.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use leptos::prelude::*;
+use leptos::task::spawn_local;
+use sightline::detection::Detection;
+
+use super::document::{self, Change, Document};
+use super::pool::Outcome;
+use super::{Desk, JobKind, Step};
+use crate::browser::file::{self, Blob, NamedFile};
+use crate::browser::page;
+use crate::browser::worker::Bytes;
+use crate::i18n::{errors, text};
+use crate::protocol::{Answer, Content, Request};
+
+/// Ending of project files.
+pub const EXTENSION: &str = "sightline";
+
+/// Whether a file name is that of a project.
+pub fn is_project(name: &str) -> bool {
+    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
+    matches!(ending.as_str(), "zip" | "json" | EXTENSION)
+}
+
+/// Whether a file name is that of a table or list.
+pub fn is_text(name: &str) -> bool {
+    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
+    matches!(ending.as_str(), "txt" | "csv" | "tsv" | "dat")
+}
+
+impl Desk {
+    /// Reads a text file and hands it on with its name.
+    pub fn read_text(self, file: NamedFile, then: fn(Self, String, &str)) {
+        spawn_local(async move {
+            match file.content.read().await {
+                Ok(bytes) => then(self, file.name, &String::from_utf8_lossy(&bytes)),
+                Err(detail) => self.warn(move || text::unreadable(&detail)),
+            }
+        });
+    }
+
+    /// A text file dropped on the page belongs to the step that is open.
+    pub fn take_text(self, file: NamedFile) {
+        match self.step.get_untracked() {
+            Step::Control => self.read_text(file, Self::read_control),
+            Step::Identities => self.read_text(file, Self::read_marks),
+            _ => {
+                let name = file.name;
+                self.warn(move || text::which_text(&name));
+            }
+        }
+    }
+
+    /// Writes the project file and hands it over; the photos go along on request.
+    pub fn save(self, with_photos: bool) {
+        let document = self.document.get_untracked();
+        let mut names = Vec::new();
+        let mut files = Vec::new();
+        if with_photos {
+            self.files.with_untracked(|all| {
+                for photo in &document.project.photos {
+                    if let Some(file) = all.get(&photo.id) {
+                        names.push(photo.file.clone());
+                        files.push(file.content.clone());
+                    }
+                }
+            });
+        }
+        let request = Request::Pack { content: Box::new(content(&document)), names };
+        let batch = self.start_job(JobKind::Saving, 1, || {});
+        let on_outcome = move |outcome: Outcome| {
+            self.end_job();
+            match outcome {
+                Outcome::Answer(Answer::Packed, bytes) => {
+                    let name = format!("{}.{EXTENSION}", file_stem(&document.project.name));
+                    let packed = bytes.first().map(Bytes::to_vec).unwrap_or_default();
+                    match file::download(&name, "application/zip", &packed) {
+                        Ok(()) => self.saved.set(Some((page::clock(), document.clone()))),
+                        Err(detail) => self.warn(move || text::cannot_save(&detail)),
+                    }
+                }
+                other => self.tell_failure(other),
+            }
+        };
+        self.pool.with_value(|pool| pool.submit(batch, request, files, on_outcome));
+    }
+
+    /// Tells why a request gave no answer of the kind that was asked for.
+    pub(super) fn tell_failure(self, outcome: Outcome) {
+        match outcome {
+            Outcome::Answer(Answer::Failed(error), _) => self.warn(move || errors::sentence(&error)),
+            Outcome::Answer(Answer::Unreadable { detail }, _) | Outcome::Crashed(detail) => self.warn_crash(detail),
+            Outcome::Answer(..) => {}
+        }
+    }
+
+    /// Opens a project file; the one that is open can be got back by undoing.
+    pub fn open_project(self, file: NamedFile) {
+        let batch = self.start_job(JobKind::OpeningProject, 1, || {});
+        let name = file.name.clone();
+        let on_outcome = move |outcome: Outcome| {
+            self.end_job();
+            match outcome {
+                Outcome::Answer(Answer::Unpacked { content, names }, bytes) => {
+                    let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_owned();
+                    self.take_content(*content, &stem, &names, &bytes);
+                    let document = self.document.get_untracked();
+                    self.saved.set(Some((page::clock(), document)));
+                }
+                Outcome::Answer(Answer::Failed(error), _) => {
+                    let error = error.in_file(&name);
+                    self.warn(move || errors::sentence(&error));
+                }
+                other => self.tell_failure(other),
+            }
+        };
+        self.pool.with_value(|pool| pool.submit(batch, Request::Unpack, vec![file.content], on_outcome));
+    }
+
+    /// Puts a document on the desk, with the photos that came with it.
+    fn take_content(self, content: Content, stem: &str, names: &[String], photos: &[Bytes]) {
+        let mut project = content.project;
+        if project.name.is_empty() {
+            project.name = stem.to_owned();
+        }
+        let adjusted = content.adjustment.is_some();
+        let project = Arc::new(project);
+        let result = content.adjustment.map(|adjustment| {
+            let (input, oriented) = (project.clone(), project.clone());
+            Arc::new(document::Outcome { input, oriented, adjustment })
+        });
+        let detections = content.targets.into_iter().map(|(photo, d)| (photo, Arc::new(d))).collect::<BTreeMap<_, _>>();
+        let first = project.photos.first().map(|p| p.id.clone());
+        self.change(Change::Opened, |document| {
+            *document = Document { project, detections: Arc::new(detections), result, ..Document::default() };
+        });
+        self.iterations.set(
+            self.document
+                .with_untracked(|d| d.result.as_ref().map(|r| r.adjustment.iterations.clone()).unwrap_or_default()),
+        );
+        self.forget_waiting();
+        self.files.set(BTreeMap::new());
+        self.selection.set(super::Selection { photo: first, ..Default::default() });
+        let files = names
+            .iter()
+            .zip(photos)
+            .filter_map(|(name, bytes)| Some(NamedFile { name: name.clone(), content: Blob::from_bytes(bytes).ok()? }));
+        let files = files.collect::<Vec<_>>();
+        self.go(if adjusted { Step::Results } else { Step::Photos });
+        if !files.is_empty() {
+            self.take(files);
+        }
+    }
+
+    /// What belonged to the project before is not asked any more.
+    pub(super) fn forget_waiting(self) {
+        self.notes.set(Vec::new());
+        self.adjust_failure.set(None);
+        self.marks.set(None);
+        self.pasted.set(None);
+        self.problems.set(Vec::new());
+    }
+
+    /// Hands over a file of the engine's making.
+    pub fn export(self, format: &str) {
+        let exported = self.document.with_untracked(|d| {
+            let adjustment = d.current().map(|r| &r.adjustment);
+            sightline::exchange::export(format, &d.project, adjustment)
+        });
+        match exported {
+            Ok(files) => {
+                let stem = self.document.with_untracked(|d| file_stem(&d.project.name));
+                for (name, bytes) in files {
+                    if let Err(detail) = file::download(&format!("{stem}-{name}"), "text/csv", &bytes) {
+                        self.warn(move || text::cannot_save(&detail));
+                    }
+                }
+            }
+            Err(error) => self.warn_error(error),
+        }
+    }
+
+    /// Whether something would be lost with the page.
+    pub fn unsaved(self) -> bool {
+        self.document.with(|d| !d.is_empty() && self.saved.with(|s| s.as_ref().is_none_or(|(_, saved)| !d.same(saved))))
+    }
+
+    pub fn rename_project(self, name: &str) {
+        let name = name.trim().to_owned();
+        // A name is no input of the adjustment: the result stays current, and belongs to the renamed project.
+        self.document.update(|d| {
+            let current = d.current().cloned();
+            d.project_mut().name = name;
+            if let Some(result) = current {
+                let input = d.project.clone();
+                d.result = Some(Arc::new(document::Outcome { input, ..(*result).clone() }));
+            }
+        });
+    }
+}
+
+fn content(document: &Document) -> Content {
+    Content {
+        project: (*document.project).clone(),
+        targets: document.detections.iter().map(|(photo, d)| (photo.clone(), Detection::clone(d))).collect(),
+        adjustment: document.current().map(|r| r.adjustment.clone()),
+    }
+}
+
+/// A project's name as a file name.
+fn file_stem(name: &str) -> String {
+    let safe = |c: char| if c.is_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '-' };
+    let stem = name.trim().chars().map(safe).collect::<String>();
+    if stem.is_empty() { "project".to_owned() } else { stem }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn project_names_become_file_names() {
+        assert_eq!(file_stem("Panel 043/b"), "Panel-043-b");
+        assert_eq!(file_stem("패널 1"), "패널-1");
+        assert_eq!(file_stem(" "), "project");
+        assert!(is_project("a.b.SIGHTLINE") && !is_project("zip") && is_text("markpts.TXT"));
+    }
+}

@@ -1,0 +1,283 @@
+//! Step 5: what is estimated from what, the iterations as they come, and what the network lacks.
+
+use leptos::prelude::*;
+use sightline::adjustment::Termination;
+use sightline::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
+
+use super::advice::Advice;
+use super::control::DatumChoice;
+use super::icon::{Glyph, Icon};
+use super::plots::Convergence;
+use super::shell::TitleBar;
+use crate::browser::event;
+use crate::format;
+use crate::i18n::text;
+use crate::store::{Desk, Step};
+
+#[component]
+pub fn Adjust() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let sentence = move || {
+        desk.document.with(|d| match d.current() {
+            Some(r) => {
+                let a = &r.adjustment;
+                text::adjusted_sentence(
+                    format::count(a.observations_count),
+                    format::count(a.unknowns),
+                    format::count(a.redundancy),
+                )
+            }
+            None => text::adjust_sentence().to_owned(),
+        })
+    };
+    let done = Memo::new(move |_| desk.document.with(|d| d.current().is_some()));
+    view! {
+        <TitleBar title=text::bundle_adjustment sentence=Signal::derive(sentence)>
+            <button class="button" class:primary=move || !done.get() on:click=move |_| desk.adjust()>
+                {move || if done.get() { text::adjust_again() } else { text::adjust_now() }}
+            </button>
+            <Show when=move || done.get()>
+                <button class="button primary" on:click=move |_| desk.go(Step::Results)>{text::results} <Glyph icon=Icon::Arrow/></button>
+            </Show>
+        </TitleBar>
+        <main class="adjust">
+            <section class="scroll"><Estimated/><FromWhat/><DatumChoice/></section>
+            <section class="scroll"><Iterations/></section>
+            <section class="scroll"><Advice/></section>
+        </main>
+    }
+}
+
+/// A parameter as people write it.
+pub fn parameter_name(parameter: Parameter) -> &'static str {
+    match parameter {
+        Parameter::C => "c",
+        Parameter::F => "f",
+        Parameter::Fx => "fx",
+        Parameter::Fy => "fy",
+        Parameter::X0 => "x₀",
+        Parameter::Y0 => "y₀",
+        Parameter::Cx => "cx",
+        Parameter::Cy => "cy",
+        Parameter::K1 => "K₁",
+        Parameter::K2 => "K₂",
+        Parameter::K3 => "K₃",
+        Parameter::P1 => "P₁",
+        Parameter::P2 => "P₂",
+        Parameter::B1 => "B₁",
+        Parameter::B2 => "B₂",
+    }
+}
+
+/// The unit of a parameter, from the camera's photo unit.
+pub fn parameter_unit(camera: &Camera, parameter: Parameter) -> String {
+    let unit = if camera.pixel_pitch.is_some() { "mm" } else { "px" };
+    if matches!(camera.interior, Interior::Opencv { .. }) {
+        let in_pixels =
+            matches!(parameter, Parameter::F | Parameter::Fx | Parameter::Fy | Parameter::Cx | Parameter::Cy);
+        return if in_pixels { "px".to_owned() } else { String::new() };
+    }
+    match parameter {
+        Parameter::K1 => format!("{unit}⁻²"),
+        Parameter::K2 => format!("{unit}⁻⁴"),
+        Parameter::K3 => format!("{unit}⁻⁶"),
+        Parameter::P1 | Parameter::P2 => format!("{unit}⁻¹"),
+        Parameter::B1 | Parameter::B2 => String::new(),
+        _ => unit.to_owned(),
+    }
+}
+
+/// Coordinates of control points that the datum holds: no standard error, no unknown.
+fn fixed_axes(project: &Project) -> usize {
+    if project.datum.kind != DatumKind::Control {
+        return 0;
+    }
+    let control = project.points.iter().filter(|p| p.role == Role::Control);
+    control.map(|p| p.sigma.unwrap_or_default().iter().filter(|s| s.is_none_or(|s| s == 0.0)).count()).sum()
+}
+
+#[component]
+fn Estimated() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let photos = Memo::new(move |_| desk.document.with(|d| d.project.photos.iter().filter(|p| p.enabled).count()));
+    let points = Memo::new(move |_| {
+        desk.document.with(|d| {
+            let control = d.project.points.iter().filter(|p| p.role == Role::Control).count();
+            let held = d.project.datum.kind == DatumKind::Control;
+            (d.project.points.len(), control, held, 3 * d.project.points.len() - fixed_axes(&d.project))
+        })
+    });
+    let cameras =
+        Memo::new(move |_| desk.document.with(|d| d.project.cameras.iter().map(|c| c.id.clone()).collect::<Vec<_>>()));
+    view! {
+        <h2 class="section-head"><span>{text::what_is_estimated}</span><span class="aside">{text::unknowns}</span></h2>
+        <table class="table words">
+            <tbody>
+                <tr>
+                    <td class="left"><b>{move || text::orientation_of(photos.get())}</b><small>{text::position_and_rotation}</small></td>
+                    <td class="large">{move || format::count(6 * photos.get())}</td>
+                </tr>
+                {move || cameras.get().into_iter().map(|id| view! { <CameraWords id/> }).collect_view()}
+                <tr>
+                    <td class="left">
+                        <b>{text::object_points}</b>
+                        <small>{move || {
+                            let (points, control, held, _) = points.get();
+                            if held { text::points_with_control(format::count(points), format::count(control)) } else { text::points_all(format::count(points)) }
+                        }}</small>
+                    </td>
+                    <td class="large">{move || format::count(points.get().3)}</td>
+                </tr>
+            </tbody>
+        </table>
+    }
+}
+
+/// Which parameters of a camera are estimated: in words, and to be chosen.
+#[component]
+fn CameraWords(id: String) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let id = StoredValue::new(id);
+    let camera =
+        Memo::new(move |_| desk.document.with(|d| d.project.cameras.iter().find(|c| c.id == id.get_value()).cloned()));
+    let words = move || {
+        camera.with(|c| {
+            let Some(c) = c else { return String::new() };
+            let estimated = c.estimated();
+            let names = |wanted: bool| {
+                let all =
+                    c.interior.parameters().iter().filter(|p| estimated.contains(p) == wanted && **p != Parameter::F);
+                all.map(|p| parameter_name(*p)).collect::<Vec<_>>().join(", ")
+            };
+            match (names(true), names(false)) {
+                (free, held) if held.is_empty() => text::all_estimated(free),
+                (free, held) if free.is_empty() => text::all_held(held),
+                (free, held) => text::estimated_and_held(free, held),
+            }
+        })
+    };
+    let count = move || camera.with(|c| c.as_ref().map_or(0, |c| c.estimated().len()));
+    let parameters =
+        Memo::new(move |_| camera.with(|c| c.as_ref().map(|c| c.interior.parameters().to_vec()).unwrap_or_default()));
+    view! {
+        <tr>
+            <td class="left">
+                <details>
+                    <summary><b>{move || text::camera_named(id.get_value())}</b><small>{words}</small></summary>
+                    <table class="table parameters">
+                        <thead><tr><th class="left">{text::estimated}</th><th>{text::initial_value}</th><th class="left wide"></th></tr></thead>
+                        <tbody>
+                            {move || parameters.get().into_iter().map(|p| view! { <ParameterRow camera=id.get_value() p/> }).collect_view()}
+                        </tbody>
+                    </table>
+                </details>
+            </td>
+            <td class="large">{move || format::count(count())}</td>
+        </tr>
+    }
+}
+
+#[component]
+fn ParameterRow(camera: String, p: Parameter) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let id = StoredValue::new(camera);
+    let with = move |read: fn(&Camera, Parameter) -> String| {
+        desk.document
+            .with(|d| d.project.cameras.iter().find(|c| c.id == id.get_value()).map(|c| read(c, p)).unwrap_or_default())
+    };
+    let free = move || {
+        desk.document.with(|d| d.project.cameras.iter().any(|c| c.id == id.get_value() && c.estimated().contains(&p)))
+    };
+    view! {
+        <tr>
+            <td class="left">
+                <label class="tick">
+                    <input type="checkbox" data-parameter=p.name() prop:checked=free on:change=move |e| desk.set_free(&id.get_value(), p, event::checked(&e))/>
+                    <span>{parameter_name(p)}</span>
+                </label>
+            </td>
+            <td>
+                <input type="text" inputmode="decimal" class="value" aria-label=move || format!("{} {}", text::initial_value(), parameter_name(p))
+                    prop:value=move || with(|c, p| c.interior.get(p).map(format::editable).unwrap_or_default())
+                    on:change=move |e| desk.set_initial(&id.get_value(), p, &event::value(&e))/>
+            </td>
+            <td class="left wide">{move || with(parameter_unit)}</td>
+        </tr>
+    }
+}
+
+#[component]
+fn FromWhat() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let counts = Memo::new(move |_| {
+        desk.document.with(|d| {
+            let on = |id: &str| d.project.photos.iter().any(|p| p.id == id && p.enabled);
+            let image = d.project.observations.iter().filter(|o| o.enabled && on(&o.photo));
+            let mut sigmas = image.clone().flat_map(|o| o.sigma.both()).collect::<Vec<_>>();
+            sigmas.sort_by(f64::total_cmp);
+            let median = sigmas.get(sigmas.len() / 2).copied();
+            let control = d
+                .project
+                .points
+                .iter()
+                .filter(|p| p.role == Role::Control && d.project.datum.kind == DatumKind::Control)
+                .count();
+            (2 * image.count(), median, 3 * control - fixed_axes(&d.project), d.project.distances.len())
+        })
+    });
+    view! {
+        <h2 class="section-head"><span>{text::from_what}</span><span class="aside">{text::observations}</span></h2>
+        <table class="table words">
+            <tbody>
+                <tr>
+                    <td class="left"><b>{text::image_coordinates}</b><small>{move || counts.get().1.map(|m| text::median_sigma(format::fixed(m, format::decimals_for(m))))}</small></td>
+                    <td class="large">{move || format::count(counts.get().0)}</td>
+                </tr>
+                <tr><td class="left"><b>{text::control_coordinates}</b></td><td class="large">{move || format::count(counts.get().2)}</td></tr>
+                <tr><td class="left"><b>{text::distances}</b></td><td class="large">{move || format::count(counts.get().3)}</td></tr>
+            </tbody>
+        </table>
+    }
+}
+
+#[component]
+fn Iterations() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
+    let ending = move || {
+        let running = desk.job.with(Option::is_some);
+        let termination = desk.document.with(|d| d.current().map(|r| r.adjustment.termination));
+        match termination {
+            _ if running => None,
+            None => None,
+            Some(Termination::Converged) => Some((text::converged(), false)),
+            Some(Termination::IterationLimit) => Some((text::iteration_limit(), true)),
+            Some(Termination::Diverged) => Some((text::diverged(), true)),
+            Some(Termination::Stopped) => Some((text::stopped(), true)),
+        }
+    };
+    view! {
+        <h2 class="section-head"><span>{text::iterations}</span><span class="aside">"σ₀, " {text::logarithmic}</span></h2>
+        <Convergence iterations=Signal::derive(move || desk.iterations.get())/>
+        <Show when=move || desk.iterations.with(|i| !i.is_empty()) fallback=|| view! { <p class="note">{text::no_iterations}</p> }>
+            <table class="table iterations">
+                <thead><tr><th>{text::number}</th><th>"σ₀"</th><th>{text::largest_step} " " <u>{unit}</u></th><th>{text::damping}</th></tr></thead>
+                <tbody>
+                    {move || {
+                        let all = desk.iterations.get();
+                        let last = all.len();
+                        all.into_iter().enumerate().map(|(i, it)| view! {
+                            <tr class:chosen=i + 1 == last>
+                                <td>{i + 1}</td>
+                                <td><b>{format::compact(it.sigma0)}</b></td>
+                                <td>{format::compact(it.step)}</td>
+                                <td>{if it.damping == 0.0 { "0".to_owned() } else { format::compact(it.damping) }}</td>
+                            </tr>
+                        }).collect_view()
+                    }}
+                </tbody>
+            </table>
+        </Show>
+        {move || ending().map(|(words, bad)| view! { <p class="note" class:warn=bad>{words}</p> })}
+    }
+}

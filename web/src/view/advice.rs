@@ -1,0 +1,298 @@
+//! What the network lacks, as sentences: what to do, why, and the number that says so.
+
+use std::collections::HashMap;
+
+use leptos::prelude::*;
+use sightline::orient::{DistanceSource, Note, PhotoReason, PointReason, ScaleSource, SystemSource};
+use sightline::project::{DatumKind, Parameter, Role};
+
+use super::adjust::parameter_name;
+use super::icon::{Glyph, Icon};
+use crate::format;
+use crate::i18n::text;
+use crate::store::{Desk, Step};
+
+/// What to go to for more.
+#[derive(Clone, Debug, PartialEq)]
+enum Target {
+    None,
+    Point(String),
+    Observation { photo: String, point: String },
+    Photo(String),
+    Hold { camera: String, parameter: Parameter },
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Item {
+    warning: bool,
+    title: String,
+    body: String,
+    evidence: String,
+    target: Target,
+}
+
+/// Baarda's critical value at α 0.1 %.
+pub const CRITICAL_W: f64 = 3.29;
+
+#[component]
+pub fn Advice() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let items = Memo::new(move |_| items(desk));
+    view! {
+        <h2 class="section-head"><span>{text::what_lacks}</span></h2>
+        <ul class="advice">
+            {move || items.get().into_iter().map(|item| {
+                let target = item.target.clone();
+                let go = move |_| follow(desk, &target);
+                let label = match item.target {
+                    Target::None => None,
+                    Target::Hold { parameter, .. } => Some(text::hold(parameter_name(parameter))),
+                    _ => Some(text::show().to_owned()),
+                };
+                view! {
+                    <li class:warning=item.warning>
+                        <Glyph icon=if item.warning { Icon::Warning } else { Icon::Check }/>
+                        <div>
+                            <b>{item.title}</b>
+                            <p>{item.body}</p>
+                            {label.map(|label| view! { <button class="link" on:click=go>{label}</button> })}
+                        </div>
+                        <span class="evidence">{item.evidence}</span>
+                    </li>
+                }
+            }).collect_view()}
+        </ul>
+    }
+}
+
+fn follow(desk: Desk, target: &Target) {
+    match target {
+        Target::None => {}
+        Target::Point(point) => {
+            desk.select_point(point);
+            desk.go(Step::Identities);
+        }
+        Target::Observation { photo, point } => {
+            desk.select_observation(photo, point);
+            desk.go(Step::Identities);
+        }
+        Target::Photo(photo) => {
+            desk.select_photo(photo);
+            desk.go(Step::Identities);
+        }
+        Target::Hold { camera, parameter } => desk.set_free(camera, *parameter, false),
+    }
+}
+
+fn items(desk: Desk) -> Vec<Item> {
+    let mut items = Vec::new();
+    desk.document.with(|d| {
+        let control = d.project.points.iter().filter(|p| p.role == Role::Control && p.xyz.is_some()).count();
+        match d.project.datum.kind {
+            DatumKind::Control if control < 3 => items.push(Item {
+                warning: true,
+                title: text::lacks_control().to_owned(),
+                body: text::lacks_control_body().to_owned(),
+                evidence: text::n_control(control),
+                target: Target::None,
+            }),
+            DatumKind::Free | DatumKind::Minimal if d.project.distances.is_empty() && control < 2 => items.push(Item {
+                warning: true,
+                title: text::lacks_scale().to_owned(),
+                body: text::lacks_scale_body().to_owned(),
+                evidence: String::new(),
+                target: Target::None,
+            }),
+            _ => {}
+        }
+        let mut rays = HashMap::<&str, Vec<&str>>::new();
+        for o in d.project.observations.iter().filter(|o| o.enabled) {
+            rays.entry(&o.point).or_default().push(&o.photo);
+        }
+        let single = d
+            .project
+            .points
+            .iter()
+            .filter(|p| p.role == Role::Tie && rays.get(p.id.as_str()).is_some_and(|r| r.len() == 1));
+        let single = single.map(|p| (p.id.clone(), rays[p.id.as_str()][0].to_owned())).collect::<Vec<_>>();
+        if let Some((point, photo)) = single.first() {
+            items.push(Item {
+                warning: true,
+                title: text::seen_once(listed(single.iter().map(|(point, _)| point.as_str()))),
+                body: text::seen_once_body(point, photo),
+                evidence: text::n_points(single.len()),
+                target: Target::Observation { photo: photo.clone(), point: point.clone() },
+            });
+        }
+        let empty = d
+            .project
+            .photos
+            .iter()
+            .filter(|p| p.enabled && !d.project.observations.iter().any(|o| o.enabled && o.photo == p.id));
+        let empty = empty.map(|p| p.id.clone()).collect::<Vec<_>>();
+        if let Some(photo) = empty.first() {
+            items.push(Item {
+                warning: true,
+                title: text::photo_without_points(listed(empty.iter().map(String::as_str))),
+                body: text::photo_without_points_body().to_owned(),
+                evidence: text::n_photos(empty.len()),
+                target: Target::Photo(photo.clone()),
+            });
+        }
+        if let Some(result) = d.current() {
+            from_result(&result.adjustment, &mut items);
+        }
+    });
+    let said = items.iter().map(|i| i.target.clone()).collect::<Vec<_>>();
+    let adjusted = desk.document.with(|d| d.current().is_some());
+    desk.notes.with(|notes| {
+        // Once there is a result its own test says what disagrees.
+        let disagrees = |n: &&Note| matches!(n, Note::MeasurementDisagrees { .. });
+        let others = notes.iter().filter(|n| !disagrees(n));
+        let disagreeing = notes.iter().filter(disagrees).take(if adjusted { 0 } else { 5 });
+        items.extend(others.chain(disagreeing).filter_map(note_item).filter(|i| !said.contains(&i.target)));
+        let more = notes.iter().filter(disagrees).count().saturating_sub(5);
+        if more > 0 && !adjusted {
+            let title = text::more_notes(format::count(more));
+            let body = text::measurement_disagrees_body().to_owned();
+            items.push(Item { warning: true, title, body, evidence: String::new(), target: Target::None });
+        }
+    });
+    if items.is_empty() && adjusted {
+        items.push(Item {
+            warning: false,
+            title: text::nothing_lacks().to_owned(),
+            body: text::nothing_lacks_body().to_owned(),
+            evidence: String::new(),
+            target: Target::None,
+        });
+    }
+    items
+}
+
+fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let all = names.collect::<Vec<_>>();
+    let shown = all.iter().take(8).copied().collect::<Vec<_>>().join(", ");
+    if all.len() > 8 { format!("{shown}, …") } else { shown }
+}
+
+fn from_result(adjustment: &sightline::adjustment::Adjustment, items: &mut Vec<Item>) {
+    if let (Some(sigma0), Some(test)) = (adjustment.sigma0, &adjustment.global_test)
+        && test.statistic > test.upper
+        && sigma0 > 2.0
+    {
+        items.push(Item {
+            warning: true,
+            title: text::sigmas_optimistic(format::fixed(sigma0, 1)),
+            body: text::sigmas_optimistic_body().to_owned(),
+            evidence: format!("σ₀ {}", format::fixed(sigma0, 3)),
+            target: Target::None,
+        });
+    }
+    for camera in &adjustment.cameras {
+        for (i, name) in camera.correlation.names.iter().enumerate() {
+            let (Ok(parameter), Some(row)) = (name.parse::<Parameter>(), camera.correlation.matrix.get(i)) else {
+                continue;
+            };
+            let (Some(value), Some(&sigma)) = (camera.camera.interior.get(parameter), camera.sigma.get(&parameter))
+            else {
+                continue;
+            };
+            let strongest =
+                row.iter().enumerate().filter(|(j, _)| *j != i).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+            let Some((j, &r)) = strongest else { continue };
+            let distortion = !matches!(
+                parameter,
+                Parameter::C
+                    | Parameter::X0
+                    | Parameter::Y0
+                    | Parameter::F
+                    | Parameter::Fx
+                    | Parameter::Fy
+                    | Parameter::Cx
+                    | Parameter::Cy
+            );
+            if distortion && value.abs() < 2.0 * sigma {
+                let name = parameter_name(parameter);
+                let other = camera.correlation.names[j].parse::<Parameter>().map_or("", parameter_name);
+                items.push(Item {
+                    warning: true,
+                    title: text::hold_or_more(name, &camera.camera.id),
+                    body: text::hold_or_more_body(name, format::fixed(value.abs() / sigma, 1), other),
+                    evidence: format!("{other} {}", format::fixed(r, 2)),
+                    target: Target::Hold { camera: camera.camera.id.clone(), parameter },
+                });
+            }
+        }
+    }
+    let w = |o: &sightline::adjustment::AdjustedObservation| o.wx.unwrap_or(0.0).abs().max(o.wy.unwrap_or(0.0).abs());
+    let mut over = adjustment.observations.iter().filter(|o| o.enabled && w(o) > CRITICAL_W).collect::<Vec<_>>();
+    over.sort_by(|a, b| w(b).total_cmp(&w(a)));
+    if let Some(worst) = over.first() {
+        items.push(Item {
+            warning: true,
+            title: text::look_at(&worst.point, &worst.photo),
+            body: text::look_at_body(format::count(over.len())),
+            evidence: format!("|w| {}", format::fixed(w(worst), 2)),
+            target: Target::Observation { photo: worst.photo.clone(), point: worst.point.clone() },
+        });
+    }
+}
+
+/// What the orientation had to say.
+fn note_item(note: &Note) -> Option<Item> {
+    let item = |title: String, body: String, target: Target| Item {
+        warning: true,
+        title,
+        body,
+        evidence: String::new(),
+        target,
+    };
+    Some(match note {
+        Note::PrincipalDistance { camera, value, source } => Item {
+            warning: false,
+            title: match source {
+                DistanceSource::KnownPoints => text::c_found(camera, format::compact(*value)),
+                DistanceSource::Assumed => text::c_assumed(camera, format::compact(*value)),
+            },
+            body: text::c_body().to_owned(),
+            evidence: String::new(),
+            target: Target::None,
+        },
+        Note::System { source: SystemSource::Own, scale: ScaleSource::Given } => return None,
+        Note::System { scale: ScaleSource::Given, .. } => return None,
+        Note::System { scale: ScaleSource::Arbitrary, .. } => return None,
+        Note::PhotoNotOriented { photo, reason } => {
+            let why = match reason {
+                PhotoReason::NoPoints => text::photo_no_points().to_owned(),
+                PhotoReason::TooFewPoints { determined, needed } => text::photo_too_few(determined, needed),
+                PhotoReason::Disagrees { determined } => text::photo_disagrees(determined),
+            };
+            item(text::photo_not_oriented(photo), why, Target::Photo(photo.clone()))
+        }
+        Note::PointNotDetermined { point, reason } => {
+            let why = match reason {
+                PointReason::NotMeasured => text::point_not_measured().to_owned(),
+                PointReason::SeenOnce { photo } => text::seen_once_body(point, photo),
+                PointReason::TooFewOrientedPhotos { photos } => text::point_too_few(photos),
+                PointReason::NearParallel { angle } => text::point_parallel(format::fixed(angle.to_degrees(), 1)),
+                PointReason::BehindCamera { photo } => text::point_behind(photo),
+                PointReason::RaysDisagree => text::point_disagrees().to_owned(),
+                PointReason::CoordinatesMissing => text::point_no_coordinates().to_owned(),
+            };
+            let target = match reason {
+                PointReason::SeenOnce { photo } => Target::Observation { photo: photo.clone(), point: point.clone() },
+                _ => Target::Point(point.clone()),
+            };
+            item(text::point_not_determined(point), why, target)
+        }
+        Note::MeasurementDisagrees { photo, point, distance_px } => {
+            let far = distance_px.map_or_else(|| text::behind().to_owned(), |d| format!("{} px", format::fixed(d, 1)));
+            let target = Target::Observation { photo: photo.clone(), point: point.clone() };
+            Item {
+                evidence: far,
+                ..item(text::measurement_disagrees(point, photo), text::measurement_disagrees_body().to_owned(), target)
+            }
+        }
+    })
+}

@@ -1,0 +1,33 @@
+//! What a change did, in words.
+
+use crate::i18n::text;
+use crate::store::document::Change;
+
+pub fn change_words(change: &Change) -> String {
+    match change {
+        Change::PhotosAdded(n) => text::change_photos_added(n),
+        Change::PhotoRemoved(id) => text::change_photo_removed(id),
+        Change::PhotoSwitched(id) => text::change_photo_switched(id),
+        Change::CameraEdited(id) => text::change_camera_edited(id),
+        Change::CameraAssigned { photos, camera } => text::change_camera_assigned(photos, camera),
+        Change::TargetsDetected => text::change_detected().to_owned(),
+        Change::TargetMeasured(photo) => text::change_measured(photo),
+        Change::Named(point) => text::change_named(point),
+        Change::Renamed { from, to } => text::change_renamed(from, to),
+        Change::Moved { point, photo } => text::change_moved(point, photo),
+        Change::ObservationRemoved { point, photo } => text::change_observation_removed(point, photo),
+        Change::ObservationSwitched { point, photo } => text::change_observation_switched(point, photo),
+        Change::PointRemoved(point) => text::change_point_removed(point),
+        Change::MarksTaken(n) => text::change_marks_taken(n),
+        Change::Matched(n) => text::change_matched(n),
+        Change::ControlTaken(n) => text::change_control_taken(n),
+        Change::RoleSet(point) => text::change_role(point),
+        Change::DistanceAdded { from, to } => text::change_distance_added(from, to),
+        Change::DistanceRemoved { from, to } => text::change_distance_removed(from, to),
+        Change::DatumChosen => text::change_datum().to_owned(),
+        Change::ParametersChosen(camera) => text::change_parameters(camera),
+        Change::Adjusted => text::change_adjusted().to_owned(),
+        Change::UnitSet => text::change_unit().to_owned(),
+        Change::Opened => text::change_opened().to_owned(),
+    }
+}

@@ -1,0 +1,418 @@
+//! Step 3: names for targets. Codes name themselves; earlier marks, a click or the geometry name the others.
+
+use std::collections::HashMap;
+
+use leptos::prelude::*;
+use sightline::detection::Target;
+use sightline::matching::{Doubt, UnsnappedReason};
+use sightline::project::{Observation, Role};
+
+use super::icon::{Glyph, Icon};
+use super::loupe::Loupe;
+use super::photo_view::{Click, Mark, PhotoView, Style};
+use super::shell::TitleBar;
+use super::strip::Strip;
+use super::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+use super::targets::nearest;
+use crate::browser::{event, file};
+use crate::format;
+use crate::i18n::{text, text::role_word};
+use crate::store::identity::place;
+use crate::store::{Desk, Step};
+
+#[component]
+pub fn Identities() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let sentence = move || {
+        let (named, points, single) = desk.document.with(|d| {
+            let mut rays = HashMap::<&str, usize>::new();
+            for o in d.project.observations.iter().filter(|o| o.enabled) {
+                *rays.entry(&o.point).or_default() += 1;
+            }
+            (d.project.observations.len(), rays.len(), rays.values().filter(|n| **n == 1).count())
+        });
+        text::identities_sentence(format::count(named), format::count(points), format::count(single))
+    };
+    let has_uncoded = Memo::new(move |_| {
+        desk.document.with(|d| {
+            !d.project.observations.is_empty()
+                && d.detections.values().any(|d| d.targets.iter().any(|t| t.code.is_none()))
+        })
+    });
+    view! {
+        <TitleBar title=text::identities sentence=Signal::derive(sentence)>
+            <button class="button" on:click=move |_| choose_marks(desk)>{text::open_marks}</button>
+            <Show when=move || has_uncoded.get()>
+                <button class="button" on:click=move |_| desk.match_uncoded()>{text::match_uncoded}</button>
+            </Show>
+            <button class="button primary" on:click=move |_| desk.go(Step::Control)>{text::control} <Glyph icon=Icon::Arrow/></button>
+        </TitleBar>
+        <main class="identities">
+            <Strip/>
+            <NamedPhoto/>
+            <div class="columns">
+                <PointsTable/>
+                <MarksPanel/>
+                <PointPanel/>
+            </div>
+        </main>
+    }
+}
+
+fn choose_marks(desk: Desk) {
+    file::choose(".txt,.csv,.dat,text/plain", false, move |files| {
+        if let Some(file) = files.into_iter().next() {
+            desk.read_text(file, Desk::read_marks);
+        }
+    });
+}
+
+/// The photo with names, a question for the target that has none, and the loupe.
+#[component]
+pub fn NamedPhoto() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let marks = Signal::derive(move || named_marks(desk));
+    let summary = Signal::derive(move || {
+        let Some(photo) = desk.selection.with(|s| s.photo.clone()) else { return String::new() };
+        let (named, targets) = desk.document.with(|d| {
+            let named = d.project.observations.iter().filter(|o| o.photo == photo).count();
+            (named, d.detections.get(&photo).map_or(0, |d| d.targets.len()))
+        });
+        text::named_of(format::count(named), format::count(targets))
+    });
+    let on_click = Callback::new(move |click: Click| pick(desk, click));
+    let target = Signal::derive(move || {
+        selected_target(desk).map(|t| [t.u, t.v, t.major, t.minor, t.angle]).or_else(|| {
+            let o = desk.chosen_observation()?;
+            let target = target_at(desk, &o);
+            Some(target.map_or([o.u, o.v, 0.0, 0.0, 0.0], |t| [t.u, t.v, t.major, t.minor, t.angle]))
+        })
+    });
+    view! {
+        <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click>
+            <Question/>
+            <Show when=move || target.with(Option::is_some)>
+                <div class="docked-loupe"><Loupe target/></div>
+            </Show>
+        </PhotoView>
+    }
+}
+
+fn selected_target(desk: Desk) -> Option<Target> {
+    let (photo, target) = desk.selection.with(|s| (s.photo.clone(), s.target));
+    desk.document.with(|d| d.detections.get(&photo?)?.targets.get(target?).cloned())
+}
+
+fn target_at(desk: Desk, o: &Observation) -> Option<Target> {
+    let at = place(o.u, o.v);
+    desk.document.with(|d| d.detections.get(&o.photo)?.targets.iter().find(|t| place(t.u, t.v) == at).cloned())
+}
+
+/// Targets with the names they have; observations that lie on no target; doubtful places.
+fn named_marks(desk: Desk) -> Vec<Mark> {
+    let (photo, point, chosen) = desk.selection.with(|s| (s.photo.clone(), s.point.clone(), s.target));
+    let Some(photo) = photo else { return Vec::new() };
+    desk.document.with(|d| {
+        let here = d.project.observations.iter().filter(|o| o.photo == photo);
+        let mut named: HashMap<_, &Observation> = here.map(|o| (place(o.u, o.v), o)).collect();
+        let doubtful = d.doubtful.iter().filter(|x| x.photo == photo).map(|x| place(x.u, x.v)).collect::<Vec<_>>();
+        let style = |o: Option<&Observation>, at: (u64, u64), selected: bool| match o {
+            _ if selected => Style::Selected,
+            Some(o) if Some(&o.point) == point.as_ref() => Style::Selected,
+            Some(o) if !o.enabled => Style::Rejected,
+            _ if doubtful.contains(&at) => Style::Doubtful,
+            _ => Style::Measured,
+        };
+        let mut marks = Vec::new();
+        for (i, t) in d.detections.get(&photo).iter().flat_map(|d| d.targets.iter().enumerate()) {
+            let at = place(t.u, t.v);
+            let o = named.remove(&at);
+            marks.push(Mark {
+                u: t.u,
+                v: t.v,
+                major: t.major,
+                minor: t.minor,
+                angle: t.angle,
+                label: o.map(|o| o.point.clone()),
+                strong: t.code.is_some(),
+                style: style(o, at, chosen == Some(i)),
+            });
+        }
+        for (at, o) in named {
+            let style = style(Some(o), at, false);
+            let label = Some(o.point.clone());
+            marks.push(Mark { u: o.u, v: o.v, major: 0.0, minor: 0.0, angle: 0.0, label, strong: false, style });
+        }
+        marks
+    })
+}
+
+/// A click takes the nearest target or observation; with Alt it measures where it is.
+fn pick(desk: Desk, click: Click) {
+    let Some(photo) = desk.selection.with_untracked(|s| s.photo.clone()) else { return };
+    if click.modifiers.alt && click.inside {
+        desk.measure_at(&photo, click.u, click.v);
+        return;
+    }
+    let (point, target) = desk.document.with_untracked(|d| {
+        let target = d.detections.get(&photo).and_then(|d| nearest(&d.targets, click));
+        let at = target.and_then(|i| d.detections.get(&photo)?.targets.get(i)).map(|t| place(t.u, t.v));
+        let here = || d.project.observations.iter().filter(|o| o.photo == photo);
+        let distance = |o: &Observation| (o.u - click.u).hypot(o.v - click.v);
+        let on_target = here().find(|o| Some(place(o.u, o.v)) == at);
+        let free = || {
+            let near = here().filter(|o| distance(o) <= click.reach);
+            near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        };
+        let point = on_target.or_else(|| if target.is_none() { free() } else { None }).map(|o| o.point.clone());
+        (point, target)
+    });
+    desk.selection.update(|s| {
+        s.target = if point.is_some() { None } else { target };
+        s.point = point;
+    });
+}
+
+/// Asks for the name of a target that has none.
+#[component]
+fn Question() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let typed = RwSignal::new(String::new());
+    let asked =
+        Memo::new(move |_| desk.selection.with(|s| Some((s.photo.clone()?, s.target.filter(|_| s.point.is_none())?))));
+    let take = move || {
+        if let Some((photo, target)) = asked.get_untracked() {
+            let name = typed.get_untracked();
+            let name = if name.trim().is_empty() { desk.free_name() } else { name };
+            desk.name_target(&photo, target, &name);
+            desk.selection.update(|s| s.target = None);
+            typed.set(String::new());
+        }
+    };
+    view! {
+        <Show when=move || asked.with(Option::is_some)>
+            <form class="question" on:submit=move |e| {
+                e.prevent_default();
+                take();
+            }>
+                <label>
+                    <span>{text::name_this_target}</span>
+                    <input id="target-name" type="text" autocomplete="off" placeholder=move || untrack(|| desk.free_name())
+                        prop:value=typed on:input=move |e| typed.set(event::value(&e))/>
+                </label>
+                <button class="button small" type="submit">{text::take_name}</button>
+            </form>
+        </Show>
+    }
+}
+
+/// Why a point is in doubt, in a few words.
+fn doubt_words(desk: Desk) -> HashMap<String, String> {
+    let mut words = HashMap::new();
+    desk.document.with(|d| {
+        for doubtful in d.doubtful.iter() {
+            let reason = match doubtful.reason {
+                Doubt::DuplicateCode => text::doubt_duplicate(&doubtful.photo),
+                Doubt::Ambiguous => text::doubt_ambiguous(&doubtful.photo),
+                Doubt::Disagrees => text::doubt_disagrees(&doubtful.photo),
+            };
+            for point in &doubtful.points {
+                words.entry(point.clone()).or_insert_with(|| reason.clone());
+            }
+        }
+    });
+    words
+}
+
+#[component]
+fn PointsTable() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let sorting = RwSignal::new(None::<Sorting>);
+    let columns = Signal::derive(move || {
+        let unit = desk.document.with(|d| d.project.unit.clone());
+        vec![
+            Column::words(text::id),
+            Column::number(text::rays),
+            Column::words(text::role),
+            Column::number(|| "X").unit(unit.clone()),
+            Column::number(|| "Y").unit(unit.clone()),
+            Column::number(|| "Z").unit(unit),
+            Column::words(text::doubt),
+        ]
+    });
+    let rows = Memo::new(move |_| {
+        let doubts = doubt_words(desk);
+        let mut rows: Vec<Row> = desk.document.with(|d| {
+            let mut rays = HashMap::<&str, (usize, usize)>::new();
+            for o in &d.project.observations {
+                let count = rays.entry(&o.point).or_default();
+                count.0 += usize::from(o.enabled);
+                count.1 += 1;
+            }
+            let adjusted: HashMap<&str, [f64; 3]> = d
+                .current()
+                .map(|r| r.adjustment.points.iter().map(|p| (p.id.as_str(), p.xyz)).collect())
+                .unwrap_or_default();
+            let row = |p: &sightline::project::Point| {
+                let (n, all) = rays.get(p.id.as_str()).copied().unwrap_or_default();
+                let xyz = adjusted.get(p.id.as_str()).copied().or(p.xyz);
+                let doubt = match doubts.get(&p.id) {
+                    Some(words) => words.clone(),
+                    None if n == 1 && p.role == Role::Tie => text::one_ray().to_owned(),
+                    None if n == 0 => text::no_ray().to_owned(),
+                    None => String::new(),
+                };
+                let mut cells = vec![Cell::id(&p.id), Cell::count(n), Cell::words(role_word(p.role))];
+                cells.extend((0..3).map(|k| Cell::number(xyz.map(|x| x[k]), 3)));
+                cells.push(Cell::words(doubt).class("left wide warn"));
+                Row { key: p.id.clone(), cells, off: all > 0 && n == 0 }
+            };
+            d.project.points.iter().map(row).collect()
+        });
+        if sorting.get().is_none() {
+            // Doubtful ones first.
+            rows.sort_by_key(|row| row.cells.last().is_some_and(|c| c.shown.is_empty()));
+        }
+        rows
+    });
+    let chosen = Signal::derive(move || desk.selection.with(|s| s.point.clone()));
+    view! {
+        <section class="panel grow">
+            <h2 class="section-head">
+                <span>{text::points} " " <span class="id">{move || format::count(rows.with(Vec::len))}</span></span>
+                <CopyButton columns rows/>
+            </h2>
+            <NumberTable label=text::points columns rows chosen on_choose=Callback::new(move |id: String| desk.select_point(&id)) sorting/>
+        </section>
+    }
+}
+
+/// Marks of an earlier measurement: how many snap, which do not and why, and taking them.
+#[component]
+fn MarksPanel() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let snapped = Memo::new(move |_| desk.snapped());
+    let reason = |r: &UnsnappedReason| match r {
+        UnsnappedReason::NoDetection => text::unsnapped_no_detection().to_owned(),
+        UnsnappedReason::NoTarget => text::unsnapped_no_target().to_owned(),
+        UnsnappedReason::Contested { points } => text::unsnapped_contested(points.join(", ")),
+        UnsnappedReason::MarkedTwice => text::unsnapped_twice().to_owned(),
+    };
+    view! {
+        {move || snapped.get().map(|(marks, snapped)| {
+            let (all, good) = (marks.marks.len(), snapped.observations.len());
+            let unsnapped = snapped.unsnapped.clone();
+            let some = !unsnapped.is_empty();
+            view! {
+                <section class="panel marks">
+                    <h2 class="section-head">
+                        <span>{text::marks} " " <span class="id">{marks.file.clone()}</span></span>
+                        <button class="link" on:click=move |_| desk.marks.set(None)>{text::discard}</button>
+                        <button class="button small primary" disabled=good == 0 on:click=move |_| desk.take_marks(&snapped)>
+                            {move || text::take_marks(format::count(good))}
+                        </button>
+                    </h2>
+                    <div class="fields inline">
+                        <label class="field">
+                            <span>{text::snap_radius} " " <u>"px"</u></span>
+                            <input type="text" inputmode="decimal" prop:value=format::editable(marks.radius) on:change=move |e| {
+                                match format::parse(&event::value(&e)).filter(|r| *r > 0.0) {
+                                    Some(radius) => desk.marks.update(|m| if let Some(m) = m { m.radius = radius }),
+                                    None => desk.marks.notify(),
+                                }
+                            }/>
+                        </label>
+                        <p class="hint">{move || text::snapped_sentence(format::count(good), format::count(all))}</p>
+                    </div>
+                    <Show when=move || some>
+                        <div class="scroll short-list">
+                            <table class="table">
+                                <thead><tr><th class="left">{text::id}</th><th class="left">{text::photo}</th><th>"u " <u>"px"</u></th><th>"v " <u>"px"</u></th><th class="left wide">{text::why_not}</th></tr></thead>
+                                <tbody>
+                                    {unsnapped.iter().take(500).map(|u| view! {
+                                        <tr>
+                                            <td class="left id">{u.mark.point.clone()}</td>
+                                            <td class="left">{u.mark.photo.clone()}</td>
+                                            <td>{format::fixed(u.mark.u, 1)}</td>
+                                            <td>{format::fixed(u.mark.v, 1)}</td>
+                                            <td class="left wide warn">{reason(&u.reason)}</td>
+                                        </tr>
+                                    }).collect_view()}
+                                </tbody>
+                            </table>
+                        </div>
+                    </Show>
+                </section>
+            }
+        })}
+    }
+}
+
+/// The chosen point: its name and its observations, each to be excluded or taken away.
+#[component]
+pub fn PointPanel() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let point = Memo::new(move |_| desk.selection.with(|s| s.point.clone()));
+    let observations = Memo::new(move |_| {
+        let Some(point) = point.get() else { return Vec::new() };
+        desk.document.with(|d| d.project.observations.iter().filter(|o| o.point == point).cloned().collect())
+    });
+    view! {
+        <Show when=move || point.with(Option::is_some)>
+            <section class="panel point">
+                <h2 class="section-head">
+                    <span>{text::point} " " <span class="id">{point}</span></span>
+                    <button class="link bad" on:click=move |_| if let Some(id) = point.get_untracked() { desk.remove_point(&id) }>{text::remove_point}</button>
+                </h2>
+                <div class="fields inline">
+                    <label class="field">
+                        <span>{text::name}</span>
+                        <input type="text" prop:value=move || point.get().unwrap_or_default()
+                            on:change=move |e| if let Some(id) = point.get_untracked() { desk.rename_point(&id, &event::value(&e)) }/>
+                    </label>
+                </div>
+                <div class="scroll short-list">
+                    <table class="table">
+                        <thead><tr>
+                            <th class="left">{text::photo}</th><th>"u " <u>"px"</u></th><th>"v " <u>"px"</u></th><th>"σ " <u>"px"</u></th>
+                            <th class="left">{text::take_part_short}</th><th></th>
+                        </tr></thead>
+                        <tbody>
+                            {move || observations.get().into_iter().map(|o| view! { <ObservationRow o/> }).collect_view()}
+                        </tbody>
+                    </table>
+                </div>
+            </section>
+        </Show>
+    }
+}
+
+#[component]
+fn ObservationRow(o: Observation) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let [su, sv] = o.sigma.both();
+    let (u, v) = (o.u, o.v);
+    let enabled = o.enabled;
+    let o = StoredValue::new(o);
+    let chosen = move || desk.selection.with(|s| s.photo == o.with_value(|o| Some(o.photo.clone())));
+    view! {
+        <tr class:chosen=chosen class:off=!enabled>
+            <td class="left id">
+                <button class="link" on:click=move |_| o.with_value(|o| desk.select_observation(&o.photo, &o.point))>{o.with_value(|o| o.photo.clone())}</button>
+            </td>
+            <td>{format::fixed(u, 3)}</td>
+            <td>{format::fixed(v, 3)}</td>
+            <td>{format::fixed(su.hypot(sv) / 2f64.sqrt(), 3)}</td>
+            <td class="left">
+                <input type="checkbox" aria-label=text::take_part_short prop:checked=enabled
+                    on:change=move |e| o.with_value(|o| desk.switch_observation(&o.photo, &o.point, event::checked(&e)))/>
+            </td>
+            <td>
+                <button class="icon-button small" aria-label=text::remove_observation title=text::remove_observation
+                    on:click=move |_| o.with_value(|o| desk.remove_observation(&o.photo, &o.point))>
+                    <Glyph icon=Icon::Cross size=12/>
+                </button>
+            </td>
+        </tr>
+    }
+}

@@ -1,0 +1,380 @@
+//! The photo with what was measured in it: zoom at the pointer, pan, fit, 1:1; overlay strokes keep their screen size.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use leptos::html::Canvas;
+use leptos::prelude::*;
+
+use super::icon::{Glyph, Icon};
+use super::transform::Placement;
+use crate::browser::canvas::{SizeWatch, Surface, TEXT_SIZE};
+use crate::browser::event::{self, Modifiers, Pointer};
+use crate::format;
+use crate::i18n::text;
+use crate::store::Desk;
+
+/// How a mark is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    Measured,
+    Selected,
+    Doubtful,
+    Rejected,
+}
+
+/// Something drawn over the photo; places and sizes in its pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    pub u: f64,
+    pub v: f64,
+    /// Full axes of the ellipse; 0 for a place without a measured shape.
+    pub major: f64,
+    pub minor: f64,
+    pub angle: f64,
+    pub label: Option<String>,
+    /// Coded: its name is drawn bold.
+    pub strong: bool,
+    pub style: Style,
+}
+
+/// A straight stroke over the photo, in its pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    pub from: [f64; 2],
+    pub to: [f64; 2],
+}
+
+/// A click in the photo.
+#[derive(Clone, Copy, Debug)]
+pub struct Click {
+    pub u: f64,
+    pub v: f64,
+    /// How far 12 screen pixels reach, in photo pixels: near enough to snap.
+    pub reach: f64,
+    /// Whether it lies on the photo and not beside it.
+    pub inside: bool,
+    pub modifiers: Modifiers,
+}
+
+#[component]
+pub fn PhotoView(
+    #[prop(into)] marks: Signal<Vec<Mark>>,
+    #[prop(into)] strokes: Signal<Vec<Stroke>>,
+    #[prop(into)] summary: Signal<String>,
+    on_click: Callback<Click>,
+    #[prop(optional)] children: Option<Children>,
+) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let canvas = NodeRef::<Canvas>::new();
+    let bounds = RwSignal::new([0.0_f64; 2]);
+    let placement = RwSignal::new(None::<Placement>);
+    let watch = StoredValue::new_local(None);
+    canvas.on_load(move |element| {
+        watch.set_value(SizeWatch::new(&element, move |element| {
+            bounds.set([f64::from(element.client_width()), f64::from(element.client_height())]);
+        }));
+    });
+    let photo = Memo::new(move |_| desk.selection.with(|s| s.photo.clone()));
+    // Size and orientation: from the file, or from the camera where the file is not here.
+    let frame = Memo::new(move |_| {
+        let photo = photo.get()?;
+        let file = desk.files.with(|f| f.get(&photo).map(|f| (f.size, f.info.orientation)));
+        let camera = || {
+            desk.document.with(|d| {
+                let camera = &d.project.photos.iter().find(|p| p.id == photo)?.camera;
+                d.project.cameras.iter().find(|c| c.id == *camera).map(|c| ([c.width, c.height], 1))
+            })
+        };
+        let (size, orientation) = file.or_else(camera)?;
+        Some((photo, size.map(f64::from), orientation))
+    });
+    let fit = move || {
+        let [w, h] = bounds.get_untracked();
+        if let Some((_, size, orientation)) = frame.get_untracked().filter(|_| w > 0.0) {
+            placement.set(Some(Placement::fitted(size, orientation, w, h)));
+        }
+    };
+    let zoom_to = move |scale: f64| {
+        let [w, h] = bounds.get_untracked();
+        placement.update(|p| {
+            if let Some(p) = p {
+                *p = p.zoomed(scale / p.scale, [w / 2.0, h / 2.0]);
+            }
+        });
+    };
+    // Another photo, or a first size, fits the photo; a later change of size keeps the zoom.
+    Effect::new(move |last: Option<Option<String>>| {
+        let [w, _] = bounds.get();
+        let now = frame.get().map(|(photo, ..)| photo);
+        if w > 0.0 && last.flatten() != now {
+            fit();
+            now
+        } else if w > 0.0 {
+            now
+        } else {
+            None
+        }
+    });
+    // A selection made elsewhere is brought into view.
+    Effect::new(move |_| {
+        let Some([u, v]) = desk.centre_on.get() else { return };
+        let [w, h] = bounds.get();
+        if w > 0.0 {
+            placement.update(|p| {
+                if let Some(p) = p {
+                    let [x, y] = p.to_screen([u, v]);
+                    if !(20.0..w - 20.0).contains(&x) || !(20.0..h - 20.0).contains(&y) {
+                        *p = p.centred([u, v], p.scale, w, h);
+                    }
+                }
+            });
+            desk.centre_on.set(None);
+        }
+    });
+    Effect::new(move |_| {
+        bounds.track();
+        desk.theme.track();
+        let (Some(element), Some(placement)) = (canvas.get(), placement.get()) else { return };
+        let Some(surface) = Surface::new(&element) else { return };
+        if let Some((photo, size, _)) = frame.get() {
+            draw_photo(desk, &surface, &photo, size, placement);
+            marks.with(|marks| draw_marks(&surface, placement, marks));
+            strokes.with(|strokes| draw_strokes(&surface, placement, strokes));
+        }
+    });
+
+    let pointers = StoredValue::new(BTreeMap::<i32, Pointer>::new());
+    let travelled = StoredValue::new(0.0_f64);
+    let space = RwSignal::new(false);
+    let hold = move |e: leptos::ev::KeyboardEvent, held: bool| {
+        if event::key(&e).key == " " {
+            e.prevent_default();
+            space.set(held);
+        }
+    };
+    let down = move |e: leptos::ev::PointerEvent| {
+        let pointer = event::pointer(&e);
+        event::capture(&e);
+        travelled.set_value(if pointer.button == 0 && !space.get_untracked() { 0.0 } else { 100.0 });
+        pointers.update_value(|all| {
+            all.insert(pointer.id, pointer);
+        });
+    };
+    let moved = move |e: leptos::ev::PointerEvent| {
+        let pointer = event::pointer(&e);
+        if let Some(p) = placement.get_untracked() {
+            let [u, v] = p.to_pixel([pointer.x, pointer.y]);
+            let inside = (0.0..=p.size[0]).contains(&u) && (0.0..=p.size[1]).contains(&v);
+            desk.cursor.set(inside.then_some([u, v]));
+        }
+        pointers.update_value(|all| {
+            let Some(before) = all.insert(pointer.id, pointer).filter(|_| e.buttons() != 0) else {
+                all.remove(&pointer.id);
+                return;
+            };
+            let others = all.values().filter(|p| p.id != pointer.id).copied().collect::<Vec<_>>();
+            let step = [pointer.x - before.x, pointer.y - before.y];
+            travelled.update_value(|t| *t += step[0].hypot(step[1]));
+            if travelled.get_value() < 4.0 {
+                return;
+            }
+            placement.update(|p| {
+                let Some(p) = p else { return };
+                match others.first() {
+                    // Two fingers: zoom by their distance about the one at rest.
+                    Some(other) => {
+                        let spread = |p: &Pointer| (p.x - other.x).hypot(p.y - other.y).max(1.0);
+                        *p = p.zoomed(spread(&pointer) / spread(&before), [other.x, other.y]);
+                    }
+                    None => *p = p.shifted(step),
+                }
+            });
+        });
+    };
+    let up = move |e: leptos::ev::PointerEvent| {
+        let pointer = event::pointer(&e);
+        pointers.update_value(|all| {
+            all.remove(&pointer.id);
+        });
+        if travelled.get_value() < 4.0
+            && pointer.button == 0
+            && let Some(p) = placement.get_untracked()
+        {
+            let [u, v] = p.to_pixel([pointer.x, pointer.y]);
+            let reach = if pointer.touch { 22.0 } else { 12.0 } / p.scale;
+            let inside = (0.0..=p.size[0]).contains(&u) && (0.0..=p.size[1]).contains(&v);
+            on_click.run(Click { u, v, reach, inside, modifiers: pointer.modifiers });
+        }
+    };
+    let wheel = move |e: leptos::ev::WheelEvent| {
+        let wheel = event::wheel(&e);
+        placement.update(|p| {
+            if let Some(p) = p {
+                *p = if wheel.zoom {
+                    p.zoomed((-wheel.dy * 0.0022).exp(), [wheel.x, wheel.y])
+                } else {
+                    p.shifted([-wheel.dx, -wheel.dy])
+                };
+            }
+        });
+    };
+    let title = move || {
+        photo.get().map(|id| {
+            let file = desk.document.with(|d| d.project.photos.iter().find(|p| p.id == id).map(|p| p.file.clone()));
+            view! { <b>{id}</b> " " <b>{file.unwrap_or_default()}</b> }
+        })
+    };
+    let percent = move || placement.get().map(|p| format!("{} %", format::fixed(p.scale * 100.0, 0)));
+    let absent = move || {
+        photo.get().filter(|id| desk.files.with(|files| !files.contains_key(id))).map(|id| {
+            let file = desk.document.with(|d| d.project.photos.iter().find(|p| p.id == id).map(|p| p.file.clone()));
+            view! { <p class="stage-note">{move || text::photo_file_missing(file.clone().unwrap_or_default())}</p> }
+        })
+    };
+    view! {
+        <div class="stage">
+            <div class="stage-head">
+                {title}
+                <span class="summary">{move || summary.get()}</span>
+                <span class="gap"></span>
+                <button class="stage-button" aria-label=text::fit title=text::fit on:click=move |_| fit()><Glyph icon=Icon::Fit/></button>
+                <button class="stage-button" on:click=move |_| zoom_to(1.0)>"1:1"</button>
+                <span class="zoom">{percent}</span>
+            </div>
+            <div class="stage-body">
+                <canvas
+                    node_ref=canvas
+                    class="photo"
+                    tabindex="0"
+                    role="img"
+                    aria-label=move || text::photo_view(photo.get().unwrap_or_default())
+                    class:panning=space
+                    on:pointerdown=down
+                    on:pointermove=moved
+                    on:pointerup=up
+                    on:pointercancel=move |e| pointers.update_value(|all| { all.remove(&event::pointer(&e).id); })
+                    on:pointerleave=move |_| desk.cursor.set(None)
+                    on:wheel=wheel
+                    on:keydown=move |e| hold(e, true)
+                    on:keyup=move |e| hold(e, false)
+                    on:blur=move |_| space.set(false)
+                    on:dblclick=move |_| fit()
+                ></canvas>
+                {absent}
+                {children.map(|children| children())}
+            </div>
+            <div class="legend">
+                <span class="key"></span>{text::legend_measured}
+                <span class="key selected"></span>{text::legend_selected}
+                <span class="key doubtful"></span>{text::legend_doubtful}
+                <span class="key rejected"></span>{text::legend_excluded}
+            </div>
+        </div>
+    }
+}
+
+fn draw_photo(desk: Desk, surface: &Surface, photo: &str, [w, h]: [f64; 2], placement: Placement) {
+    let map = placement.affine();
+    if let Some(picture) = desk.picture(photo) {
+        surface.picture(&picture, map, placement.scale >= 2.0);
+    } else if let Some(small) = desk.files.with(|files| files.get(photo).map(|f| f.small.clone())) {
+        let (sx, sy) = (w / f64::from(small.width), h / f64::from(small.height));
+        let [a, b, c, d, e, f] = map;
+        surface.picture(&small, [a * sx, b * sx, c * sy, d * sy, e, f], false);
+    } else {
+        let ([x1, y1], [x2, y2]) = (placement.to_screen([0.0, 0.0]), placement.to_screen([w, h]));
+        surface.pen(&surface.token("--photo-edge"), 1.0, &[]);
+        surface.rectangle(x1.min(x2), y1.min(y2), (x2 - x1).abs(), (y2 - y1).abs());
+    }
+}
+
+fn draw_marks(surface: &Surface, placement: Placement, marks: &[Mark]) {
+    let pen = |style: Style| match style {
+        Style::Measured => surface.pen(&surface.token("--p-a"), 1.25, &[]),
+        Style::Selected => surface.pen(&surface.token("--p-accent"), 2.0, &[]),
+        Style::Doubtful => surface.pen(&surface.token("--p-warn"), 2.0, &[]),
+        Style::Rejected => surface.pen(&surface.token("--p-bad"), 1.5, &[3.0, 2.0]),
+    };
+    let visible = |x: f64, y: f64| x > -50.0 && y > -50.0 && x < surface.width + 50.0 && y < surface.height + 50.0;
+    let on_screen = |mark: &&Mark| {
+        let [x, y] = placement.to_screen([mark.u, mark.v]);
+        visible(x, y)
+    };
+    let shown = marks.iter().filter(on_screen).collect::<Vec<_>>();
+    for style in [Style::Measured, Style::Rejected, Style::Doubtful, Style::Selected] {
+        pen(style);
+        for mark in shown.iter().filter(|m| m.style == style) {
+            let [x, y] = placement.to_screen([mark.u, mark.v]);
+            let half = |axis: f64| (axis / 2.0 * placement.scale).max(3.0);
+            surface.ellipse(x, y, half(mark.major), half(mark.minor), placement.angle_on_screen(mark.angle));
+            if mark.major == 0.0 || style == Style::Selected {
+                let r = half(mark.major) + 4.0;
+                for (dx, dy) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
+                    surface.line(x + dx * r, y + dy * r, x + dx * (r + 12.0), y + dy * (r + 12.0));
+                }
+            }
+            if style == Style::Rejected {
+                let r = half(mark.major) + 2.0;
+                surface.line(x - r, y - r, x + r, y + r);
+                surface.line(x - r, y + r, x + r, y - r);
+            }
+        }
+    }
+    draw_labels(surface, placement, &shown);
+}
+
+/// Names below their targets where there is room; bold for coded ones, a chip for the selected one.
+fn draw_labels(surface: &Surface, placement: Placement, marks: &[&Mark]) {
+    let mut taken: Vec<[f64; 4]> = Vec::new();
+    let (ink, quiet, outline) =
+        (surface.token("--photo-ink"), surface.token("--photo-ink-2"), surface.token("--photo"));
+    let order = |m: &&&Mark| match m.style {
+        Style::Selected => 0,
+        Style::Doubtful | Style::Rejected => 1,
+        Style::Measured => 2 + usize::from(!m.strong),
+    };
+    let mut sorted = marks.iter().filter(|m| m.label.is_some()).collect::<Vec<_>>();
+    sorted.sort_by_key(order);
+    for mark in sorted {
+        let Some(label) = &mark.label else { continue };
+        let [x, y] = placement.to_screen([mark.u, mark.v]);
+        let drop = (mark.major / 2.0 * placement.scale).max(3.0);
+        let width = label.chars().count() as f64 * 7.0;
+        let selected = mark.style == Style::Selected;
+        let (left, base) =
+            if selected { (x + drop + 8.0, y - drop - 8.0) } else { (x - width / 2.0, y + drop + TEXT_SIZE + 1.0) };
+        let field = [left - 2.0, base - TEXT_SIZE, left + width + 2.0, base + 3.0];
+        let collides = |t: &[f64; 4]| field[0] < t[2] && field[2] > t[0] && field[1] < t[3] && field[3] > t[1];
+        if !selected && taken.iter().any(collides) {
+            continue;
+        }
+        taken.push(field);
+        let at = [left, base];
+        match mark.style {
+            Style::Selected => surface.chip(label, at, &surface.token("--p-accent"), "#06262a"),
+            Style::Doubtful => surface.label(label, at, true, &surface.token("--p-warn"), &outline),
+            Style::Rejected => surface.label(label, at, false, &surface.token("--p-bad"), &outline),
+            Style::Measured => {
+                let colour = if mark.strong { &ink } else { &quiet };
+                surface.label(label, at, mark.strong, colour, &outline);
+            }
+        }
+    }
+}
+
+fn draw_strokes(surface: &Surface, placement: Placement, strokes: &[Stroke]) {
+    if strokes.is_empty() {
+        return;
+    }
+    surface.pen(&surface.token("--p-b"), 1.5, &[]);
+    for stroke in strokes {
+        let ([x1, y1], [x2, y2]) = (placement.to_screen(stroke.from), placement.to_screen(stroke.to));
+        surface.line(x1, y1, x2, y2);
+    }
+}
+
+/// The angle of an ellipse between 0 and 180 degrees.
+pub fn half_turn_degrees(angle: f64) -> f64 {
+    angle.rem_euclid(TAU / 2.0).to_degrees()
+}

@@ -1,0 +1,352 @@
+//! The one window: head with the steps, what the step shows, foot; files may be dropped anywhere.
+
+use leptos::prelude::*;
+
+use super::changes::change_words;
+use super::icon::{Glyph, Icon};
+use super::results::control_figure;
+use super::{adjust, control, identities, keys, photos, results, start, targets};
+use crate::browser::{event, file, page};
+use crate::i18n::{self, errors, text};
+use crate::store::document::Document;
+use crate::store::{Desk, Job, JobKind, Step, Theme};
+use crate::{format, i18n::language};
+
+/// The desk.
+#[component]
+pub fn App() -> impl IntoView {
+    let desk = Desk::new();
+    provide_context(desk);
+    Effect::new(move || page::set_root_attribute("data-theme", desk.theme.get().name()));
+    Effect::new(move || {
+        let name = desk.document.with(|d| d.project.name.clone());
+        page::set_title(&if name.is_empty() { "Sightline".to_owned() } else { format!("{name} – Sightline") });
+    });
+    event::listen_to_hash(move || desk.follow_hash());
+    event::listen_to_keys(move |key| keys::handle(desk, &key));
+    page::set_hash("start");
+    page::warn_before_leaving(move || untrack(|| desk.unsaved()));
+    let over = RwSignal::new(false);
+    view! {
+        <div
+            class="desk"
+            class:dropping=over
+            on:dragover=move |e| {
+                e.prevent_default();
+                over.set(true);
+            }
+            on:dragleave=move |_| over.set(false)
+            on:drop=move |e| {
+                over.set(false);
+                desk.take(event::files_of_drop(&e));
+            }
+        >
+            <Head/>
+            <NoticeBar/>
+            {move || match desk.step.get() {
+                Step::Start => view! { <start::Start/> }.into_any(),
+                Step::Photos => view! { <photos::Photos/> }.into_any(),
+                Step::Targets => view! { <targets::Targets/> }.into_any(),
+                Step::Identities => view! { <identities::Identities/> }.into_any(),
+                Step::Control => view! { <control::Control/> }.into_any(),
+                Step::Adjust => view! { <adjust::Adjust/> }.into_any(),
+                Step::Results => view! { <results::Results/> }.into_any(),
+            }}
+            <Foot/>
+        </div>
+    }
+}
+
+#[component]
+fn Head() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let name = Memo::new(move |_| desk.document.with(|d| d.project.name.clone()));
+    let empty = Memo::new(move |_| desk.document.with(Document::is_empty));
+    let state = move || match desk.saved.get() {
+        _ if empty.get() => text::no_project().to_owned(),
+        Some((clock, _)) if desk.unsaved() => text::changed_after(clock),
+        Some((clock, _)) => text::saved_at(clock),
+        None => text::not_saved().to_owned(),
+    };
+    let undo_label = move || desk.undoable().map_or(text::undo().to_owned(), |c| text::undo_this(change_words(&c)));
+    let redo_label = move || desk.redoable().map_or(text::redo().to_owned(), |c| text::redo_this(change_words(&c)));
+    view! {
+        <header class="head">
+            <button class="mark" aria-label=text::start_page on:click=move |_| desk.go(Step::Start)>
+                <svg width="22" height="22" viewBox="0 0 22 22" aria-hidden="true">
+                    <circle cx="11" cy="11" r="2"></circle>
+                    <path d="M11 1v5.5M11 15.5V21M1 11h5.5M15.5 11H21"></path>
+                </svg>
+            </button>
+            <div class="project">
+                <Show when=move || !empty.get() fallback=|| view! { <strong>"Sightline"</strong> }>
+                    <input class="project-name" type="text" aria-label=text::project_name placeholder=text::project_name
+                        prop:value=name on:change=move |e| desk.rename_project(&event::value(&e))/>
+                </Show>
+                <span>{state}</span>
+            </div>
+            <nav aria-label=text::steps>
+                <ol class="steps">
+                    {Step::ROW.into_iter().enumerate().map(|(i, step)| view! { <StepButton step number=i + 1/> }).collect_view()}
+                </ol>
+            </nav>
+            <div class="tools">
+                <button
+                    class="icon-button"
+                    aria-label=undo_label
+                    title=undo_label
+                    disabled=move || desk.undoable().is_none()
+                    on:click=move |_| desk.undo()
+                >
+                    <Glyph icon=Icon::Undo/>
+                </button>
+                <button
+                    class="icon-button"
+                    aria-label=redo_label
+                    title=redo_label
+                    disabled=move || desk.redoable().is_none()
+                    on:click=move |_| desk.redo()
+                >
+                    <Glyph icon=Icon::Redo/>
+                </button>
+                <Show when=move || !empty.get()>
+                    <button class="text-button" title=text::save_hint on:click=move |e| desk.save(e.shift_key())>{text::save}</button>
+                    <button class="text-button" title=text::save_with_photos on:click=move |_| desk.save(true)>{text::save_all}</button>
+                </Show>
+                <span class="rule"></span>
+                <button
+                    class="text-button"
+                    aria-label=text::switch_language
+                    on:click=move |_| i18n::set_language(language().other())
+                >
+                    {text::other_language}
+                </button>
+                <button
+                    class="text-button"
+                    aria-label=text::switch_theme
+                    on:click=move |_| desk.set_theme(desk.theme.get_untracked().next())
+                >
+                    {move || match desk.theme.get() {
+                        Theme::Light => text::theme_light(),
+                        Theme::Dark => text::theme_dark(),
+                        Theme::Sun => text::theme_sun(),
+                    }}
+                </button>
+            </div>
+        </header>
+    }
+}
+
+/// A step with its one figure.
+#[component]
+fn StepButton(step: Step, number: usize) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let stale =
+        Memo::new(move |_| matches!(step, Step::Adjust | Step::Results) && desk.document.with(Document::out_of_date));
+    let figure = move || {
+        desk.document.with(|d| match step {
+            Step::Photos if !d.project.photos.is_empty() => format::count(d.project.photos.len()),
+            Step::Targets if !d.detections.is_empty() => {
+                format::count(d.detections.values().map(|detection| detection.targets.len()).sum())
+            }
+            Step::Identities if !d.project.points.is_empty() => format::count(d.project.points.len()),
+            Step::Control => control_figure(&d.project),
+            Step::Adjust | Step::Results if d.out_of_date() => text::out_of_date().to_owned(),
+            Step::Adjust => d.current().map_or("–".to_owned(), |r| text::n_iterations(r.adjustment.iterations.len())),
+            Step::Results => d
+                .current()
+                .and_then(|r| r.adjustment.sigma0)
+                .map_or("–".to_owned(), |s| format!("σ₀ {}", format::fixed(s, 3))),
+            _ => "–".to_owned(),
+        })
+    };
+    let reachable = move || desk.document.with(|d| !d.is_empty());
+    let now = move || desk.step.get() == step;
+    view! {
+        <li class:now=now>
+            <button
+                data-step=step.name()
+                aria-current=move || now().then_some("step")
+                disabled=move || !reachable()
+                on:click=move |_| desk.go(step)
+            >
+                <b>{number}</b>
+                <span class="label">{move || step_label(step)}</span>
+                <span class="figure" class:stale=stale>
+                    {move || stale.get().then(|| view! { <Glyph icon=Icon::Clock size=12/> " " })}
+                    {figure}
+                </span>
+            </button>
+        </li>
+    }
+}
+
+pub fn step_label(step: Step) -> &'static str {
+    match step {
+        Step::Start => text::start_page(),
+        Step::Photos => text::photos(),
+        Step::Targets => text::targets(),
+        Step::Identities => text::identities(),
+        Step::Control => text::control_and_scale(),
+        Step::Adjust => text::adjustment(),
+        Step::Results => text::results(),
+    }
+}
+
+/// The title bar of a step with its sentence and the one action slot: progress while there is any, else the action.
+#[component]
+pub fn TitleBar(
+    title: fn() -> &'static str,
+    #[prop(into)] sentence: Signal<String>,
+    #[prop(optional)] children: Option<Children>,
+) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let busy = Memo::new(move |_| desk.job.with(Option::is_some));
+    let action = children.map(|children| children());
+    view! {
+        <div class="bar">
+            <h1>{title}</h1>
+            <p>{move || sentence.get()}</p>
+            <div class="slot" class:busy=busy>
+                <div class="action">{action}</div>
+                <Progress/>
+            </div>
+        </div>
+    }
+}
+
+#[component]
+pub fn Progress() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let now = move || desk.job.get();
+    let percent = move || now().map_or(0.0, |job| 100.0 * job.done as f64 / job.total.max(1) as f64);
+    let words = move || now().map_or("", |job| job_label(&job));
+    let counted = move || now().filter(|job| job.total > 1).map(|job| job_count(desk, &job));
+    view! {
+        <Show when=move || desk.job.with(Option::is_some)>
+            <div
+                class="progress"
+                role="progressbar"
+                aria-label=words
+                aria-valuemin="0"
+                aria-valuemax="100"
+                aria-valuenow=move || format!("{:.0}", percent())
+            >
+                <span>{words}</span>
+                <span class="count">{counted}</span>
+                <i style:--done=move || format!("{}%", percent())></i>
+            </div>
+            <button class="button" on:click=move |_| desk.cancel()>{text::cancel}</button>
+        </Show>
+    }
+}
+
+fn job_label(job: &Job) -> &'static str {
+    match job.kind {
+        JobKind::Opening => text::opening_photos(),
+        JobKind::Detecting => text::detecting(),
+        JobKind::Adjusting => text::adjusting(),
+        JobKind::Matching => text::matching(),
+        JobKind::Saving => text::saving(),
+        JobKind::OpeningProject => text::opening_project(),
+        JobKind::Sample => text::opening_sample(),
+    }
+}
+
+/// How far the work is, in its own words.
+fn job_count(desk: Desk, job: &Job) -> String {
+    let (done, total) = (format::count(job.done), format::count(job.total));
+    match job.kind {
+        JobKind::Detecting => {
+            let targets = desk.document.with(|d| d.detections.values().map(|d| d.targets.len()).sum());
+            text::photos_and_targets(done, total, format::count(targets))
+        }
+        JobKind::Adjusting => text::iteration_of(done, total),
+        _ => text::done_of(done, total),
+    }
+}
+
+/// What there is to tell, in a row of its own, until it is dismissed.
+#[component]
+fn NoticeBar() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    view! {
+        <div class="notices" aria-live="polite">
+            {move || desk.notice.get().map(|notice| {
+                let icon = if notice.warning { Icon::Warning } else { Icon::Check };
+                view! {
+                    <div class="notice" class:warning=notice.warning role=if notice.warning { "alert" } else { "status" }>
+                        <Glyph icon/>
+                        <p>{move || (notice.text)()}</p>
+                        <button class="icon-button" aria-label=text::dismiss on:click=move |_| desk.notice.set(None)>
+                            <Glyph icon=Icon::Cross size=14/>
+                        </button>
+                    </div>
+                }
+            })}
+        </div>
+    }
+}
+
+#[component]
+fn Foot() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let chosen = move || desk.selection.with(|s| s.point.clone());
+    let rays = move || {
+        chosen().map(|point| {
+            let rays = desk.document.with(|d| d.project.observations.iter().filter(|o| o.point == point).count());
+            text::in_photos(format::count(rays))
+        })
+    };
+    let place =
+        move || desk.cursor.get().map(|[u, v]| format!("u {}   v {} px", format::fixed(u, 1), format::fixed(v, 1)));
+    view! {
+        <footer class="foot">
+            <div class="chosen">
+                <Show
+                    when=move || chosen().is_some()
+                    fallback=|| view! { <span>{|| text::version(env!("CARGO_PKG_VERSION"))}</span> }
+                >
+                    <span class="dot"></span>
+                    <b>{chosen}</b>
+                    <span>{rays}</span>
+                </Show>
+            </div>
+            <div class="read-out">{place}</div>
+            <div class="units">
+                {move || text::units(desk.document.with(|d| d.project.unit.clone()))}
+            </div>
+        </footer>
+    }
+}
+
+/// Hands over the tables of the result.
+pub fn export_tables(desk: Desk) {
+    desk.export("csv");
+}
+
+/// Opens the chooser for a project file.
+pub fn choose_project(desk: Desk) {
+    file::choose(".sightline,.zip,.json", false, move |files| desk.take(files));
+}
+
+/// Opens the chooser for photos.
+pub fn choose_photos(desk: Desk) {
+    file::choose(
+        ".jpg,.jpeg,.png,.tif,.tiff,.heic,.heif,.dng,.nef,.cr2,.cr3,.arw,.orf,.rw2,image/*",
+        true,
+        move |files| {
+            desk.take(files);
+        },
+    );
+}
+
+/// The sentence for a file that was not taken.
+pub fn problem_sentence(reason: &crate::store::Reason) -> String {
+    use crate::store::Reason;
+    match reason {
+        Reason::Engine(error) => errors::sentence(error),
+        Reason::Duplicate { of } => text::duplicate_of(of),
+        Reason::Unreadable(detail) => text::unreadable(detail),
+    }
+}

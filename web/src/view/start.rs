@@ -1,0 +1,39 @@
+//! The page before there is a project.
+
+use leptos::prelude::*;
+
+use super::icon::{Glyph, Icon};
+use super::shell::{Progress, choose_photos, choose_project};
+use crate::i18n::text;
+use crate::store::Desk;
+
+#[component]
+pub fn Start() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    view! {
+        <main class="start">
+            <div class="drop-zone">
+                <div class="invitation">
+                    <Glyph icon=Icon::Drop size=40/>
+                    <h1>{text::drop_here}</h1>
+                    <p>{text::formats}</p>
+                    <div class="row">
+                        <button class="button large primary" on:click=move |_| choose_photos(desk)>
+                            {text::choose_photos}
+                        </button>
+                        <button class="button large" on:click=move |_| choose_project(desk)>{text::open_project}</button>
+                    </div>
+                    <p class="fine">{text::heic_and_raw}</p>
+                </div>
+                <div class="slot start-slot"><Progress/></div>
+                <button class="sample" on:click=move |_| desk.open_sample() disabled=move || desk.job.with(Option::is_some)>
+                    <span>
+                        <b>{text::open_sample}</b>
+                        <span>{text::sample_words}</span>
+                    </span>
+                    <Glyph icon=Icon::Arrow/>
+                </button>
+            </div>
+        </main>
+    }
+}

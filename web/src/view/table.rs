@@ -1,0 +1,302 @@
+//! A table of numbers: sorted by its headings, only the rows in sight are drawn, the chosen row is pinned on top, and the
+//! whole can be copied into a spreadsheet.
+
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+use leptos::html::Div;
+use leptos::prelude::*;
+
+use super::icon::{Glyph, Icon};
+use crate::browser::{event, page};
+use crate::format;
+use crate::i18n::text;
+use crate::store::intake::natural;
+
+/// A heading: a word or a symbol, with its unit.
+#[derive(Clone)]
+pub struct Column {
+    pub name: fn() -> &'static str,
+    /// The letter set low after the name, as in σ with X.
+    pub low: &'static str,
+    pub unit: String,
+    pub left: bool,
+}
+
+impl Column {
+    pub fn number(name: fn() -> &'static str) -> Self {
+        Self { name, low: "", unit: String::new(), left: false }
+    }
+
+    pub fn words(name: fn() -> &'static str) -> Self {
+        Self { left: true, ..Self::number(name) }
+    }
+
+    pub fn low(self, low: &'static str) -> Self {
+        Self { low, ..self }
+    }
+
+    pub fn unit(self, unit: impl Into<String>) -> Self {
+        Self { unit: unit.into(), ..self }
+    }
+}
+
+/// A cell: what is shown, what is copied, and what is sorted by.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    pub shown: String,
+    pub plain: String,
+    pub order: Option<f64>,
+    pub class: &'static str,
+    /// A bar beside the number, 0 to 1.
+    pub bar: Option<f64>,
+}
+
+impl Cell {
+    pub fn words(words: impl Into<String>) -> Self {
+        let shown = words.into();
+        Self { plain: shown.clone(), shown, order: None, class: "left", bar: None }
+    }
+
+    pub fn id(id: &str) -> Self {
+        Self { class: "left id", ..Self::words(id) }
+    }
+
+    pub fn count(n: usize) -> Self {
+        Self { shown: format::count(n), plain: n.to_string(), order: Some(n as f64), class: "", bar: None }
+    }
+
+    pub fn number(value: Option<f64>, decimals: usize) -> Self {
+        Self {
+            shown: format::maybe(value, decimals),
+            plain: value.map(|v| v.to_string()).unwrap_or_default(),
+            order: value,
+            class: "",
+            bar: None,
+        }
+    }
+
+    pub fn class(self, class: &'static str) -> Self {
+        Self { class, ..self }
+    }
+}
+
+/// A row; its key is what choosing it chooses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    pub key: String,
+    pub cells: Vec<Cell>,
+    /// It takes no part.
+    pub off: bool,
+}
+
+/// Sorted by a column, largest first or not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sorting {
+    pub column: usize,
+    pub descending: bool,
+}
+
+fn compare(a: &Row, b: &Row, sorting: Sorting) -> Ordering {
+    let cells = (a.cells.get(sorting.column), b.cells.get(sorting.column));
+    let (Some(x), Some(y)) = cells else { return Ordering::Equal };
+    let order = match (x.order, y.order) {
+        (Some(x), Some(y)) => x.total_cmp(&y),
+        (None, None) => natural(&x.plain, &y.plain),
+        // What has no number comes last either way.
+        (Some(_), None) => return Ordering::Less,
+        (None, Some(_)) => return Ordering::Greater,
+    };
+    let order = if sorting.descending { order.reverse() } else { order };
+    order.then_with(|| natural(&a.key, &b.key))
+}
+
+/// Rows drawn beyond what is in sight, so that scrolling shows no gaps.
+const MARGIN: usize = 12;
+
+#[component]
+pub fn NumberTable(
+    label: fn() -> &'static str,
+    #[prop(into)] columns: Signal<Vec<Column>>,
+    #[prop(into)] rows: Signal<Vec<Row>>,
+    #[prop(into)] chosen: Signal<Option<String>>,
+    on_choose: Callback<String>,
+    sorting: RwSignal<Option<Sorting>>,
+    #[prop(default = "")] class: &'static str,
+) -> impl IntoView {
+    let sorted = Memo::new(move |_| {
+        let mut rows = rows.get();
+        if let Some(sorting) = sorting.get() {
+            rows.sort_by(|a, b| compare(a, b, sorting));
+        }
+        Arc::new(rows)
+    });
+    let frame = NodeRef::<Div>::new();
+    let top = RwSignal::new(0.0_f64);
+    let height = RwSignal::new(600.0_f64);
+    let row_height = StoredValue::new(24.0_f64);
+    let window = Memo::new(move |_| {
+        let total = sorted.with(|rows| rows.len());
+        let row = row_height.get_value();
+        let first = ((top.get() / row) as usize).saturating_sub(MARGIN).min(total);
+        let last = (first + (height.get() / row) as usize + 2 * MARGIN + 2).min(total);
+        (first, last)
+    });
+    let measure = move || {
+        if let Some(element) = frame.get() {
+            let (scroll, visible, row) = page::scroll_state(&element, "tbody tr.data");
+            top.set(scroll);
+            height.set(visible);
+            if let Some(row) = row {
+                row_height.set_value(row);
+            }
+        }
+    };
+    // A row chosen elsewhere is brought into sight by being pinned on top.
+    let pinned = move || {
+        let key = chosen.get()?;
+        sorted.with(|rows| rows.iter().find(|row| row.key == key).cloned())
+    };
+    let sort_by = move |column: usize| {
+        sorting.update(|sorting| {
+            *sorting = match *sorting {
+                Some(s) if s.column == column && s.descending => Some(Sorting { column, descending: false }),
+                Some(s) if s.column == column => None,
+                _ => Some(Sorting { column, descending: !columns.with_untracked(|c| c[column].left) }),
+            };
+        });
+    };
+    let is_chosen = move |key: &str| chosen.with(|c| c.as_deref() == Some(key));
+    view! {
+        <div class="scroll table-frame" node_ref=frame on:scroll=move |_| measure() on:pointerenter=move |_| measure()>
+            <table class=format!("table {class}") aria-label=label>
+                <thead>
+                    <tr>
+                        {move || columns.get().into_iter().enumerate().map(|(i, column)| {
+                            let sign = move || match sorting.get() {
+                                Some(s) if s.column == i => if s.descending { "descending" } else { "ascending" },
+                                _ => "none",
+                            };
+                            view! {
+                                <th
+                                    class:left=column.left
+                                    class:sorted=move || sorting.get().is_some_and(|s| s.column == i)
+                                    aria-sort=sign
+                                    scope="col"
+                                >
+                                    <button on:click=move |_| sort_by(i)>
+                                        {column.name}<sub>{column.low}</sub>" "<u>{column.unit.clone()}</u>
+                                    </button>
+                                </th>
+                            }
+                        }).collect_view()}
+                    </tr>
+                </thead>
+                <tbody>
+                    {move || pinned().map(|row| view! { <TableRow row chosen=true pinned=true on_choose/> })}
+                    <tr class="gap" style:height=move || format!("{}px", window.get().0 as f64 * row_height.get_value())></tr>
+                    {move || {
+                        let (first, last) = window.get();
+                        sorted.with(|rows| {
+                            // The chosen row stands on top and not in its place, so that it is there once.
+                            rows[first.min(rows.len())..last.min(rows.len())]
+                                .iter()
+                                .filter(|row| !is_chosen(&row.key))
+                                .map(|row| {
+                                    let chosen = is_chosen(&row.key);
+                                    view! { <TableRow row=row.clone() chosen pinned=false on_choose/> }
+                                })
+                                .collect_view()
+                        })
+                    }}
+                    <tr class="gap" style:height=move || {
+                        let rest = sorted.with(|rows| rows.len()) - window.get().1;
+                        format!("{}px", rest as f64 * row_height.get_value())
+                    }></tr>
+                </tbody>
+            </table>
+        </div>
+    }
+}
+
+#[component]
+fn TableRow(row: Row, chosen: bool, pinned: bool, on_choose: Callback<String>) -> impl IntoView {
+    let key = StoredValue::new(row.key.clone());
+    view! {
+        <tr
+            class="data"
+            class:chosen=chosen
+            class:pinned=pinned
+            class:off=row.off
+            data-key=row.key
+            tabindex=if pinned { "-1" } else { "0" }
+            aria-selected=chosen.to_string()
+            on:click=move |_| on_choose.run(key.get_value())
+            on:keydown=move |e| if matches!(event::key(&e).key.as_str(), "Enter" | " ") {
+                e.prevent_default();
+                on_choose.run(key.get_value());
+            }
+        >
+            {row.cells.into_iter().map(|cell| view! {
+                <td class=cell.class>
+                    {cell.shown}
+                    {cell.bar.map(|bar| view! { <i class="bar-cell" style:width=format!("{:.0}px", 4.0 + 36.0 * bar)></i> })}
+                </td>
+            }).collect_view()}
+        </tr>
+    }
+}
+
+/// Copies a table as a spreadsheet takes it: tabs, '.' for decimals, no grouping.
+pub fn to_tsv(columns: &[Column], rows: &[Row]) -> String {
+    let heading = columns.iter().map(|c| {
+        let unit = if c.unit.is_empty() { String::new() } else { format!(" [{}]", c.unit) };
+        format!("{}{}{unit}", (c.name)(), c.low)
+    });
+    let mut lines = vec![heading.collect::<Vec<_>>().join("\t")];
+    lines.extend(rows.iter().map(|row| row.cells.iter().map(|c| c.plain.clone()).collect::<Vec<_>>().join("\t")));
+    lines.join("\n")
+}
+
+#[component]
+pub fn CopyButton(#[prop(into)] columns: Signal<Vec<Column>>, #[prop(into)] rows: Signal<Vec<Row>>) -> impl IntoView {
+    view! {
+        <button class="link" on:click=move |_| {
+            page::copy(&columns.with_untracked(|c| rows.with_untracked(|r| to_tsv(c, r))));
+        }>
+            <Glyph icon=Icon::Copy size=14/> {text::copy}
+        </button>
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(key: &str, value: Option<f64>) -> Row {
+        Row { key: key.into(), cells: vec![Cell::id(key), Cell::number(value, 3)], off: false }
+    }
+
+    #[test]
+    fn rows_without_a_number_come_last_either_way() {
+        let mut rows = [row("a", None), row("b", Some(-2.0)), row("c", Some(3.0))];
+        for descending in [true, false] {
+            rows.sort_by(|a, b| compare(a, b, Sorting { column: 1, descending }));
+            assert_eq!(rows[2].key, "a");
+            assert_eq!(rows[0].key, if descending { "c" } else { "b" });
+        }
+    }
+
+    #[test]
+    fn identifiers_sort_by_their_numbers() {
+        let mut rows = [row("10", None), row("9", None)];
+        rows.sort_by(|a, b| compare(a, b, Sorting { column: 0, descending: false }));
+        assert_eq!(rows[0].key, "9");
+    }
+
+    #[test]
+    fn copies_have_plain_numbers() {
+        let cell = Cell::number(Some(-1234.5), 1);
+        assert_eq!((cell.shown.as_str(), cell.plain.as_str()), ("\u{2212}1\u{2009}234.5", "-1234.5"));
+    }
+}

@@ -1,0 +1,267 @@
+//! Step 2: targets found in the photos, shown as what they are, each with its centre, sigma and outline.
+
+use leptos::prelude::*;
+use sightline::detection::{Channel, Codes, Method, Polarity, PolarityChoice, Reason, Target};
+
+use super::loupe::Loupe;
+use super::photo_view::{Click, Mark, PhotoView, Style, half_turn_degrees};
+use super::shell::TitleBar;
+use super::strip::Strip;
+use crate::browser::event;
+use crate::format;
+use crate::i18n::{Text, text};
+use crate::store::Desk;
+
+#[component]
+pub fn Targets() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let sentence = move || {
+        let (photos, targets, coded) = desk.document.with(|d| {
+            let targets = || d.detections.values().flat_map(|detection| &detection.targets);
+            (d.detections.len(), targets().count(), targets().filter(|t| t.code.is_some()).count())
+        });
+        if photos == 0 {
+            text::targets_none_yet().to_owned()
+        } else {
+            text::targets_sentence(format::count(targets), format::count(coded), format::count(photos))
+        }
+    };
+    let again = move || desk.document.with(|d| !d.detections.is_empty());
+    let marks = Signal::derive(move || target_marks(desk));
+    let summary = Signal::derive(move || {
+        current(desk).map_or(String::new(), |d| {
+            let coded = d.targets.iter().filter(|t| t.code.is_some()).count();
+            text::targets_coded(format::count(d.targets.len()), format::count(coded))
+        })
+    });
+    let pick = Callback::new(move |click: Click| pick_target(desk, click));
+    let selected = Signal::derive(move || selected_target(desk).map(|t| [t.u, t.v, t.major, t.minor, t.angle]));
+    view! {
+        <TitleBar title=text::targets sentence=Signal::derive(sentence)>
+            <button class="button primary" on:click=move |_| desk.detect_targets()>
+                {move || if again() { text::detect_again() } else { text::detect() }}
+            </button>
+        </TitleBar>
+        <div class="options"><Options/></div>
+        <main class="targets">
+            <Strip/>
+            <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click=pick/>
+            <aside class="inspector" aria-label=text::target>
+                <Loupe target=selected/>
+                <TargetDetails/>
+                <RejectedTable/>
+            </aside>
+        </main>
+    }
+}
+
+fn current(desk: Desk) -> Option<std::sync::Arc<sightline::detection::Detection>> {
+    let photo = desk.selection.with(|s| s.photo.clone())?;
+    desk.document.with(|d| d.detections.get(&photo).cloned())
+}
+
+fn selected_target(desk: Desk) -> Option<Target> {
+    let place = desk.selection.with(|s| s.target)?;
+    current(desk)?.targets.get(place).cloned()
+}
+
+/// The targets of the photo that is shown.
+fn target_marks(desk: Desk) -> Vec<Mark> {
+    let Some(detection) = current(desk) else { return Vec::new() };
+    let chosen = desk.selection.with(|s| s.target);
+    let mark = |(i, t): (usize, &Target)| Mark {
+        u: t.u,
+        v: t.v,
+        major: t.major,
+        minor: t.minor,
+        angle: t.angle,
+        label: t.code.map(|code| code.to_string()),
+        strong: t.code.is_some(),
+        style: if Some(i) == chosen { Style::Selected } else { Style::Measured },
+    };
+    detection.targets.iter().enumerate().map(mark).collect()
+}
+
+/// The nearest target within reach becomes the selected one; a click beside all of them selects none.
+fn pick_target(desk: Desk, click: Click) {
+    let near = current(desk).and_then(|d| nearest(&d.targets, click));
+    desk.selection.update(|s| s.target = near);
+}
+
+/// The target whose centre or outline is nearest to a click, within reach.
+pub fn nearest(targets: &[Target], click: Click) -> Option<usize> {
+    let distance = |t: &Target| (t.u - click.u).hypot(t.v - click.v);
+    let near = |(_, t): &(usize, &Target)| distance(t) <= click.reach.max(t.major / 2.0);
+    let all = targets.iter().enumerate().filter(near);
+    all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1))).map(|(i, _)| i)
+}
+
+/// A choice among named values.
+#[component]
+fn Choice<T: Copy + PartialEq + Send + Sync + 'static>(
+    label: fn() -> &'static str,
+    name: &'static str,
+    values: Vec<(T, Text)>,
+    get: fn(Desk) -> T,
+    set: fn(Desk, T),
+) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let all = StoredValue::new(values.clone());
+    view! {
+        <label class="option">
+            <span>{label}</span>
+            <select name=name on:change=move |e| {
+                let chosen = event::value(&e).parse::<usize>().ok();
+                if let Some((value, _)) = chosen.and_then(|i| all.with_value(|all| all.get(i).copied())) {
+                    set(desk, value);
+                }
+            }>
+                {values.into_iter().enumerate().map(|(i, (value, words))| view! {
+                    <option value=i selected=move || get(desk) == value>{words}</option>
+                }).collect_view()}
+            </select>
+        </label>
+    }
+}
+
+/// What is looked for and how; every default works without tuning.
+#[component]
+fn Options() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let diameter =
+        move |e: leptos::ev::Event, set: fn(Desk, f64)| match format::parse(&event::value(&e)).filter(|d| *d >= 1.0) {
+            Some(value) => set(desk, value),
+            None => desk.detect_options.notify(),
+        };
+    view! {
+        <Choice label=text::polarity name="polarity"
+            values=vec![
+                (PolarityChoice::Auto, text::polarity_both as Text),
+                (PolarityChoice::Bright, text::polarity_bright),
+                (PolarityChoice::Dark, text::polarity_dark),
+            ]
+            get=|desk| desk.detect_options.with(|o| o.polarity)
+            set=|desk, value| desk.detect_options.update(|o| o.polarity = value)/>
+        <Choice label=text::channel name="channel"
+            values=vec![
+                (Channel::Grey, text::channel_grey as Text),
+                (Channel::Green, text::channel_green),
+                (Channel::Red, text::channel_red),
+                (Channel::Blue, text::channel_blue),
+            ]
+            get=|desk| desk.detect_options.with(|o| o.channel)
+            set=|desk, value| desk.detect_options.update(|o| o.channel = value)/>
+        <Choice label=text::codes name="codes"
+            values=vec![
+                (Codes::Auto, text::codes_auto as Text),
+                (Codes::None, text::codes_none),
+                (Codes::Ring12, || "12 bit"),
+                (Codes::Ring14, || "14 bit"),
+                (Codes::Ring16, || "16 bit"),
+                (Codes::Ring20, || "20 bit"),
+            ]
+            get=|desk| desk.detect_options.with(|o| o.codes)
+            set=|desk, value| desk.detect_options.update(|o| o.codes = value)/>
+        <Choice label=text::method name="method"
+            values=vec![
+                (Method::LeastSquares, text::method_least_squares as Text),
+                (Method::Ellipse, text::method_ellipse),
+                (Method::Intensity, text::method_intensity),
+                (Method::Gradient, text::method_gradient),
+            ]
+            get=|desk| desk.detect_options.with(|o| o.method)
+            set=|desk, value| desk.detect_options.update(|o| o.method = value)/>
+        <label class="option">
+            <span>{text::diameter} " " <u>"px"</u></span>
+            <input class="short" type="text" inputmode="decimal" name="min-diameter" aria-label=text::diameter_from
+                prop:value=move || desk.detect_options.with(|o| format::editable(o.min_diameter))
+                on:change=move |e| diameter(e, |desk, d| desk.detect_options.update(|o| o.min_diameter = d))/>
+            "–"
+            <input class="short" type="text" inputmode="decimal" name="max-diameter" aria-label=text::diameter_to
+                prop:value=move || desk.detect_options.with(|o| format::editable(o.max_diameter))
+                on:change=move |e| diameter(e, |desk, d| desk.detect_options.update(|o| o.max_diameter = d))/>
+        </label>
+    }
+}
+
+/// The numbers of the selected target.
+#[component]
+pub fn TargetDetails() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let target = Memo::new(move |_| selected_target(desk));
+    view! {
+        <h2 class="section-head">
+            <span>{text::target} " " <span class="id">{move || target.get().and_then(|t| t.code).map(|c| c.to_string())}</span></span>
+            <span class="aside">"1σ"</span>
+        </h2>
+        {move || match target.get() {
+            None => view! { <p class="note">{text::click_a_target}</p> }.into_any(),
+            Some(t) => {
+                let place = |value: f64, sigma: f64| {
+                    let decimals = format::decimals_for(sigma).max(2);
+                    view! { <b>{format::fixed(value, decimals)}</b> " " <i>"± " {format::fixed(sigma, decimals)}</i> " px" }
+                };
+                let polarity = t.polarity;
+                view! {
+                    <dl class="pairs">
+                        <dt>"u"</dt><dd>{place(t.u, t.sigma_u)}</dd>
+                        <dt>"v"</dt><dd>{place(t.v, t.sigma_v)}</dd>
+                        <dt>{text::full_axes}</dt><dd>{format!("{} × {} px", format::fixed(t.major, 2), format::fixed(t.minor, 2))}</dd>
+                        <dt>{text::rotation}</dt><dd>{format!("{}°", format::fixed(half_turn_degrees(t.angle), 1))}</dd>
+                        <dt>{text::contrast}</dt><dd>{format::fixed(t.contrast, 0)}</dd>
+                        <dt>{text::polarity}</dt>
+                        <dd>{move || match polarity {
+                            Polarity::Bright => text::polarity_bright(),
+                            Polarity::Dark => text::polarity_dark(),
+                        }}</dd>
+                        <dt>{text::edge_width}</dt><dd>{format!("{} px", format::fixed(t.quality.edge_width, 2))}</dd>
+                    </dl>
+                }.into_any()
+            }
+        }}
+    }
+}
+
+/// How many blobs of the photo are no targets, and why.
+#[component]
+fn RejectedTable() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let rejected = Memo::new(move |_| current(desk).map(|d| d.rejected.clone()).unwrap_or_default());
+    view! {
+        <Show when=move || rejected.with(|r| !r.is_empty())>
+            <h2 class="section-head">
+                <span>{text::rejected_here}</span>
+                <span class="aside">{move || format::count(rejected.with(|r| r.values().sum()))}</span>
+            </h2>
+            <div class="scroll">
+                <table class="table rejected">
+                    <tbody>
+                        {move || {
+                            let mut rows = rejected.get().into_iter().collect::<Vec<_>>();
+                            rows.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+                            rows.into_iter().map(|(reason, count)| view! {
+                                <tr><td class="left">{move || reason_words(reason)}</td><td>{format::count(count)}</td></tr>
+                            }).collect_view()
+                        }}
+                    </tbody>
+                </table>
+            </div>
+        </Show>
+    }
+}
+
+fn reason_words(reason: Reason) -> &'static str {
+    match reason {
+        Reason::TooSmall => text::reason_too_small(),
+        Reason::TooLarge => text::reason_too_large(),
+        Reason::NotAnEllipse => text::reason_not_an_ellipse(),
+        Reason::TooFlat => text::reason_too_flat(),
+        Reason::LowContrast => text::reason_low_contrast(),
+        Reason::Touching => text::reason_touching(),
+        Reason::Saturated => text::reason_saturated(),
+        Reason::AtBorder => text::reason_at_border(),
+        Reason::Occluded => text::reason_occluded(),
+        Reason::CodeRing => text::reason_code_ring(),
+        Reason::NoFit => text::reason_no_fit(),
+    }
+}

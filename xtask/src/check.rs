@@ -1,0 +1,17 @@
+//! `cargo xtask check`: what a compiler does not see. Works offline.
+
+mod invariants;
+mod licences;
+
+use crate::Outcome;
+
+/// Licences of everything that is linked or run, then the repository's own rules.
+pub fn command() -> Outcome {
+    let mut faults = licences::faults()?;
+    faults.extend(invariants::faults()?);
+    if faults.is_empty() {
+        println!("licences and invariants hold");
+        return Ok(());
+    }
+    Err(format!("{}\n{} faults", faults.join("\n"), faults.len()))
+}

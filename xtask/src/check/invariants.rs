@@ -1,0 +1,146 @@
+//! The invariants of CONTRIBUTING.md that text alone can show, and its code map.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::Outcome;
+use crate::process::root;
+
+/// Lines from which a file should be split; said, not enforced.
+const LONG: usize = 450;
+
+/// What a part of the tree must not contain.
+struct Ban {
+    folder: &'static str,
+    /// Paths below which the words are at home.
+    except: &'static [&'static str],
+    words: &'static [&'static str],
+    why: &'static str,
+}
+
+const BANS: [Ban; 5] = [
+    Ban {
+        folder: "src",
+        except: &["src/wasm.rs", "src/wasm/"],
+        words: &["web_sys", "js_sys", "wasm_bindgen::", "serde_wasm_bindgen"],
+        why: "the engine knows JavaScript in src/wasm.rs only",
+    },
+    Ban { folder: "src", except: &[], words: &["leptos", "sightline_desk"], why: "the engine does not know the desk" },
+    Ban {
+        folder: "web/src",
+        except: &["web/src/browser/", "web/src/browser.rs"],
+        words: &["web_sys", "js_sys"],
+        why: "the desk touches the browser in web/src/browser only",
+    },
+    Ban {
+        folder: "src",
+        except: &[],
+        words: &["println!", "eprintln!", "dbg!"],
+        why: "the engine reports in results, not on a terminal",
+    },
+    Ban {
+        folder: "",
+        except: &["xtask/src/check/invariants.rs"],
+        words: &["TODO", "FIXME", "XXX", "todo!(", "unimplemented!("],
+        why: "nothing is left for later",
+    },
+];
+
+/// Faults; long files are only mentioned.
+pub fn faults() -> Outcome<Vec<String>> {
+    let root = root();
+    let mut faults = Vec::new();
+    for path in sources(&root)? {
+        let text = fs::read_to_string(root.join(&path)).map_err(|error| format!("{path}: {error}"))?;
+        faults.extend(BANS.iter().flat_map(|ban| ban.broken_in(&path, &text)));
+        let lines = text.lines().count();
+        if lines > LONG {
+            println!("note: {path} has {lines} lines; one algorithm a file is about 250");
+        }
+    }
+    let map = fs::read_to_string(root.join("CONTRIBUTING.md")).map_err(|error| format!("CONTRIBUTING.md: {error}"))?;
+    let map = map.split("## Code map").nth(1).ok_or("CONTRIBUTING.md has no code map")?;
+    let map = map.split("\n## ").next().unwrap_or(map);
+    for name in paths(map) {
+        if !root.join(name).exists() {
+            faults.push(format!("CONTRIBUTING.md: the code map names {name}, which does not exist"));
+        }
+    }
+    for entry in fs::read_dir(root.join("src")).map_err(|error| format!("src: {error}"))? {
+        let path = entry.map_err(|error| format!("src: {error}"))?.path();
+        let name = format!("src/{}", path.file_name().unwrap_or_default().to_string_lossy());
+        if path.is_file() && !paths(map).any(|known| known == name) {
+            faults.push(format!("CONTRIBUTING.md: the code map does not name {name}"));
+        }
+    }
+    Ok(faults)
+}
+
+impl Ban {
+    fn broken_in(&self, path: &str, text: &str) -> Vec<String> {
+        if !path.starts_with(self.folder) || self.except.iter().any(|home| path.starts_with(home)) {
+            return Vec::new();
+        }
+        let code = |line: &str| !line.trim_start().starts_with("//");
+        let lines = text.lines().enumerate().filter(|(_, line)| code(line) || self.folder.is_empty());
+        let broken = lines.filter_map(|(number, line)| {
+            let word = self.words.iter().find(|word| line.contains(**word))?;
+            // The tests of a module run in Node too.
+            (!line.contains("wasm_bindgen_test")).then(|| format!("{path}:{}: {word}: {}", number + 1, self.why))
+        });
+        broken.collect()
+    }
+}
+
+/// Repository paths in backquotes.
+fn paths(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`')
+        .skip(1)
+        .step_by(2)
+        .filter(|word| word.contains(['/', '.']) && !word.contains([' ', '{', ':', '(', '<']))
+}
+
+/// Rust and JavaScript sources that are ours, relative to the root.
+fn sources(root: &Path) -> Outcome<Vec<String>> {
+    let mut found = Vec::new();
+    let mut folders: Vec<PathBuf> =
+        ["src", "web", "xtask", "tests", "benches", "examples", "e2e"].map(|name| root.join(name)).into();
+    while let Some(folder) = folders.pop() {
+        let Ok(entries) = fs::read_dir(&folder) else { continue };
+        for entry in entries {
+            let path = entry.map_err(|error| format!("{}: {error}", folder.display()))?.path();
+            let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+            if path.is_dir() {
+                if !matches!(name, "node_modules" | "vendor" | "out" | "target") {
+                    folders.push(path);
+                }
+            } else if [".rs", ".js", ".mjs", ".ts"].iter().any(|end| name.ends_with(end)) {
+                found.extend(path.strip_prefix(root).ok().and_then(Path::to_str).map(str::to_owned));
+            }
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bans_see_code_and_spare_homes_and_comments() {
+        let engine = &BANS[0];
+        assert_eq!(engine.broken_in("src/detect.rs", "// web_sys\nuse web_sys::Window;\n").len(), 1);
+        assert!(engine.broken_in("src/wasm/value.rs", "use js_sys::Array;").is_empty());
+        assert!(engine.broken_in("src/a.rs", "use wasm_bindgen_test::wasm_bindgen_test as test;").is_empty());
+        assert!(engine.broken_in("web/src/browser/file.rs", "use js_sys::Array;").is_empty());
+        let later = &BANS[4];
+        assert_eq!(later.broken_in("e2e/a.test.mjs", "// TODO more").len(), 1);
+    }
+
+    #[test]
+    fn paths_are_found_in_backquotes() {
+        let text = "| `src/detect.rs` | one of `a b` and `src/detect/` | `lib` |";
+        assert_eq!(paths(text).collect::<Vec<_>>(), ["src/detect.rs", "src/detect/"]);
+    }
+}

@@ -1,0 +1,68 @@
+//! Builds, serves and tests Sightline: `cargo xtask <command>` is the whole interface, and installs nothing globally.
+
+mod build;
+mod check;
+mod install;
+mod page;
+mod process;
+mod serve;
+mod suites;
+
+use std::process::ExitCode;
+
+/// Outcome of a command; the text is one line for the user.
+type Outcome<T = ()> = Result<T, String>;
+
+const USAGE: &str = "\
+cargo xtask <command>
+  serve [--port N]     build, serve the page on loopback and print the address (port 8080, or the next free one)
+  build                leave the page in dist/ and the engine with its JavaScript face in pkg/
+  test [suite ...]     run everything, or only the suites named: native wasm face types page
+  bench                measure the engine natively, and whole calls from JavaScript in Node
+  check                licences of the dependency tree, invariants of the code, the code map; works offline
+  test-runner          run a wasm test binary in Node (cargo calls this)";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match run(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &[String]) -> Outcome {
+    let Some((command, rest)) = arguments.split_first() else { return Err(USAGE.into()) };
+    match command.as_str() {
+        "serve" => serve::command(rest),
+        "build" => {
+            none_of(rest)?;
+            build::pkg()?;
+            build::dist()
+        }
+        "test" => suites::command(rest),
+        "bench" => {
+            none_of(rest)?;
+            install::node()?;
+            build::pkg()?;
+            process::run(&mut process::cargo(&["bench", "--package", "sightline"]))?;
+            process::run(&mut process::program("node", &["benches/border.mjs"]))
+        }
+        "check" => {
+            none_of(rest)?;
+            check::command()
+        }
+        "test-runner" => suites::runner(rest),
+        "help" | "--help" | "-h" => {
+            println!("{USAGE}");
+            Ok(())
+        }
+        other => Err(format!("there is no command {other}\n{USAGE}")),
+    }
+}
+
+fn none_of(rest: &[String]) -> Outcome {
+    rest.first().map_or(Ok(()), |extra| Err(format!("not understood: {extra}\n{USAGE}")))
+}

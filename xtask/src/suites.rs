@@ -1,0 +1,156 @@
+//! `cargo xtask test`: every suite, one after the other, and one line that sums them up.
+
+use std::time::Instant;
+
+use crate::install::{self, TARGET};
+use crate::process::{cargo, program, root, watch};
+use crate::{Outcome, build, serve};
+
+/// Tests counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Count {
+    passed: usize,
+    failed: usize,
+}
+
+/// A suite: its name on the command line and how it runs.
+type Suite = (&'static str, fn() -> Outcome<Count>);
+
+const SUITES: [Suite; 5] = [("native", native), ("wasm", wasm), ("face", face), ("types", types), ("page", browser)];
+
+/// `test [suite ...]`.
+pub fn command(names: &[String]) -> Outcome {
+    if let Some(name) = names.iter().find(|name| SUITES.iter().all(|(suite, _)| suite != name)) {
+        let known = SUITES.map(|(suite, _)| suite).join(", ");
+        return Err(format!("there is no suite {name}; the suites are {known}"));
+    }
+    let (mut total, mut lines) = (Count::default(), Vec::new());
+    for (name, suite) in SUITES {
+        if !names.is_empty() && names.iter().all(|wanted| wanted != name) {
+            continue;
+        }
+        println!("== {name}");
+        let began = Instant::now();
+        let (count, note) = match suite() {
+            Ok(count) => (count, String::new()),
+            // A suite that cannot run is a failure, and the others still say what they have to say.
+            Err(message) => (Count { passed: 0, failed: 1 }, format!(": {message}")),
+        };
+        total = total.plus(count);
+        let seconds = began.elapsed().as_secs();
+        lines.push(format!("{name}: {} passed, {} failed in {seconds} s{note}", count.passed, count.failed));
+    }
+    println!("==\n{}", lines.join("\n"));
+    println!("{} passed, {} failed", total.passed, total.failed);
+    if total.failed == 0 { Ok(()) } else { Err("the tests failed".into()) }
+}
+
+/// Cargo's runner of wasm tests: Node, without the `--quiet` that `cargo test -q` hands on.
+pub fn runner(arguments: &[String]) -> Outcome {
+    install::node()?;
+    let arguments = arguments.iter().filter(|argument| *argument != "--quiet");
+    let all = std::iter::once("wasm-bindgen-test-runner").chain(arguments.map(String::as_str));
+    wasm_bindgen_cli::wasm_bindgen_test_runner::run_cli_with_args(all).map_err(|error| format!("{error:#}"))
+}
+
+fn native() -> Outcome<Count> {
+    counted(&mut cargo(&["test", "--workspace", "--no-fail-fast"]), rust_count)
+}
+
+fn wasm() -> Outcome<Count> {
+    install::target()?;
+    install::node()?;
+    let arguments = ["test", "--target", TARGET, "--package", "sightline", "--lib", "--tests", "--no-fail-fast"];
+    counted(&mut cargo(&arguments), rust_count)
+}
+
+fn face() -> Outcome<Count> {
+    install::packages()?;
+    build::pkg()?;
+    node_tests("tests/face", &[])
+}
+
+/// The declarations of pkg/ with a program that uses them, under the strictest compiler.
+fn types() -> Outcome<Count> {
+    install::packages()?;
+    build::pkg()?;
+    let compiled = watch(
+        &mut program("node", &["e2e/node_modules/typescript/bin/tsc", "--project", "tests/face/tsconfig.json"]),
+        |_| (),
+    )?;
+    Ok(Count { passed: usize::from(compiled), failed: usize::from(!compiled) })
+}
+
+/// The page in a headless browser, against a server of dist/.
+fn browser() -> Outcome<Count> {
+    install::packages()?;
+    let chromium = install::chromium()?;
+    build::dist()?;
+    let address = serve::background(root().join("dist"))?;
+    node_tests("e2e", &[("SIGHTLINE_URL", &address), ("CHROMIUM", &chromium)])
+}
+
+/// The `*.test.mjs` of a folder under Node's own test runner.
+fn node_tests(folder: &str, variables: &[(&str, &str)]) -> Outcome<Count> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(root().join(folder)).map_err(|error| format!("{folder}: {error}"))? {
+        let name = entry.map_err(|error| format!("{folder}: {error}"))?.file_name();
+        files.extend(name.to_str().filter(|name| name.ends_with(".test.mjs")).map(|name| format!("{folder}/{name}")));
+    }
+    if files.is_empty() {
+        return Err(format!("{folder} holds no *.test.mjs"));
+    }
+    files.sort();
+    let mut command = program("node", &["--test", "--test-concurrency=1", "--test-reporter=spec"]);
+    command.args(&files).envs(variables.iter().copied());
+    counted(&mut command, node_count)
+}
+
+/// Runs a program that reports tests; one that fails without a failed test counts as one.
+fn counted(command: &mut std::process::Command, count: fn(&str) -> Count) -> Outcome<Count> {
+    let mut total = Count::default();
+    let succeeded = watch(command, |line| total = total.plus(count(line)))?;
+    if !succeeded && total.failed == 0 {
+        total.failed = 1;
+    }
+    Ok(total)
+}
+
+impl Count {
+    fn plus(self, other: Self) -> Self {
+        Self { passed: self.passed + other.passed, failed: self.failed + other.failed }
+    }
+}
+
+/// "test result: ok. 3 passed; 0 failed; …", of the standard harness and of wasm-bindgen-test.
+fn rust_count(line: &str) -> Count {
+    let Some((_, result)) = line.split_once("test result: ") else { return Count::default() };
+    let number = |word: &str| {
+        let words: Vec<&str> = result.split([' ', ';', '.']).filter(|part| !part.is_empty()).collect();
+        words.windows(2).find(|pair| pair[1] == word).and_then(|pair| pair[0].parse().ok()).unwrap_or(0)
+    };
+    Count { passed: number("passed"), failed: number("failed") }
+}
+
+/// "ℹ pass 3" and "ℹ fail 0" of Node's spec reporter; cancelled tests have failed.
+fn node_count(line: &str) -> Count {
+    let number =
+        |word: &str| line.strip_prefix(&format!("ℹ {word} ")).and_then(|count| count.trim().parse().ok()).unwrap_or(0);
+    Count { passed: number("pass"), failed: number("fail") + number("cancelled") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_are_counted() {
+        let rust = "test result: FAILED. 12 passed; 3 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.00s";
+        assert_eq!(rust_count(rust), Count { passed: 12, failed: 3 });
+        assert_eq!(rust_count("test passed ... ok"), Count::default());
+        assert_eq!(node_count("ℹ pass 7"), Count { passed: 7, failed: 0 });
+        assert_eq!(node_count("ℹ fail 2"), Count { passed: 0, failed: 2 });
+        assert_eq!(node_count("ℹ cancelled 1"), Count { passed: 0, failed: 1 });
+        assert_eq!(node_count("ℹ suites 1"), Count::default());
+    }
+}
