@@ -3,7 +3,7 @@
 use sightline::Error;
 use sightline::error::{Defect, Place};
 
-use super::{Language, language, texts};
+use super::{Language, details, language, texts};
 
 texts! {
     recognised(kind): "this is a {kind} file, which is not read here: convert it to JPEG, PNG or TIFF", "{kind} 파일입니다. 여기서는 읽지 못하므로 JPEG, PNG, TIFF로 변환하십시오";
@@ -54,7 +54,7 @@ pub fn sentence(error: &Error) -> String {
         Error::UnknownImageFormat { .. } => no_picture().to_owned(),
         Error::BrokenImage { detail, .. } => broken(detail),
         Error::ImageSize { width, height, limit, .. } => size(width, height, limit),
-        Error::Invalid { detail, .. } => detail.clone(),
+        Error::Invalid { detail, .. } => told(detail),
         Error::Unknown { kind, name, .. } => unknown(kind_word(kind), name),
         Error::Duplicate { kind, name, .. } => duplicate(kind_word(kind), name),
         Error::Empty { what } => empty(what_word(what)),
@@ -62,8 +62,8 @@ pub fn sentence(error: &Error) -> String {
             initial_values(things(&[(some_photos(), photos), (some_points(), points), (some_cameras(), cameras)]))
         }
         Error::RankDefect { defects } => not_solved(defects.iter().map(defect).collect::<Vec<_>>().join("; ")),
-        Error::CannotOrient { detail, photos } if photos.is_empty() => detail.clone(),
-        Error::CannotOrient { detail, photos } => format!("{detail} ({} {})", some_photos(), listed(photos)),
+        Error::CannotOrient { detail, photos } if photos.is_empty() => told(detail),
+        Error::CannotOrient { detail, photos } => format!("{} ({} {})", told(detail), some_photos(), listed(photos)),
         Error::Cancelled => stopped().to_owned(),
     };
     let mut text = capitalised(&text);
@@ -81,6 +81,14 @@ pub fn sentence(error: &Error) -> String {
         text.push('.');
     }
     text
+}
+
+/// A detail of the engine in the language in use, where it is known in it.
+fn told(detail: &str) -> String {
+    match language() {
+        Language::English => detail.to_owned(),
+        Language::Korean => details::korean(detail).unwrap_or_else(|| detail.to_owned()),
+    }
 }
 
 fn capitalised(text: &str) -> String {

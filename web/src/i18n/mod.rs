@@ -2,6 +2,7 @@
 //!
 //! Used in a view, a text follows the language switch by itself, for it reads the language signal.
 
+mod details;
 pub mod errors;
 pub mod text;
 
@@ -62,6 +63,37 @@ pub fn restore_language() {
     set_language(Language::from_tag(&tag));
 }
 
+/// Words that follow a number in the English texts, in the plural and for one; longer ones first.
+const COUNTED: [(&str, &str); 10] = [
+    ("more measurements disagree", "more measurement disagrees"),
+    ("observations exceed", "observation exceeds"),
+    ("oriented photos", "oriented photo"),
+    ("control points", "control point"),
+    ("observations", "observation"),
+    ("cameras", "camera"),
+    ("targets", "target"),
+    ("photos", "photo"),
+    ("points", "point"),
+    ("marks", "mark"),
+];
+
+/// An English sentence with "1 photos" put right.
+pub(crate) fn singular(text: String) -> String {
+    let mut rest = text.as_str();
+    let mut corrected = String::with_capacity(text.len());
+    while let Some(at) = rest.find("1 ") {
+        let counts_one = !rest[..at].ends_with(|c: char| c.is_ascii_digit() || ",.-#".contains(c) || c.is_alphabetic());
+        corrected.push_str(&rest[..at + 2]);
+        rest = &rest[at + 2..];
+        let Some((plural, one)) = COUNTED.iter().find(|(plural, _)| counts_one && rest.starts_with(plural)) else {
+            continue;
+        };
+        corrected.push_str(one);
+        rest = &rest[plural.len()..];
+    }
+    corrected + rest
+}
+
 /// Declares texts: `name: "English", "Korean";` or, with values, `name(a, b): "English {a} {b}", "Korean {b} {a}";`.
 macro_rules! texts {
     ($($name:ident $(($($value:ident),+))? : $english:literal, $korean:literal;)+) => {
@@ -78,10 +110,23 @@ macro_rules! texts {
     (@one $name:ident ($($value:ident),+) $english:literal, $korean:literal) => {
         pub fn $name($($value: impl std::fmt::Display),+) -> String {
             match $crate::i18n::language() {
-                $crate::i18n::Language::English => format!($english),
+                $crate::i18n::Language::English => $crate::i18n::singular(format!($english)),
                 $crate::i18n::Language::Korean => format!($korean),
             }
         }
     };
 }
 pub(crate) use texts;
+
+#[cfg(test)]
+mod tests {
+    use super::singular;
+
+    #[test]
+    fn one_is_no_plural() {
+        let told = |text: &str| singular(text.to_owned());
+        assert_eq!(told("1 photos, 1 cameras. Photos"), "1 photo, 1 camera. Photos");
+        assert_eq!(told("21 photos, 0.1 points, A1 targets"), "21 photos, 0.1 points, A1 targets");
+        assert_eq!(told("1 observations exceed; 11 observations"), "1 observation exceeds; 11 observations");
+    }
+}
