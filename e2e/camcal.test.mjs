@@ -4,7 +4,7 @@ import { test } from 'node:test';
 import { join } from 'node:path';
 
 import { open } from './browser.mjs';
-import { adjust, data, detect, downloads, drop, figure, files, go, idle, parameter, photos, rows } from './desk.mjs';
+import { adjust, data, detect, downloads, drop, figure, files, go, idle, number, parameter, photos, rows } from './desk.mjs';
 
 const folder = data('camcal');
 
@@ -54,6 +54,16 @@ test('21 photos become a calibration', { skip: folder ? false : 'skipped, no dat
     assert.match(await page.textContent('.out-of-date'), /point 5 in photo/);
     await page.keyboard.press('Control+z');
     assert.ok((await figure(page, 'rms-px')) <= 0.25);
+
+    // The photos are good to a sixth of a pixel, the centres to a hundredth: told so, and weighted so in one click.
+    assert.ok((await figure(page, 'sigma0')) > 5);
+    await go(page, 'adjust');
+    await page.click('.advice li:has-text("too small") .link');
+    await idle(page);
+    assert.ok(Math.abs(number(await page.inputValue('[name=unmodelled]')) - 0.17) < 0.05);
+    await go(page, 'results');
+    assert.ok(Math.abs((await figure(page, 'sigma0')) - 1) < 0.05);
+    assert.ok(Math.abs((await parameter(page, 'C4040Z', 'c')).value - 7.457) <= 0.006);
     await idle(page);
     assert.deepEqual(errors, []);
   } finally {

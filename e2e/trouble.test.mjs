@@ -170,3 +170,20 @@ test('the language switches without losing anything and a saved project opens as
     await close();
   }
 });
+
+test('on a phone every step is in reach and nothing lies over it', { timeout: 300_000 }, async () => {
+  const { page, errors, close } = await open({ width: 390, height: 844 });
+  try {
+    await sample(page);
+    for (const step of ['photos', 'targets', 'identities', 'control', 'adjust', 'results']) {
+      await go(page, step);
+      const bar = await page.locator('.head').boundingBox();
+      const main = await page.locator('.desk > main').boundingBox();
+      const steps = await page.locator('.steps').boundingBox();
+      assert.ok(steps.y + steps.height <= bar.y + bar.height + 1 && main.y >= bar.y + bar.height - 1, step);
+    }
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});

@@ -20,12 +20,15 @@ mod rows;
 mod session;
 mod snooping;
 mod tiles;
+mod unmodelled;
 
 use crate::adjustment::{AdjustOptions, Adjustment, Advice, Iteration, Termination};
 use crate::error::Result;
 use crate::project::{Project, Role};
 
 use session::{Log, Session};
+
+pub use unmodelled::estimate as unmodelled;
 
 /// Adjusts the project; `on_iteration` sees every iteration and stops the work by returning false.
 ///
@@ -39,6 +42,8 @@ pub fn adjust(
     on_iteration: &mut dyn FnMut(&Iteration) -> bool,
 ) -> Result<Adjustment> {
     project.validate()?;
+    let weighted = unmodelled::weighted(project, options.unmodelled)?;
+    let project = weighted.as_ref();
     let mut removed = vec![false; project.observations.len()];
     let mut log = Log { iterations: Vec::new(), on_iteration };
     let mut record = Vec::new();
@@ -57,6 +62,7 @@ pub fn adjust(
     }
     let solution = session.finish(options, termination == Termination::Converged)?;
     let mut adjustment = session.solved(options, &solution).adjustment();
+    adjustment.options = options.clone();
     adjustment.termination = termination;
     adjustment.iterations = log.iterations;
     adjustment.advice = doctor::advice(project, &session.network, &session.state, &adjustment);

@@ -73,6 +73,8 @@ pub struct AdjustOptions {
     pub snooping: bool,
     /// Where residuals are taken.
     pub residuals: ResidualPlace,
+    /// Standard deviation of what is not modelled, added in quadrature to that of every image coordinate, pixels.
+    pub unmodelled: f64,
     /// Points whose full covariance matrix is wanted.
     pub covariance_of: Vec<String>,
 }
@@ -85,6 +87,7 @@ impl Default for AdjustOptions {
             robust: None,
             snooping: false,
             residuals: ResidualPlace::Corrected,
+            unmodelled: 0.0,
             covariance_of: Vec::new(),
         }
     }
@@ -384,6 +387,9 @@ pub struct Precision {
 /// Result of a bundle adjustment.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Adjustment {
+    /// What was asked for.
+    #[serde(default)]
+    pub options: AdjustOptions,
     /// How the iteration ended.
     pub termination: Termination,
     /// The iterations.

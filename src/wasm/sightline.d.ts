@@ -130,6 +130,8 @@ export interface AdjustOptions {
   snooping?: boolean;
   /** ["corrected"] */
   residuals?: "corrected" | "measured";
+  /** Standard deviation of what is not modelled, added in quadrature to that of every image coordinate, pixels [0]. */
+  unmodelled?: number;
   /** Points whose full covariance matrix is wanted [none]. */
   covariance_of?: string[];
   /** Called after every iteration; returning false stops. */
@@ -232,6 +234,8 @@ export type Advice =
 
 /** The result; no number in it is NaN or infinite. */
 export interface Adjustment {
+  /** What was asked for. */
+  options: Required<Omit<AdjustOptions, "on_iteration">>;
   termination: "converged" | "iteration_limit" | "diverged" | "stopped";
   iterations: Iteration[];
   observations_count: number;

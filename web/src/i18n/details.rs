@@ -34,7 +34,7 @@ const SENTENCES: [(&str, &str); 63] = [
     ("the standard error of a distance is greater than 0", "거리의 표준오차는 0보다 커야 합니다"),
     ("a number here is not finite or beyond all measure", "유한하지 않거나 터무니없이 큰 수가 있습니다"),
     ("a standard error is 0 (fixed) or greater", "표준오차는 0(고정) 이상이어야 합니다"),
-    ("the principal distance is greater than 0", "초점거리는 0보다 커야 합니다"),
+    ("the principal distance is greater than 0", "주점거리는 0보다 커야 합니다"),
     ("a parameter is a finite number", "매개변수는 유한한 수여야 합니다"),
     ("width and height of the sensor grid are at least one pixel", "센서 격자의 폭과 높이는 1화소 이상이어야 합니다"),
     ("the pixel pitch is greater than 0 millimetres", "화소 간격은 0 mm보다 커야 합니다"),

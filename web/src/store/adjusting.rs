@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use sightline::adjustment::Iteration;
+use sightline::adjustment::{AdjustOptions, Iteration};
 use sightline::project::Parameter;
 
 use super::document::{self, Change};
@@ -20,8 +20,7 @@ impl Desk {
     }
 
     fn adjust_then(self, then: fn(Self)) {
-        let input = self.document.with_untracked(|d| d.project.clone());
-        let options = self.adjust_options.get_untracked();
+        let (input, options) = self.document.with_untracked(|d| (d.project.clone(), d.options.clone()));
         self.iterations.set(Vec::new());
         self.adjust_failure.set(None);
         self.notice.set(None);
@@ -111,6 +110,23 @@ impl Desk {
                 }
             }
         });
+    }
+
+    /// Chooses how image coordinates are weighted and what is done about gross errors.
+    pub fn set_options(self, choose: impl FnOnce(&mut AdjustOptions)) {
+        self.change(Change::OptionsChosen, |document| choose(&mut document.options));
+    }
+
+    /// Takes the standard deviation of what is not modelled as typed, in pixels.
+    pub fn set_unmodelled(self, typed: &str) {
+        match format::parse(typed).filter(|px| *px >= 0.0 && *px < 1000.0) {
+            Some(px) => self.set_options(|options| options.unmodelled = px),
+            None => {
+                let typed = typed.to_owned();
+                self.warn(move || text::not_a_number(&typed));
+                self.document.notify();
+            }
+        }
     }
 
     /// Takes an initial value of a camera's parameter as typed.

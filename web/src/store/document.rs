@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use sightline::adjustment::Adjustment;
+use sightline::adjustment::{AdjustOptions, Adjustment};
 use sightline::detection::Detection;
 use sightline::matching::Doubtful;
 use sightline::project::Project;
@@ -16,6 +16,8 @@ pub struct Document {
     pub detections: Arc<BTreeMap<String, Arc<Detection>>>,
     /// Targets whose name is in doubt, from the last matching.
     pub doubtful: Arc<Vec<Doubtful>>,
+    /// How the next adjustment is made.
+    pub options: AdjustOptions,
     /// The last adjustment, whether or not the project has changed since.
     pub result: Option<Arc<Outcome>>,
 }
@@ -31,9 +33,12 @@ pub struct Outcome {
 }
 
 impl Document {
-    /// Whether the result belongs to an earlier state of the project.
+    /// Whether the result belongs to an earlier state of the project, or to other options.
     pub fn out_of_date(&self) -> bool {
-        let same = |result: &Arc<Outcome>| Arc::ptr_eq(&result.input, &self.project) || result.input == self.project;
+        let same = |result: &Arc<Outcome>| {
+            result.adjustment.options == self.options
+                && (Arc::ptr_eq(&result.input, &self.project) || result.input == self.project)
+        };
         self.result.as_ref().is_some_and(|result| !same(result))
     }
 
@@ -54,7 +59,10 @@ impl Document {
             (None, None) => true,
             _ => false,
         };
-        results && Arc::ptr_eq(&self.project, &other.project) && Arc::ptr_eq(&self.detections, &other.detections)
+        results
+            && self.options == other.options
+            && Arc::ptr_eq(&self.project, &other.project)
+            && Arc::ptr_eq(&self.detections, &other.detections)
     }
 
     pub fn project_mut(&mut self) -> &mut Project {
@@ -90,6 +98,7 @@ pub enum Change {
     DistanceRemoved { from: String, to: String },
     DatumChosen,
     ParametersChosen(String),
+    OptionsChosen,
     Adjusted,
     UnitSet,
     Opened,

@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::Error;
-use sightline::adjustment::{AdjustOptions, Iteration};
+use sightline::adjustment::Iteration;
 use sightline::detection::{Codes, DetectOptions};
 use sightline::exif::PhotoInfo;
 use sightline::orient::Note;
@@ -177,7 +177,6 @@ pub struct Desk {
     /// A place in the photo that the photo view should show.
     pub centre_on: RwSignal<Option<[f64; 2]>>,
     pub detect_options: RwSignal<DetectOptions>,
-    pub adjust_options: RwSignal<AdjustOptions>,
     /// Iterations of the adjustment under way or done last.
     pub iterations: RwSignal<Vec<Iteration>>,
     /// What the last orientation had to say.
@@ -217,7 +216,6 @@ impl Desk {
             centre_on: RwSignal::default(),
             // Whoever has coded targets expects them to be read; photos without rings are the same either way.
             detect_options: RwSignal::new(DetectOptions { codes: Codes::Auto, ..DetectOptions::default() }),
-            adjust_options: RwSignal::default(),
             iterations: RwSignal::default(),
             notes: RwSignal::default(),
             adjust_failure: RwSignal::default(),

@@ -128,6 +128,7 @@ impl Desk {
         }
         let adjusted = content.adjustment.is_some();
         let project = Arc::new(project);
+        let options = content.adjustment.as_ref().map(|adjustment| adjustment.options.clone()).unwrap_or_default();
         let result = content.adjustment.map(|adjustment| {
             let (input, oriented) = (project.clone(), project.clone());
             Arc::new(document::Outcome { input, oriented, adjustment })
@@ -135,7 +136,7 @@ impl Desk {
         let detections = content.targets.into_iter().map(|(photo, d)| (photo, Arc::new(d))).collect::<BTreeMap<_, _>>();
         let first = project.photos.first().map(|p| p.id.clone());
         self.change(Change::Opened, |document| {
-            *document = Document { project, detections: Arc::new(detections), result, ..Document::default() };
+            *document = Document { project, detections: Arc::new(detections), options, result, ..Document::default() };
         });
         self.iterations.set(
             self.document

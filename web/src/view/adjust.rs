@@ -6,6 +6,7 @@ use sightline::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
 
 use super::advice::Advice;
 use super::control::DatumChoice;
+use super::gross_errors::{GrossErrorRecord, GrossErrors};
 use super::icon::{Glyph, Icon};
 use super::plots::Convergence;
 use super::shell::TitleBar;
@@ -41,8 +42,8 @@ pub fn Adjust() -> impl IntoView {
             </Show>
         </TitleBar>
         <main class="adjust">
-            <section class="scroll"><Estimated/><FromWhat/><DatumChoice/></section>
-            <section class="scroll"><Iterations/></section>
+            <section class="scroll"><Estimated/><FromWhat/><DatumChoice/><GrossErrors/></section>
+            <section class="scroll"><Iterations/><GrossErrorRecord/></section>
             <section class="scroll"><Advice/></section>
         </main>
     }
@@ -230,7 +231,16 @@ fn FromWhat() -> impl IntoView {
         <table class="table words">
             <tbody>
                 <tr>
-                    <td class="left"><b>{text::image_coordinates}</b><small>{move || counts.get().1.map(|m| text::median_sigma(format::fixed(m, format::decimals_for(m))))}</small></td>
+                    <td class="left">
+                        <b>{text::image_coordinates}</b>
+                        <small>{move || counts.get().1.map(|m| text::median_sigma(format::fixed(m, format::decimals_for(m))))}</small>
+                        <label class="option" title=text::unmodelled_why>
+                            <span>{text::unmodelled}</span>
+                            <input type="text" class="short" inputmode="decimal" name="unmodelled" aria-description=text::unmodelled_why
+                                prop:value=move || desk.document.with(|d| format::editable(d.options.unmodelled))
+                                on:change=move |e| desk.set_unmodelled(&event::value(&e))/>
+                        </label>
+                    </td>
                     <td class="large">{move || format::count(counts.get().0)}</td>
                 </tr>
                 <tr><td class="left"><b>{text::control_coordinates}</b></td><td class="large">{move || format::count(counts.get().2)}</td></tr>

@@ -17,9 +17,17 @@ use crate::store::{Desk, Step};
 enum Target {
     None,
     Point(String),
-    Observation { photo: String, point: String },
+    Observation {
+        photo: String,
+        point: String,
+    },
     Photo(String),
-    Hold { camera: String, parameter: Parameter },
+    Hold {
+        camera: String,
+        parameter: Parameter,
+    },
+    /// Weighs image coordinates with this standard deviation of what is not modelled, pixels.
+    Unmodelled(f64),
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +54,7 @@ pub fn Advice() -> impl IntoView {
                 let go = move |_| follow(desk, &target);
                 let label = match item.target {
                     Target::None => None,
+                    Target::Unmodelled(px) => Some(text::add_unmodelled(format::fixed(px, 3))),
                     Target::Hold { parameter, .. } => Some(text::hold(parameter_name(parameter))),
                     _ => Some(text::show().to_owned()),
                 };
@@ -79,6 +88,10 @@ fn follow(desk: Desk, target: &Target) {
         Target::Photo(photo) => {
             desk.select_photo(photo);
             desk.go(Step::Identities);
+        }
+        Target::Unmodelled(px) => {
+            desk.set_options(|options| options.unmodelled = *px);
+            desk.adjust();
         }
         Target::Hold { camera, parameter } => desk.set_free(camera, *parameter, false),
     }
@@ -140,7 +153,11 @@ fn items(desk: Desk) -> Vec<Item> {
             });
         }
         if let Some(result) = d.current() {
-            from_result(&result.adjustment, &mut items);
+            // Both in quadrature: what was added already stays part of it.
+            let unmodelled = sightline::adjust::unmodelled(&result.input, &result.adjustment);
+            let to_add = unmodelled.filter(|px| *px > result.adjustment.options.unmodelled);
+            from_result(&result.adjustment, to_add, &mut items);
+            items.extend(result.adjustment.advice.iter().map(network_item));
         }
     });
     let said = items.iter().map(|i| i.target.clone()).collect::<Vec<_>>();
@@ -176,7 +193,63 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     if all.len() > 8 { format!("{shown}, …") } else { shown }
 }
 
-fn from_result(adjustment: &sightline::adjustment::Adjustment, items: &mut Vec<Item>) {
+/// What the engine says of a network that is solvable but weak.
+fn network_item(advice: &sightline::adjustment::Advice) -> Item {
+    use sightline::adjustment::Advice;
+    let pairs = |pairs: &[(String, String)]| {
+        let names: Vec<String> = pairs.iter().map(|(a, b)| format!("{a} – {b}")).collect();
+        listed(names.iter().map(String::as_str))
+    };
+    let observation = |all: &[(String, String)]| {
+        all.first()
+            .map_or(Target::None, |(photo, point)| Target::Observation { photo: photo.clone(), point: point.clone() })
+    };
+    let (title, body, evidence, target) = match advice {
+        Advice::HighCorrelation { camera, photo, first, second, correlation } => {
+            let name = |n: &str| n.parse::<Parameter>().map_or_else(|_| n.to_owned(), |p| parameter_name(p).to_owned());
+            let second = match photo {
+                Some(photo) => format!("{} ({} {photo})", name(second), text::photo()),
+                None => name(second),
+            };
+            let title = text::correlated(name(first), second);
+            (title, text::correlated_body(camera), format::fixed(*correlation, 2), Target::None)
+        }
+        Advice::LowRedundancy { observations } => {
+            let title = text::low_redundancy(observations.len());
+            (title, text::low_redundancy_body(pairs(observations)), "r < 0.1".to_owned(), observation(observations))
+        }
+        Advice::TwoRays { points } => (
+            text::two_rays(listed(points.iter().map(String::as_str))),
+            text::two_rays_body().to_owned(),
+            text::n_points(points.len()),
+            points.first().map_or(Target::None, |point| Target::Point(point.clone())),
+        ),
+        Advice::NarrowIntersection { points } => (
+            text::narrow(listed(points.iter().map(|(point, _)| point.as_str()))),
+            text::narrow_body().to_owned(),
+            points.first().map(|(_, angle)| format!("{}°", format::fixed(angle.to_degrees(), 1))).unwrap_or_default(),
+            points.first().map_or(Target::None, |(point, _)| Target::Point(point.clone())),
+        ),
+        Advice::BehindCamera { observations } => (
+            text::behind_camera(pairs(observations)),
+            text::behind_camera_body().to_owned(),
+            String::new(),
+            observation(observations),
+        ),
+        Advice::DistanceUnused { distances } => (
+            text::distance_unused(pairs(distances)),
+            text::distance_unused_body().to_owned(),
+            String::new(),
+            Target::None,
+        ),
+        Advice::GrossErrorsUnsettled => {
+            (text::unsettled().to_owned(), text::unsettled_body().to_owned(), String::new(), Target::None)
+        }
+    };
+    Item { warning: true, title, body, evidence, target }
+}
+
+fn from_result(adjustment: &sightline::adjustment::Adjustment, unmodelled: Option<f64>, items: &mut Vec<Item>) {
     if let (Some(sigma0), Some(test)) = (adjustment.sigma0, &adjustment.global_test)
         && test.statistic > test.upper
         && sigma0 > 2.0
@@ -186,7 +259,7 @@ fn from_result(adjustment: &sightline::adjustment::Adjustment, items: &mut Vec<I
             title: text::sigmas_optimistic(format::fixed(sigma0, 1)),
             body: text::sigmas_optimistic_body().to_owned(),
             evidence: format!("σ₀ {}", format::fixed(sigma0, 3)),
-            target: Target::None,
+            target: unmodelled.map_or(Target::None, |px| Target::Unmodelled((px * 1000.0).round() / 1000.0)),
         });
     }
     for camera in &adjustment.cameras {

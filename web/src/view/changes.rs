@@ -26,6 +26,7 @@ pub fn change_words(change: &Change) -> String {
         Change::DistanceRemoved { from, to } => text::change_distance_removed(from, to),
         Change::DatumChosen => text::change_datum().to_owned(),
         Change::ParametersChosen(camera) => text::change_parameters(camera),
+        Change::OptionsChosen => text::change_options().to_owned(),
         Change::Adjusted => text::change_adjusted().to_owned(),
         Change::UnitSet => text::change_unit().to_owned(),
         Change::Opened => text::change_opened().to_owned(),
