@@ -61,8 +61,14 @@ test('21 photos become a calibration', { skip: folder ? false : 'skipped, no dat
     await page.click('.advice li:has-text("too small") .link');
     await idle(page);
     assert.ok(Math.abs(number(await page.inputValue('[name=unmodelled]')) - 0.17) < 0.05);
+    // The first value came from the old weights; taken once more, the global test agrees.
+    const again = page.locator('.advice li:has-text("more closely") .link');
+    for (let i = 0; i < 3 && (await again.count()) > 0; i++) {
+      await again.click();
+      await idle(page);
+    }
     await go(page, 'results');
-    assert.ok(Math.abs((await figure(page, 'sigma0')) - 1) < 0.05);
+    assert.ok(Math.abs((await figure(page, 'sigma0')) - 1) < 0.02);
     assert.ok(Math.abs((await parameter(page, 'C4040Z', 'c')).value - 7.457) <= 0.006);
     await idle(page);
     assert.deepEqual(errors, []);

@@ -316,7 +316,9 @@ texts! {
     gross_action: "action", "처리";
     gross_statistic: "τ or weight", "τ 또는 가중값";
     gross_limit: "limit", "한계";
-    add_unmodelled(px): "Add {px} px and adjust", "{px} px를 더해 조정";
+    unmodelled_again: "What is not modelled can be told more closely now", "모형화되지 않은 오차를 이제 더 정확히 정할 수 있습니다";
+    unmodelled_again_body: "The value was found with other weights; with these the residuals ask for this one.", "앞의 값은 다른 가중값에서 구한 것입니다. 지금 가중값의 잔차로는 이 값이 맞습니다.";
+    add_unmodelled(px): "Take {px} px and adjust", "{px} px로 조정";
     correlated(first, second): "{first} and {second} are hardly told apart", "{first}와(과) {second}이(가) 거의 구분되지 않습니다";
     correlated_body(camera): "Camera {camera}: hold one of them, or add rolled photos and depth.", "카메라 {camera}: 하나를 고정하거나 회전 촬영과 깊이 변화를 더하십시오.";
     low_redundancy(n): "{n} observations are hardly checked by others", "다른 관측으로 거의 점검되지 않는 관측 {n}개";

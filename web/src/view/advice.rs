@@ -153,10 +153,8 @@ fn items(desk: Desk) -> Vec<Item> {
             });
         }
         if let Some(result) = d.current() {
-            // Both in quadrature: what was added already stays part of it.
             let unmodelled = sightline::adjust::unmodelled(&result.input, &result.adjustment);
-            let to_add = unmodelled.filter(|px| *px > result.adjustment.options.unmodelled);
-            from_result(&result.adjustment, to_add, &mut items);
+            from_result(&result.adjustment, unmodelled, &mut items);
             items.extend(result.adjustment.advice.iter().map(network_item));
         }
     });
@@ -250,6 +248,7 @@ fn network_item(advice: &sightline::adjustment::Advice) -> Item {
 }
 
 fn from_result(adjustment: &sightline::adjustment::Adjustment, unmodelled: Option<f64>, items: &mut Vec<Item>) {
+    let to_take = unmodelled.map_or(Target::None, |px| Target::Unmodelled((px * 1000.0).round() / 1000.0));
     if let (Some(sigma0), Some(test)) = (adjustment.sigma0, &adjustment.global_test)
         && test.statistic > test.upper
         && sigma0 > 2.0
@@ -259,7 +258,21 @@ fn from_result(adjustment: &sightline::adjustment::Adjustment, unmodelled: Optio
             title: text::sigmas_optimistic(format::fixed(sigma0, 1)),
             body: text::sigmas_optimistic_body().to_owned(),
             evidence: format!("σ₀ {}", format::fixed(sigma0, 3)),
-            target: unmodelled.map_or(Target::None, |px| Target::Unmodelled((px * 1000.0).round() / 1000.0)),
+            target: to_take,
+        });
+    } else if let (Some(sigma0), Some(test)) = (adjustment.sigma0, &adjustment.global_test)
+        && !test.passed
+        && adjustment.options.unmodelled > 0.0
+        && to_take != Target::Unmodelled(adjustment.options.unmodelled)
+        && to_take != Target::None
+    {
+        // The first value came from weights that are no longer in use.
+        items.push(Item {
+            warning: true,
+            title: text::unmodelled_again().to_owned(),
+            body: text::unmodelled_again_body().to_owned(),
+            evidence: format!("σ₀ {}", format::fixed(sigma0, 3)),
+            target: to_take,
         });
     }
     for camera in &adjustment.cameras {
