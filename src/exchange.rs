@@ -9,12 +9,14 @@
 //! | `photomodeler` | a text export of PhotoModeler | |
 //! | `aicon` | a list of target coordinates of AICON | |
 //! | `dbat` | an XML project of the Damped Bundle Adjustment Toolbox with the files it names | |
+//! | `comparator` | plates: fiducial marks, distortion table, readings in millimetres | |
 //! | `csv`, `tsv` | | points, cameras, photos, observations with their statistics |
 //!
 //! Numbers are written with a decimal point whatever the user's language. A format that holds a part of a project only
 //! (`control-csv`, `mark-points`, `aicon`) is read as a project with that part.
 
 pub mod aicon;
+pub mod comparator;
 pub mod control_csv;
 pub mod dbat;
 pub mod mark_points;
@@ -44,7 +46,7 @@ pub struct Format {
 }
 
 /// The formats.
-pub const FORMATS: [Format; 9] = [
+pub const FORMATS: [Format; 10] = [
     Format { name: "sightline", import: true, export: true },
     Format { name: "package", import: true, export: true },
     Format { name: "control-csv", import: true, export: true },
@@ -52,6 +54,7 @@ pub const FORMATS: [Format; 9] = [
     Format { name: "photomodeler", import: true, export: false },
     Format { name: "aicon", import: true, export: false },
     Format { name: "dbat", import: true, export: false },
+    Format { name: "comparator", import: true, export: false },
     Format { name: "csv", import: false, export: true },
     Format { name: "tsv", import: false, export: true },
 ];
@@ -95,6 +98,7 @@ pub fn import(format: &str, files: &Files) -> Result<Project> {
             Ok(project)
         }
         "photomodeler" => one_text(files, photomodeler::parse),
+        "comparator" => comparator::import(files).map(|reduced| reduced.project),
         "aicon" => one_text(files, aicon::parse).map(control_project),
         _ => dbat::import(files),
     }

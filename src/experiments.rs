@@ -11,6 +11,7 @@
 //!
 //! Results are data: identifiers, numbers and units, no sentences. Whoever shows them names things in their language.
 
+mod csv;
 mod film;
 mod kang;
 mod kim;
@@ -23,7 +24,9 @@ use serde::{Deserialize, Serialize};
 use crate::detection::Method;
 use crate::error::{Error, Place, Result};
 
-pub use outcome::{Axis, Cell, Chart, Column, Drawing, Drawn, Experiment, Figure, Series, Table};
+pub use csv::csv;
+pub use film::description as film_description;
+pub use outcome::{Assumption, Axis, Cell, Chart, Column, Drawing, Drawn, Experiment, Figure, Series, Table, Tick};
 
 /// Names of the experiments.
 pub const NAMES: [&str; 5] = ["kang", "film", "lee-calibration", "lee-structure", "kim"];
@@ -81,6 +84,22 @@ pub fn run(name: &str, options: &ExperimentOptions, progress: Progress) -> Resul
         "lee-calibration" => lee_calibration::run(options, progress),
         "lee-structure" => lee_structure::run(options, progress),
         "kim" => kim::run(options, progress),
+        _ => Err(Error::Unknown { kind: "experiment".into(), name: name.into(), at: Place::default() }),
+    }
+}
+
+/// The networks of an experiment, for drawing them before it runs.
+///
+/// # Errors
+/// As [`run`].
+pub fn drawings(name: &str, options: &ExperimentOptions) -> Result<Vec<Drawing>> {
+    check(options)?;
+    match name {
+        "kang" => kang::drawings(options),
+        "film" => Ok(film::drawings(options)),
+        "lee-calibration" => Ok(lee_calibration::drawings(options)),
+        "lee-structure" => lee_structure::drawings(options),
+        "kim" => Ok(kim::drawings(options)),
         _ => Err(Error::Unknown { kind: "experiment".into(), name: name.into(), at: Place::default() }),
     }
 }

@@ -245,6 +245,13 @@ pub fn run_experiment(
     }
 }
 
+/// The CSV files of an experiment: its figures, tables and charts, with every digit.
+#[wasm_bindgen(js_name = experimentCsv, unchecked_return_type = "Record<string, Uint8Array>")]
+pub fn experiment_csv(#[wasm_bindgen(unchecked_param_type = "Experiment")] experiment: JsValue) -> Thrown {
+    let experiment = value::read::<experiments::Experiment>(&experiment, "experiment");
+    experiment.map(|e| value::files_object(&experiments::csv(&e))).map_err(|error| thrown(&error))
+}
+
 /// Reads files of a foreign format as a project, or as the part of one that the format holds.
 #[wasm_bindgen(js_name = importProject, unchecked_return_type = "Project")]
 pub fn import_project(
@@ -253,6 +260,15 @@ pub fn import_project(
 ) -> Thrown {
     let read = || exchange::import(&value::text(&format, "format")?, &value::files(&files)?);
     read().map(value::project_object).map_err(|error| thrown(&error))
+}
+
+/// Carries plates onto their fiducial marks: files of the format `comparator`, with every fit on the way.
+#[wasm_bindgen(js_name = reduceFilm, unchecked_return_type = "ReducedFilm")]
+pub fn reduce_film(
+    #[wasm_bindgen(unchecked_param_type = "Record<string, Uint8Array | ArrayBuffer | string>")] files: JsValue,
+) -> Thrown {
+    let reduced = value::files(&files).and_then(|files| exchange::comparator::import(&files));
+    reduced.map(|reduced| value::write(&reduced)).map_err(|error| thrown(&error))
 }
 
 /// Writes a project in a foreign format, with the results of its adjustment where the format has a place for them.

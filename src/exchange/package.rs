@@ -67,6 +67,20 @@ pub fn write(package: &Package) -> Result<Vec<u8>> {
     archive.finish().map(Cursor::into_inner).map_err(cannot_write)
 }
 
+/// Files in an archive, compressed: tables that belong together and are handed over as one.
+///
+/// # Errors
+/// [`Error::Invalid`] where a name is none of an archive.
+pub fn archive(files: &super::Files) -> Result<Vec<u8>> {
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, bytes) in files {
+        let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
+        archive.start_file(name.as_str(), options).map_err(cannot_write)?;
+        archive.write_all(bytes).map_err(|error| cannot_write(error.into()))?;
+    }
+    archive.finish().map(Cursor::into_inner).map_err(cannot_write)
+}
+
 /// Reads a project file.
 ///
 /// # Errors

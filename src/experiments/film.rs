@@ -5,8 +5,10 @@
 //! through the three plane transformations, with and without the distortion table; each time the same bundle follows.
 //! The paper prints neither its readings nor the table: both are made up here, of the usual size.
 
+use std::fmt::Write;
+
 use super::kang;
-use super::outcome::{Cell, Chart, Drawing, Experiment, Figure, Series, Table};
+use super::outcome::{Assumption, Cell, Chart, Drawing, Experiment, Figure, Series, Table};
 use super::{ExperimentOptions, Progress, step};
 use crate::adjust::adjust;
 use crate::adjustment::AdjustOptions;
@@ -86,12 +88,57 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
     }
     Ok(Experiment {
         name: "film".into(),
-        drawings: vec![Drawing::of("network", &network)],
+        drawings: drawings(options),
         figures: figures(&outcomes, &table),
-        tables: vec![residual_table(&fits), parameter_table(&fits), distortion_table(&table), outcome_table(&outcomes)],
+        tables: vec![
+            outcome_table(&outcomes),
+            residual_table(&fits),
+            parameter_table(&fits),
+            distortion_table(&table),
+            readings_table(&readings),
+        ],
         charts: vec![chart(&table)],
+        assumptions: vec![
+            Assumption::of_kind("readings_made_up"),
+            Assumption::of_kind("distortion_made_up"),
+            Assumption::new("film_scale_along", "", SHRINKAGE[0], None),
+            Assumption::new("film_scale_across", "", SHRINKAGE[1], None),
+        ],
         project: opened.unwrap_or(exact),
     })
+}
+
+/// The network of the five plates.
+pub fn drawings(options: &ExperimentOptions) -> Vec<Drawing> {
+    let network = kang::default_network(options);
+    vec![Drawing::of("1.4-5A", &network)]
+}
+
+/// Camera, fiducial marks, distortion table and control of the experiment as a file of the format `comparator`; with
+/// the readings it makes the experiment's project.
+pub fn description() -> String {
+    let network = kang::default_network(&ExperimentOptions::default());
+    let mut text =
+        String::from("# Plates of the film experiment: camera, fiducial marks (mm), distortion (mm, µm), control\n");
+    let camera = &network.cameras[0];
+    let c = camera.interior.get(Parameter::C).unwrap_or_default();
+    let [width, height] = [camera.width, camera.height].map(|n| f64::from(n) * kang::PITCH_MM);
+    let _ = writeln!(
+        text,
+        "camera, {}\nc, {c}\nplate, {width}, {height}\nsigma, 0.003\ntransformation, affine\ny, up",
+        camera.id
+    );
+    for (mark, [x, y]) in FIDUCIALS {
+        let _ = writeln!(text, "fiducial, {mark}, {x}, {y}");
+    }
+    for [radius, displacement] in DISTORTION {
+        let _ = writeln!(text, "distortion, {radius}, {displacement}");
+    }
+    for point in network.points.iter().filter(|p| p.role == Role::Control) {
+        let [x, y, z] = point.xyz;
+        let _ = writeln!(text, "control, {}, {x}, {y}, {z}, 0.001", point.id);
+    }
+    text
 }
 
 fn setup(kind: Kind, options: &ExperimentOptions) -> Setup {
@@ -195,6 +242,13 @@ fn residual_table(fits: &[(&str, Observed)]) -> Table {
     table
 }
 
+fn readings_table(readings: &[Reading]) -> Table {
+    let mut table = Table::new("readings", &["photo", "mark", "x|mm|4", "y|mm|4"]);
+    let row = |r: &Reading| vec![r.photo.as_str().into(), r.mark.as_str().into(), r.x.into(), r.y.into()];
+    table.rows = readings.iter().map(row).collect();
+    table
+}
+
 fn parameter_table(fits: &[(&str, Observed)]) -> Table {
     let mut table = Table::new("transformations", &["photo", "kind", "parameter", "value||7", "sigma||7"]);
     for (name, observed) in fits {
@@ -249,6 +303,6 @@ fn figures(outcomes: &[Outcome], table: &OddPolynomial) -> Vec<Figure> {
 
 fn chart(table: &OddPolynomial) -> Chart {
     let fitted = (0..=60).map(|k| [f64::from(k), table.at(f64::from(k)) * 1000.0]).collect();
-    let given = Series { paper: true, ..Series::new("table", DISTORTION.to_vec()) };
+    let given = Series::new("table", DISTORTION.to_vec());
     Chart::new("distortion", "radius|mm", "distortion|µm", vec![Series::new("polynomial", fitted), given])
 }

@@ -7,7 +7,7 @@
 
 use nalgebra::Vector3;
 
-use super::outcome::{Cell, Chart, Drawing, Experiment, Figure, Series, Table};
+use super::outcome::{Assumption, Cell, Chart, Drawing, Experiment, Figure, Series, Table};
 use super::{ExperimentOptions, Progress, step};
 use crate::adjust::adjust;
 use crate::adjustment::{AdjustOptions, Adjustment, StatisticsChoice};
@@ -53,6 +53,13 @@ const INTERIOR: [[f64; 7]; 2] = [
 ];
 const PITCH_MM: f64 = 0.0022;
 const PRINCIPAL_DISTANCE_MM: f64 = 6.0;
+/// Standard error of the surveyed coordinates, assumed: within a room a total station of 2 mm + 2 ppm is better than its
+/// specification, and all targets are measured from one set-up.
+const SURVEY_ERROR_MM: f64 = 0.3;
+/// Assumed: diameter of the targets, blur of the lens in pixels, noise of the sensor as a share of full scale.
+const DIAMETER_M: f64 = 0.05;
+const PSF_PX: f64 = 0.8;
+const PIXEL_NOISE: f64 = 0.01;
 const NAMES: [&str; 6] = ["omega", "phi", "kappa", "xl", "yl", "zl"];
 const FREE: [Parameter; 8] = [
     Parameter::C,
@@ -66,6 +73,8 @@ const FREE: [Parameter; 8] = [
 ];
 /// Iterations that the paper shows.
 const ITERATIONS: usize = 10;
+/// Iterations after which XL, YL, ZL had settled, photo by photo.
+const SETTLED: [[usize; 3]; 2] = [[3, 4, 5], [5, 4, 6]];
 
 pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment> {
     let network = network(options);
@@ -90,7 +99,7 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
     let orientations = [exterior(&start.photos), adjusted_exterior(&adjustment)];
     Ok(Experiment {
         name: "kim".into(),
-        drawings: vec![Drawing::of_project("planes", &start)],
+        drawings: drawings(options),
         figures: figures(&differences, &way),
         tables: vec![
             check_table(&differences),
@@ -99,8 +108,21 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
             interior_table(&adjustment),
         ],
         charts: charts(&way),
+        assumptions: vec![
+            Assumption::new("principal_distance", "mm", PRINCIPAL_DISTANCE_MM, None),
+            Assumption::new("survey_error", "mm", options.control_sigma_mm.unwrap_or(SURVEY_ERROR_MM), None),
+            Assumption::new("target_diameter", "mm", 1000.0 * DIAMETER_M, None),
+            Assumption::of_kind("control_places"),
+            Assumption::new("psf", "px", PSF_PX, None),
+            Assumption::new("pixel_noise", "%", 100.0 * options.pixel_noise.unwrap_or(PIXEL_NOISE), None),
+        ],
         project: start,
     })
+}
+
+/// The two planes with both stations.
+pub fn drawings(options: &ExperimentOptions) -> Vec<Drawing> {
+    vec![Drawing::of("planes", &network(options))]
 }
 
 fn network(options: &ExperimentOptions) -> Network {
@@ -127,7 +149,7 @@ fn network(options: &ExperimentOptions) -> Network {
             ..Station::default()
         }
     };
-    let noise = options.pixel_noise.unwrap_or(0.01);
+    let noise = options.pixel_noise.unwrap_or(PIXEL_NOISE);
     Network {
         name: "Kim, Hwang & Yun 2015".into(),
         unit: "m".into(),
@@ -141,7 +163,7 @@ fn network(options: &ExperimentOptions) -> Network {
         observations: Source::Rendered,
         seed: options.seed,
         exposure: Exposure {
-            psf: 0.8,
+            psf: PSF_PX,
             read_noise: noise,
             shot_noise: noise,
             seed: options.seed,
@@ -164,14 +186,14 @@ fn normal(x: f64) -> [f64; 3] {
 }
 
 fn points(options: &ExperimentOptions) -> Vec<NetworkPoint> {
-    let sigma = options.control_sigma_mm.unwrap_or(0.3) / 1000.0;
+    let sigma = options.control_sigma_mm.unwrap_or(SURVEY_ERROR_MM) / 1000.0;
     let target = |id: String, role: Role, xyz: [f64; 3]| NetworkPoint {
         id,
         role,
         xyz,
         sigma: Some([Some(sigma); 3]),
         normal: Some(normal(xyz[0] + 1e-3)),
-        diameter: Some(0.05),
+        diameter: Some(DIAMETER_M),
         grey: Some(0.08),
         ..NetworkPoint::default()
     };
@@ -391,9 +413,12 @@ fn charts(way: &Way) -> Vec<Chart> {
     for (photo, places) in way.iter().enumerate() {
         for (k, axis) in ["xl", "yl", "zl"].into_iter().enumerate() {
             let points = places.iter().enumerate().map(|(i, p)| [i as f64, p[k]]).collect();
-            let levels = [PAPER[photo][0][3 + k], PAPER[photo][1][3 + k]];
-            let paper = vec![[0.0, levels[0]], [ITERATIONS as f64, levels[1]]];
-            let series = vec![Series::new(axis, points), Series { paper: true, ..Series::new(axis, paper) }];
+            // The paper prints start and end, and says after how many iterations the end was reached.
+            let [start, end] = [PAPER[photo][0][3 + k], PAPER[photo][1][3 + k]];
+            let reached = SETTLED[photo][k] as f64;
+            let paper = |points| Series { paper: true, ..Series::new(axis, points) };
+            let level = paper(vec![[reached, end], [ITERATIONS as f64, end]]);
+            let series = vec![Series::new(axis, points), paper(vec![[0.0, start]]), level];
             charts.push(Chart::new(format!("way_{axis}/{}", photo + 1), "iteration", &format!("{axis}|m"), series));
         }
     }

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::network::Network;
 use crate::project::{Project, Role};
-use crate::rotation;
 
 /// Result of an experiment. Identifiers are stable; units are symbols.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -20,8 +19,23 @@ pub struct Experiment {
     pub tables: Vec<Table>,
     /// Charts.
     pub charts: Vec<Chart>,
+    /// What the paper does not say, or says otherwise, and was therefore chosen here.
+    pub assumptions: Vec<Assumption>,
     /// A project of the experiment, ready to be opened and adjusted.
     pub project: Project,
+}
+
+/// A choice that is not the paper's.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Assumption {
+    /// Identifier.
+    pub id: String,
+    /// Unit.
+    pub unit: String,
+    /// The value used here; null where the choice is no number.
+    pub ours: Option<f64>,
+    /// What the paper says; null where it says nothing.
+    pub paper: Option<f64>,
 }
 
 /// One figure of ours beside the paper's.
@@ -82,6 +96,19 @@ pub struct Axis {
     pub id: String,
     /// Unit.
     pub unit: String,
+    /// Names of places along the axis; none where its numbers speak for themselves.
+    pub ticks: Vec<Tick>,
+}
+
+/// A named place on an axis.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tick {
+    /// Where.
+    pub at: f64,
+    /// Name.
+    pub text: String,
+    /// Whether it names the group of places around it, in a second row.
+    pub group: bool,
 }
 
 /// A chart.
@@ -97,7 +124,7 @@ pub struct Chart {
     pub series: Vec<Series>,
 }
 
-/// A line of a chart.
+/// A line of a chart, or a piece of one: pieces of a broken line share their identifier.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Series {
     /// Identifier.
@@ -190,6 +217,18 @@ impl Figure {
     }
 }
 
+impl Assumption {
+    /// A number that the paper does not print, or prints otherwise.
+    pub(super) fn new(id: &str, unit: &str, ours: f64, paper: impl Into<Option<f64>>) -> Self {
+        Self { id: id.into(), unit: unit.into(), ours: Some(ours), paper: paper.into() }
+    }
+
+    /// A choice that is no number.
+    pub(super) fn of_kind(id: &str) -> Self {
+        Self { id: id.into(), ..Self::default() }
+    }
+}
+
 impl Series {
     /// A line of ours.
     pub(super) fn new(id: impl Into<String>, points: Vec<[f64; 2]>) -> Self {
@@ -202,9 +241,16 @@ impl Chart {
     pub(super) fn new(id: impl Into<String>, x: &str, y: &str, series: Vec<Series>) -> Self {
         let axis = |text: &str| {
             let (id, unit) = text.split_once('|').unwrap_or((text, ""));
-            Axis { id: id.into(), unit: unit.into() }
+            Axis { id: id.into(), unit: unit.into(), ticks: Vec::new() }
         };
         Self { id: id.into(), x: axis(x), y: axis(y), series }
+    }
+
+    /// The same with names at 0, 1, 2 … across.
+    pub(super) fn named<'a>(mut self, names: impl IntoIterator<Item = &'a str>) -> Self {
+        let tick = |(at, name): (usize, &str)| Tick { at: at as f64, text: name.into(), group: false };
+        self.x.ticks.extend(names.into_iter().enumerate().map(tick));
+        self
     }
 }
 
@@ -227,23 +273,6 @@ impl Drawing {
             unit: network.unit.clone(),
             points: network.points.iter().map(point).collect(),
             photos: network.stations.iter().filter_map(photo).collect(),
-        }
-    }
-
-    /// What is drawn of a project that is oriented.
-    pub(super) fn of_project(id: impl Into<String>, project: &Project) -> Self {
-        let point = |p: &crate::project::Point| {
-            Some(Drawn { id: p.id.clone(), xyz: p.xyz?, direction: None, role: Some(p.role) })
-        };
-        let photo = |p: &crate::project::Photo| {
-            let axis = rotation::object_to_camera(p.rotation?).transpose() * Vector3::new(0.0, 0.0, -1.0);
-            Some(Drawn { id: p.id.clone(), xyz: p.position?, direction: Some(axis.into()), role: None })
-        };
-        Self {
-            id: id.into(),
-            unit: project.unit.clone(),
-            points: project.points.iter().filter_map(point).collect(),
-            photos: project.photos.iter().filter_map(photo).collect(),
         }
     }
 }

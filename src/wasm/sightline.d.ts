@@ -480,8 +480,41 @@ export interface Picture {
   samples: Uint8Array | Uint16Array;
 }
 
-export type ImportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "photomodeler" | "aicon" | "dbat";
+export type ImportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "photomodeler" | "aicon" | "dbat" | "comparator";
 export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "csv" | "tsv";
+
+/** A parameter of a fit. */
+export interface Coefficient {
+  name: string;
+  value: number;
+  /** Null without redundancy. */
+  sigma: number | null;
+}
+
+/** Plates carried onto their fiducial marks. */
+export interface ReducedFilm {
+  /** Camera, photos, points and observations; nothing is oriented. */
+  project: Project;
+  /** The fit of each photo; residuals in mm, in the order of the marks. */
+  inner_orientations: {
+    photo: string;
+    marks: string[];
+    transformation: {
+      kind: "similarity" | "affine" | "projective";
+      residuals: [number, number][];
+      redundancy: number;
+      sigma0: number | null;
+      matrix: [number, number, number][];
+      parameters: Coefficient[];
+      origin: [number, number];
+    };
+  }[];
+  /** The odd polynomial of the distortion table (mm, µm), its coefficients and residuals in mm. */
+  distortion: {
+    table: [number, number][];
+    polynomial: { coefficients: Coefficient[]; residuals: number[]; sigma0: number | null };
+  } | null;
+}
 
 /** What every function throws. */
 export interface SightlineError extends Error {
@@ -525,6 +558,13 @@ export interface Drawn {
   role?: "tie" | "control" | "check";
 }
 
+/** An axis of a chart; ticks name places along it, groups in a second row. */
+export interface Axis {
+  id: string;
+  unit: string;
+  ticks: { at: number; text: string; group: boolean }[];
+}
+
 /** Result of an experiment. Cells are numbers, names or null; `paper` marks what the paper prints. */
 export interface Experiment {
   name: ExperimentName;
@@ -537,10 +577,13 @@ export interface Experiment {
   }[];
   charts: {
     id: string;
-    x: { id: string; unit: string };
-    y: { id: string; unit: string };
+    x: Axis;
+    y: Axis;
+    /** Pieces of a broken line share their id. */
     series: { id: string; paper: boolean; points: [number, number][] }[];
   }[];
+  /** What the paper does not say, or says otherwise, and was therefore chosen here. */
+  assumptions: { id: string; unit: string; ours: number | null; paper: number | null }[];
   /** Ready to be opened and adjusted. */
   project: Project;
 }

@@ -74,6 +74,8 @@ test('every field that the engine returns is declared, and every declared field 
     literal('simulated', 'S.Project', project),
     literal('oriented', 'S.OrientedProject', sightline.orient(bare(project))),
     literal('partly', 'S.OrientedProject', sightline.orient({ ...bare(project), observations: project.observations.filter(({ photo, point }, k) => photo !== 's3' && (point !== 'p4' || k < 9)) })),
+    literal('film', 'S.ReducedFilm', sightline.reduceFilm({ 'plate.txt': 'c 100\nfiducial a 0 0\nfiducial b 50 0\nfiducial c 0 40\nfiducial d 50 40\ndistortion 10 1\ndistortion 20 2\ndistortion 30 4\ndistortion 40 6\n1 a 0 0\n1 b 50 0\n1 c 0 40\n1 d 50 40\n1 7 10 10' })),
+    literal('experiment', 'S.Experiment', sightline.runExperiment('film')),
     literal('matching', 'S.Matching', sightline.matchUncoded(project, photosOf(project))),
     ...adjustments.map((adjustment, k) => literal(`adjustment${k}`, 'S.Adjustment', adjustment)),
     literal('project', 'S.Project', sightline.importProject('sightline', { 'project.json': text })),
@@ -96,6 +98,7 @@ test('the options that are declared are those that exist', () => {
   for (const [name, action] of [
     ['AdjustOptions', (options) => sightline.adjust(sightline.simulate(network()), options)],
     ['DetectOptions', (options) => sightline.detectGray(1, 1, new Uint8Array(1), options)],
+    ['ExperimentOptions', (options) => sightline.runExperiment('film', options)],
     ['MatchOptions', (options) => sightline.matchUncoded(sightline.simulate(network()), [], options)],
   ]) {
     const body = declared.split(`export interface ${name} {`)[1].split('\n}')[0];
