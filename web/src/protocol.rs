@@ -7,6 +7,7 @@ use sightline::Error;
 use sightline::adjustment::{AdjustOptions, Adjustment, Iteration};
 use sightline::detection::{DetectOptions, Detection, Target};
 use sightline::exif::PhotoInfo;
+use sightline::experiments::{Experiment, ExperimentOptions};
 use sightline::matching::{Matching, PhotoTargets};
 use sightline::orient::Note;
 use sightline::project::Project;
@@ -30,6 +31,8 @@ pub enum Request {
     Pack { content: Box<Content>, names: Vec<String> },
     /// Read a project file.
     Unpack,
+    /// Run one of the papers' experiments; progress per step.
+    Experiment { name: String, options: ExperimentOptions },
     /// Render a photo of the sample project and find its targets.
     SamplePhoto { name: String, max_side: u32 },
 }
@@ -51,6 +54,10 @@ pub enum Answer {
     Oriented { notes: Vec<Note> },
     /// Progress: an iteration is done.
     Iteration(Iteration),
+    /// Progress: so many steps are done.
+    Step { done: usize, of: usize },
+    /// What an experiment gave.
+    Experiment(Box<Experiment>),
     /// The project with its initial values, and the adjustment made from it.
     Adjusted { oriented: Box<Project>, adjustment: Box<Adjustment> },
     /// A photo of the sample project: its file's bytes and those of the small picture come along.
@@ -70,7 +77,7 @@ pub enum Answer {
 impl Answer {
     /// Whether more answers to the same request will follow.
     pub fn is_progress(&self) -> bool {
-        matches!(self, Self::Oriented { .. } | Self::Iteration(_))
+        matches!(self, Self::Oriented { .. } | Self::Iteration(_) | Self::Step { .. })
     }
 }
 

@@ -6,6 +6,7 @@ use sightline::adjust::{adjust, apply};
 use sightline::adjustment::{AdjustOptions, StatisticsChoice};
 use sightline::detection::{Codes, DetectOptions};
 use sightline::exchange::package::{self, Package};
+use sightline::experiments::{self, ExperimentOptions};
 use sightline::matching::{MatchOptions, PhotoTargets, match_uncoded};
 use sightline::orient::orient;
 use sightline::project::Project;
@@ -26,6 +27,7 @@ pub fn serve(request: Request, files: Vec<Vec<u8>>, answer: Reply) {
         Request::Measure { u, v, options } => measure(file, u, v, &options),
         Request::Adjust { project, options } => bundle(&project, &options, answer),
         Request::Match { project, targets } => matched(&project, &targets, answer),
+        Request::Experiment { name, options } => experiment(&name, &options, answer),
         Request::Pack { content, names } => pack(*content, names, files),
         Request::Unpack => unpack(file),
         Request::SamplePhoto { name, max_side } => sample_photo(&name, max_side),
@@ -111,6 +113,14 @@ fn matched(project: &Project, targets: &[PhotoTargets], answer: Reply) -> Outcom
     let adjustment = adjust(&ready, &options, &mut |_| true)?;
     let matching = match_uncoded(&apply(&ready, &adjustment), targets, &MatchOptions::default())?;
     Ok((Answer::Matched(Box::new(matching)), Vec::new()))
+}
+
+fn experiment(name: &str, options: &ExperimentOptions, answer: Reply) -> Outcome {
+    let ran = experiments::run(name, options, &mut |done, of| {
+        answer(Answer::Step { done, of }, Vec::new());
+        true
+    })?;
+    Ok((Answer::Experiment(Box::new(ran)), Vec::new()))
 }
 
 fn pack(content: Content, names: Vec<String>, files: Vec<Vec<u8>>) -> Outcome {

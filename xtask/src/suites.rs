@@ -85,6 +85,8 @@ fn types() -> Outcome<Count> {
 fn browser() -> Outcome<Count> {
     install::packages()?;
     let chromium = install::chromium()?;
+    // The page's numbers are compared with those that Node has.
+    build::pkg()?;
     build::dist()?;
     let address = serve::background(root().join("dist"))?;
     node_tests("e2e", &[("SIGHTLINE_URL", &address), ("CHROMIUM", &chromium)])

@@ -80,6 +80,11 @@ pub fn copy(text: &str) {
     }
 }
 
+/// Milliseconds of the page's clock.
+pub fn now() -> f64 {
+    js_sys::Date::now()
+}
+
 /// Local time as hours and minutes.
 pub fn clock() -> String {
     let now = js_sys::Date::new_0();

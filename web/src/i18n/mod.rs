@@ -4,6 +4,7 @@
 
 mod details;
 pub mod errors;
+pub mod experiments;
 pub mod text;
 
 use leptos::prelude::*;

@@ -42,8 +42,15 @@ impl Desk {
         if !photos.is_empty() {
             self.take_photos(photos);
         }
-        if let Some(text) = texts.pop() {
-            self.take_text(text);
+        if texts.is_empty() {
+            return;
+        }
+        if matches!(self.step.get_untracked(), Step::Control | Step::Identities) {
+            if let Some(text) = texts.pop() {
+                self.take_text(text);
+            }
+        } else {
+            self.take_plates(texts);
         }
     }
 

@@ -5,9 +5,11 @@ pub mod cameras;
 pub mod control;
 pub mod detection;
 pub mod document;
+pub mod experiments;
 pub mod identity;
 pub mod intake;
 pub mod pictures;
+pub mod plates;
 pub mod pool;
 pub mod sample;
 pub mod saving;
@@ -29,6 +31,7 @@ use crate::browser::picture::Picture;
 use crate::i18n::{errors, text};
 use control::Pasted;
 use document::{Change, Document, History};
+use experiments::Experiments;
 use identity::Marks;
 use pool::{Batch, Pool};
 
@@ -43,6 +46,8 @@ pub enum Step {
     Control,
     Adjust,
     Results,
+    /// Beside the path.
+    Experiments,
 }
 
 impl Step {
@@ -59,6 +64,7 @@ impl Step {
             Self::Control => "control",
             Self::Adjust => "adjust",
             Self::Results => "results",
+            Self::Experiments => "experiments",
         }
     }
 
@@ -125,6 +131,7 @@ pub enum JobKind {
     Saving,
     OpeningProject,
     Sample,
+    Experiment,
 }
 
 /// A photo's file as it was dropped.
@@ -195,6 +202,7 @@ pub struct Desk {
     pub saved: RwSignal<Option<(String, Document)>>,
     pub job: RwSignal<Option<Job>, LocalStorage>,
     pub pool: StoredValue<Pool, LocalStorage>,
+    pub experiments: Experiments,
 }
 
 impl Desk {
@@ -228,6 +236,7 @@ impl Desk {
             saved: RwSignal::default(),
             job: RwSignal::new_local(None),
             pool: StoredValue::new_local(Pool::default()),
+            experiments: Experiments::default(),
         }
     }
 
@@ -279,6 +288,9 @@ impl Desk {
 
     /// Follows the address after '#', where the step is open already.
     pub fn follow_hash(self) {
+        if let Some(name) = experiments::from_hash(&page::hash()) {
+            return self.show_experiment(name);
+        }
         let step = Step::from_name(&page::hash());
         let empty = self.document.with_untracked(Document::is_empty);
         let allowed = if empty { Step::Start } else { step };
@@ -327,6 +339,15 @@ impl Desk {
             }
         });
         last
+    }
+
+    /// Says how far long work is that counts by itself.
+    fn count_job(self, batch: Batch, done: usize, total: usize) {
+        self.job.update(|job| {
+            if let Some(job) = job.as_mut().filter(|job| job.batch == batch) {
+                (job.done, job.total) = (done, total);
+            }
+        });
     }
 
     fn end_job(self) {

@@ -4,6 +4,7 @@ pub mod adjust;
 pub mod advice;
 pub mod changes;
 pub mod control;
+pub mod experiments;
 pub mod gross_errors;
 pub mod icon;
 pub mod identities;

@@ -5,10 +5,11 @@ use leptos::prelude::*;
 use super::changes::change_words;
 use super::icon::{Glyph, Icon};
 use super::results::control_figure;
-use super::{adjust, control, identities, keys, photos, results, start, targets};
+use super::{adjust, control, experiments, identities, keys, photos, results, start, targets};
 use crate::browser::{event, file, page};
-use crate::i18n::{self, errors, text};
+use crate::i18n::{self, errors, experiments as words, text};
 use crate::store::document::Document;
+use crate::store::experiments::from_hash;
 use crate::store::{Desk, Job, JobKind, Step, Theme};
 use crate::{format, i18n::language};
 
@@ -24,7 +25,10 @@ pub fn App() -> impl IntoView {
     });
     event::listen_to_hash(move || desk.follow_hash());
     event::listen_to_keys(move |key| keys::handle(desk, &key));
-    page::set_hash("start");
+    match untrack(|| from_hash(&page::hash())) {
+        Some(name) => desk.show_experiment(name),
+        None => page::set_hash("start"),
+    }
     page::warn_before_leaving(move || untrack(|| desk.unsaved()));
     let over = RwSignal::new(false);
     view! {
@@ -51,6 +55,7 @@ pub fn App() -> impl IntoView {
                 Step::Control => view! { <control::Control/> }.into_any(),
                 Step::Adjust => view! { <adjust::Adjust/> }.into_any(),
                 Step::Results => view! { <results::Results/> }.into_any(),
+                Step::Experiments => view! { <experiments::Experiments/> }.into_any(),
             }}
             <Foot/>
         </div>
@@ -114,6 +119,13 @@ fn Head() -> impl IntoView {
                     <button class="text-button" title=text::save_with_photos on:click=move |_| desk.save(true)>{text::save_all}</button>
                 </Show>
                 <span class="rule"></span>
+                <button
+                    class="text-button to-experiments"
+                    aria-current=move || (desk.step.get() == Step::Experiments).then_some("page")
+                    on:click=move |_| desk.show_experiment(desk.experiments.shown.get_untracked())
+                >
+                    {words::experiments}
+                </button>
                 <button
                     class="text-button"
                     aria-label=text::switch_language
@@ -190,6 +202,7 @@ pub fn step_label(step: Step) -> &'static str {
         Step::Control => text::control_and_scale(),
         Step::Adjust => text::adjustment(),
         Step::Results => text::results(),
+        Step::Experiments => words::experiments(),
     }
 }
 
@@ -250,6 +263,7 @@ fn job_label(job: &Job) -> &'static str {
         JobKind::Saving => text::saving(),
         JobKind::OpeningProject => text::opening_project(),
         JobKind::Sample => text::opening_sample(),
+        JobKind::Experiment => words::running(),
     }
 }
 
@@ -325,9 +339,9 @@ pub fn export_tables(desk: Desk) {
     desk.export("csv");
 }
 
-/// Opens the chooser for a project file.
+/// Opens the chooser for a project file, or the text files of plates.
 pub fn choose_project(desk: Desk) {
-    file::choose(".sightline,.zip,.json", false, move |files| desk.take(files));
+    file::choose(".sightline,.zip,.json,.csv,.txt", true, move |files| desk.take(files));
 }
 
 /// Opens the chooser for photos.

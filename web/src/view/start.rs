@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use super::icon::{Glyph, Icon};
 use super::shell::{Progress, choose_photos, choose_project};
-use crate::i18n::text;
+use crate::i18n::{experiments as words, text};
 use crate::store::Desk;
 
 #[component]
@@ -30,6 +30,13 @@ pub fn Start() -> impl IntoView {
                     <span>
                         <b>{text::open_sample}</b>
                         <span>{text::sample_words}</span>
+                    </span>
+                    <Glyph icon=Icon::Arrow/>
+                </button>
+                <button class="experiments-entry" on:click=move |_| desk.show_experiment(desk.experiments.shown.get_untracked())>
+                    <span>
+                        <b>{words::experiments}</b>
+                        <span>{words::experiments_words}</span>
                     </span>
                     <Glyph icon=Icon::Arrow/>
                 </button>

@@ -1,0 +1,94 @@
+//! Plates: readings carried onto fiducial marks, from files or from what was measured in scanned photos.
+
+use std::sync::Arc;
+
+use leptos::prelude::*;
+use leptos::task::spawn_local;
+use sightline::Error;
+use sightline::exchange::Files;
+use sightline::exchange::comparator::{self, Reduced};
+use sightline::experiments;
+use sightline::film::comparator::Upwards;
+
+use super::{Desk, Step};
+use crate::browser::file::NamedFile;
+use crate::i18n::{experiments as words, text};
+
+/// Plates of one's own.
+#[derive(Clone, Copy, Default)]
+pub struct Plates {
+    /// The description as typed; none: that of the film experiment.
+    pub description: RwSignal<Option<String>>,
+    /// What came of it.
+    pub outcome: RwSignal<Option<Result<Arc<Reduced>, Error>>>,
+}
+
+impl Desk {
+    /// Text files that were opened outside the steps that read some: plates, where they describe fiducial marks.
+    pub fn take_plates(self, files: Vec<NamedFile>) {
+        spawn_local(async move {
+            let names = files.iter().map(|file| file.name.clone()).collect::<Vec<_>>().join(", ");
+            let Some(all) = self.contents(files).await else { return };
+            if !comparator::recognises(&all) {
+                return self.warn(move || text::which_text(&names));
+            }
+            match comparator::import(&all) {
+                Ok(reduced) => {
+                    self.experiments.plates.outcome.set(Some(Ok(Arc::new(reduced))));
+                    self.open_plates();
+                }
+                Err(error) => self.warn_error(error),
+            }
+        });
+    }
+
+    /// Names and contents; none, and said so, where the browser cannot read one.
+    async fn contents(self, files: Vec<NamedFile>) -> Option<Files> {
+        let mut all = Files::new();
+        for file in files {
+            match file.content.read().await {
+                Ok(bytes) => all.insert(file.name, bytes),
+                Err(detail) => {
+                    self.warn(move || text::unreadable(&detail));
+                    return None;
+                }
+            };
+        }
+        Some(all)
+    }
+
+    /// Reads files of readings, and whatever description comes with them, and carries them onto the fiducial marks.
+    pub fn reduce_plates(self, files: Vec<NamedFile>) {
+        let description = self.plates_description();
+        spawn_local(async move {
+            let Some(mut all) = self.contents(files).await else { return };
+            all.insert("0 description".to_owned(), description.into_bytes());
+            self.experiments.plates.outcome.set(Some(comparator::import(&all).map(Arc::new)));
+        });
+    }
+
+    /// The same with what was measured in the photos of the open project: pixels of scans.
+    pub fn reduce_scans(self) {
+        let parsed = comparator::parse(&self.plates_description());
+        let reduced = parsed.and_then(|(mut description, _)| {
+            description.setup.upwards = Upwards::No;
+            let readings = self.document.with_untracked(|d| comparator::readings_of(&d.project));
+            comparator::reduce(&description, &readings)
+        });
+        self.experiments.plates.outcome.set(Some(reduced.map(Arc::new)));
+    }
+
+    fn plates_description(self) -> String {
+        self.experiments.plates.description.get_untracked().unwrap_or_else(experiments::film_description)
+    }
+
+    /// Puts the reduced plates on the desk as a project.
+    pub fn open_plates(self) {
+        if let Some(Ok(reduced)) = self.experiments.plates.outcome.get_untracked() {
+            let mut project = reduced.project.clone();
+            project.name = words::plates().to_owned();
+            self.put_project(project);
+            self.go(Step::Adjust);
+        }
+    }
+}
