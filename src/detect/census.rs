@@ -37,12 +37,14 @@ impl Census {
         !self.near(outline).any(|entry| {
             let [c, s] = entry.outline.normalised(outline.u, outline.v);
             if entry.accepted {
-                c.hypot(s) < 0.9 && outline.axes().0 < 1.2 * entry.outline.axes().0
+                c * c + s * s < 0.81 && outline.axes().0 < 1.2 * entry.outline.axes().0 + 1.5
             } else {
                 let size = entry.outline.axes().0;
                 entry.bright == candidate.bright
                     && (entry.outline.u - outline.u).hypot(entry.outline.v - outline.v) < 0.05 * size + 0.3
-                    && (outline.axes().0 / size - 1.0).abs() < 0.1
+                    && [entry.outline.p - outline.p, entry.outline.q - outline.q, entry.outline.r - outline.r]
+                        .iter()
+                        .all(|change| change.abs() < 0.1 * size)
             }
         })
     }

@@ -28,17 +28,33 @@ pub(crate) fn fit(points: &[[f64; 3]]) -> Option<Outline> {
         return None;
     }
 
-    let (mut s1, mut s2, mut s3) = (Matrix3::zeros(), Matrix3::zeros(), Matrix3::zeros());
+    // sums of x^i y^j: of the fourth, third and second order, those of the first are 0 about the centroid
+    let (mut fourth, mut third, mut second) = ([0.0; 5], [0.0; 4], [0.0; 3]);
     for [x, y, w] in points {
         let (x, y) = ((x - mx) / scale, (y - my) / scale);
-        let quadratic = Vector3::new(x * x, x * y, y * y);
-        let linear = Vector3::new(x, y, 1.0);
-        s1 += *w * quadratic * quadratic.transpose();
-        s2 += *w * quadratic * linear.transpose();
-        s3 += *w * linear * linear.transpose();
+        let [xx, xy, yy] = [w * x * x, w * x * y, w * y * y];
+        for (sum, term) in second.iter_mut().zip([xx, xy, yy]) {
+            *sum += term;
+        }
+        for (sum, term) in third.iter_mut().zip([xx * x, xx * y, yy * x, yy * y]) {
+            *sum += term;
+        }
+        for (sum, term) in fourth.iter_mut().zip([xx * x * x, xx * x * y, xx * y * y, xy * y * y, yy * y * y]) {
+            *sum += term;
+        }
     }
+    let [x4, x3y, xxyy, xy3, y4] = fourth;
+    let [x3, xxy, xyy, y3] = third;
+    let [xx, xy, yy] = second;
+    let s1 = Matrix3::new(x4, x3y, xxyy, x3y, xxyy, xy3, xxyy, xy3, y4);
+    let s2 = Matrix3::new(x3, xxy, xx, xxy, xyy, xy, xyy, y3, yy);
+    let det = xx * yy - xy * xy;
+    if det <= 0.0 {
+        return None;
+    }
+    let inverse = Matrix3::new(yy / det, -xy / det, 0.0, -xy / det, xx / det, 0.0, 0.0, 0.0, 1.0 / weight);
     // linear part as a function of the quadratic one: -S3^-1 S2' z
-    let back = -(s3.try_inverse()? * s2.transpose());
+    let back = -(inverse * s2.transpose());
     let mut reduced = s1 + s2 * back;
     reduced = (reduced + reduced.transpose()) / 2.0;
     for i in 0..3 {
@@ -76,31 +92,34 @@ fn from_conic(quadratic: Vector3<f64>, linear: Vector3<f64>) -> Option<Outline> 
     Some(Outline { u, v, p: (m11 + root) / norm, q: (m22 + root) / norm, r: m12 / norm })
 }
 
-/// Eigenvector of the largest eigenvalue of a symmetric matrix, by a fixed number of Jacobi sweeps.
-fn leading_eigenvector(mut m: Matrix3<f64>) -> Option<Vector3<f64>> {
-    if m.iter().any(|x| !x.is_finite()) {
+/// Eigenvector of the one positive eigenvalue of a symmetric matrix.
+///
+/// From above all roots of the characteristic polynomial, which are real, Newton's steps fall to the largest. Rows of
+/// M - λ I are normal to the eigenvector: it is the longest of their cross products.
+fn leading_eigenvector(m: Matrix3<f64>) -> Option<Vector3<f64>> {
+    let trace = m.trace();
+    let minors = m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(0, 1)] + m[(0, 0)] * m[(2, 2)] - m[(0, 2)] * m[(0, 2)]
+        + m[(1, 1)] * m[(2, 2)]
+        - m[(1, 2)] * m[(1, 2)];
+    let det = m.determinant();
+    let mut value = m.norm();
+    if !value.is_finite() {
         return None;
     }
-    let mut vectors = Matrix3::identity();
-    for _ in 0..8 {
-        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-            if m[(i, j)] == 0.0 {
-                continue;
-            }
-            let theta = (m[(j, j)] - m[(i, i)]) / (2.0 * m[(i, j)]);
-            let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
-            let c = 1.0 / (t * t + 1.0).sqrt();
-            let mut turn = Matrix3::identity();
-            turn[(i, i)] = c;
-            turn[(j, j)] = c;
-            turn[(i, j)] = t * c;
-            turn[(j, i)] = -t * c;
-            m = turn.transpose() * m * turn;
-            vectors *= turn;
+    for _ in 0..60 {
+        let polynomial = ((value - trace) * value + minors) * value - det;
+        let step = polynomial / ((3.0 * value - 2.0 * trace) * value + minors);
+        value -= step;
+        // a step that rises is rounding: the root is reached
+        if !(step > 1e-15 * value.abs()) {
+            break;
         }
     }
-    let largest = (0..3).max_by(|&i, &j| m[(i, i)].total_cmp(&m[(j, j)]))?;
-    (m[(largest, largest)] > 0.0).then(|| vectors.column(largest).into())
+    let shifted = m - Matrix3::from_diagonal_element(value);
+    let rows = [0, 1, 2].map(|i| shifted.row(i).transpose());
+    let normals = [rows[0].cross(&rows[1]), rows[0].cross(&rows[2]), rows[1].cross(&rows[2])];
+    let longest = normals.into_iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
+    (value > 0.0 && longest.norm_squared() > 0.0).then(|| longest.normalize())
 }
 
 #[cfg(test)]

@@ -38,7 +38,14 @@ pub(crate) fn fit(points: &mut [EdgePoint], start: &Outline, rough: bool) -> Opt
     // the start may be a pixel off; what lies far from it is left out at first
     let first = if rough { 1.0 + 0.05 * outline.axes().1 } else { 2.0 * TOLERANCE };
     select(points, &outline, &mut distances, SIGMAS, first);
+    let mut changed = true;
     for round in 0..if rough { 3 } else { 0 } {
+        let tolerance = if round == 0 { 2.0 * TOLERANCE } else { TOLERANCE };
+        if !changed {
+            // the same points have the same ellipse
+            changed = select(points, &outline, &mut distances, 1.5, tolerance);
+            continue;
+        }
         let kept: Vec<[f64; 3]> =
             points.iter().filter(|point| point.kept).map(|point| [point.x, point.y, 1.0]).collect();
         if kept.len() < 8.max(count / 3) {
@@ -46,7 +53,7 @@ pub(crate) fn fit(points: &mut [EdgePoint], start: &Outline, rough: bool) -> Opt
         }
         outline = conic::fit(&kept)?;
         // wrong edges have pulled the ellipse and widened the scatter: the narrow limit lets it go from them
-        select(points, &outline, &mut distances, 1.5, if round == 0 { 2.0 * TOLERANCE } else { TOLERANCE });
+        changed = select(points, &outline, &mut distances, 1.5, tolerance);
     }
     let mut result = None;
     for _ in 0..if rough { 1 } else { 4 } {
@@ -101,21 +108,30 @@ fn normal_equations(points: &[EdgePoint], outline: &Outline) -> (SMatrix<f64, 5,
 }
 
 /// Keeps the points that have an edge and lie near the rim: within some robust sigmas, at least `tolerance` pixels.
-fn select(points: &mut [EdgePoint], outline: &Outline, distances: &mut Vec<f64>, sigmas: f64, tolerance: f64) {
+/// Whether others are kept than before.
+fn select(points: &mut [EdgePoint], outline: &Outline, distances: &mut Vec<f64>, sigmas: f64, tolerance: f64) -> bool {
     distances.clear();
-    for point in points.iter().filter(|point| point.strength > 0.0) {
-        distances.push(outline.nearest(point.x, point.y).1.abs());
-    }
-    if distances.is_empty() {
-        return;
-    }
-    let mut sorted = distances.clone();
-    let half = sorted.len() / 2;
-    let (_, &mut median, _) = sorted.select_nth_unstable_by(half, f64::total_cmp);
-    let limit = (sigmas * 1.4826 * median).max(tolerance);
+    distances.extend(
+        points.iter().filter(|point| point.strength > 0.0).map(|point| outline.nearest(point.x, point.y).1.abs()),
+    );
+    // a robust sigma matters only where more than half of the points lie beyond what is always allowed
+    let count = distances.len();
+    let limit = if distances.iter().filter(|d| sigmas * 1.4826 * **d <= tolerance).count() > count / 2 {
+        tolerance
+    } else if count > 0 {
+        let mut sorted = distances.clone();
+        let (_, &mut median, _) = sorted.select_nth_unstable_by(count / 2, f64::total_cmp);
+        (sigmas * 1.4826 * median).max(tolerance)
+    } else {
+        return false;
+    };
+    let mut changed = false;
     for (point, distance) in points.iter_mut().filter(|point| point.strength > 0.0).zip(distances) {
-        point.kept = *distance <= limit;
+        let keep = *distance <= limit;
+        changed |= keep != point.kept;
+        point.kept = keep;
     }
+    changed
 }
 
 #[cfg(test)]

@@ -54,6 +54,7 @@ pub(crate) fn fit<T: Sample>(plane: &Plane<T>, region: &Region, blur: f64, work:
     let flats = work.band.collect(plane, &work.field, region)?;
     let mut normal = Normal::zeros();
     let (mut render_all, mut dropped, mut settled) = (true, None, false);
+    let mut anew = true;
     for _ in 0..12 {
         if !work.field.holds(&state.outline, state.blur) {
             return None;
@@ -67,10 +68,11 @@ pub(crate) fn fit<T: Sample>(plane: &Plane<T>, region: &Region, blur: f64, work:
             let sharp = if state.blur <= BLUR.0 { 0.1 * state.contrast.abs() } else { 0.0 };
             let limit = (5.0 * work.band.robust_deviation().max(surround.noise).max(0.5)).max(sharp);
             let count = work.band.drop_outliers(limit);
-            render_all = count > 0;
+            anew = count > 0;
             dropped = Some(count);
         }
-        if render_all {
+        if render_all || anew {
+            anew = false;
             normal = work.band.normal(state.contrast);
             flats.add_normal(&mut normal);
         }

@@ -2,9 +2,11 @@
 
 use super::band::Region;
 use super::centroid::{self, Centre};
+use super::code::DotLevels;
 use super::edge::{self, EdgePoint, Profile};
 use super::ellipse::{self, EllipseFit};
 use super::fit::{self, Workspace};
+use super::look;
 use super::noise::Levels;
 use super::outline::Outline;
 use super::quality;
@@ -17,6 +19,11 @@ const FLATTEST: f64 = 0.29;
 
 /// Largest share of the inside that may differ from the rest.
 const UNEVEN: f64 = 0.25;
+
+/// Most directions in which a faint target may lie inside of a thin ring.
+const STROKE: u32 = 11;
+/// Largest share of the outline that may be missing without anything in front of it.
+const UNEXPLAINED: f64 = 0.2;
 
 /// Variance that the pixel's width (1/12) and bilinear sampling (about 1/6) add to that of the blur, in square pixels.
 const SAMPLED: f64 = 0.25;
@@ -59,9 +66,8 @@ impl<'a, T: Sample> Measure<'a, T> {
 
     /// Edges, ellipse and surround of a target whose outline is known to a fraction of its size.
     pub fn find(&mut self, start: &Outline, bright: bool) -> Result<Found, Reason> {
-        if !self.stands_out(start, bright) {
-            return Err(Reason::NotAnEllipse);
-        }
+        let small = 2.0 * start.axes().1 < 0.8 * quality::GAP_MINOR;
+        self.stands_out(start, bright, if small { 3 } else { 7 }, 5)?;
         let mut outline = *start;
         let mut fitted = None;
         for round in 0..2 {
@@ -76,6 +82,16 @@ impl<'a, T: Sample> Measure<'a, T> {
             outline = found.outline;
             if found.rms > 0.05 + 1.3 * quality::expected_scatter(b, self.levels.noise, self.strength()) {
                 return Err(Reason::NotAnEllipse);
+            }
+            if round == 0 {
+                // what the second round decides, with room for what it may change
+                if found.occluded > quality::HIDDEN + 0.1 {
+                    return Err(Reason::Occluded);
+                }
+                if outline.axes().1 < 0.85 * FLATTEST * outline.axes().0 {
+                    return Err(Reason::TooFlat);
+                }
+                self.stands_out(&outline, bright, if found.gap <= quality::SMALL_GAP { 2 } else { 7 }, 3)?;
             }
             fitted = Some(found);
         }
@@ -101,7 +117,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         if ellipse.occluded > quality::HIDDEN {
             return Err(Reason::Occluded);
         }
-        if ellipse.rms > 0.3 + 0.03 * b {
+        if ellipse.rms > 0.3 + 0.03 * b || !quality::size_allows(&ellipse) {
             return Err(Reason::NotAnEllipse);
         }
         let kept = undisturbed(&self.edges);
@@ -116,40 +132,32 @@ impl<'a, T: Sample> Measure<'a, T> {
         if signed < (4.0 * surround.noise.min(4.0 * self.levels.noise + 2.0)).max(self.threshold()) {
             return Err(Reason::LowContrast);
         }
+        let levels = DotLevels { dot: surround.level + surround.contrast, background: surround.level };
+        let faint = signed < quality::FAINT * self.noise(&surround);
+        if faint && look::stroke(&self.plane, &outline, levels) > STROKE
+            || ellipse.occluded > UNEXPLAINED && look::unexplained(&self.plane, &outline, &kept, levels) > UNEXPLAINED
+        {
+            return Err(Reason::NotAnEllipse);
+        }
         if surround.uneven > UNEVEN || !quality::outline_allows(&ellipse, self.noise(&surround), signed) {
             return Err(Reason::NotAnEllipse);
         }
         Ok(Found { ellipse, surround, kept, blur: self.blur(signed), bright })
     }
 
-    /// A quick look before the edges: in most directions it is brighter (or darker) inside than outside.
-    fn stands_out(&self, outline: &Outline, bright: bool) -> bool {
-        let (_, b, _) = outline.axes();
-        let sign = if bright { 1.0 } else { -1.0 };
-        let inner = (1.0 - 2.0 / b.max(1.0)).clamp(0.2, 0.85);
-        let threshold = self.threshold() as f32;
-        let (mut seen, mut steps, mut levels) = (0, [0f32; 16], [0f32; 16]);
-        for (rim, (step, level)) in edge::rim_points(outline, 16).zip(steps.iter_mut().zip(&mut levels)) {
-            let [nx, ny] = rim.normal;
-            let (x, y) = (rim.x + 2.5 * nx, rim.y + 2.5 * ny);
-            if !self.plane.holds(x, y, 0.0) {
-                continue;
+    /// A quick look: as many directions as `missing` may be without a step, `open` may lead out of the shape.
+    fn stands_out(&self, outline: &Outline, bright: bool, missing: u32, open: u32) -> Result<(), Reason> {
+        match look::look(&self.plane, outline, bright, self.threshold() as f32, missing) {
+            Some(look) if f64::from(look.step) < 3.3 * self.levels.noise => Err(Reason::LowContrast),
+            Some(look) if look.even && look.agree + missing >= look::DIRECTIONS => {
+                if look.open > open {
+                    Err(Reason::Touching)
+                } else {
+                    Ok(())
+                }
             }
-            let [dx, dy] = [rim.x - outline.u, rim.y - outline.v];
-            let inside = self.plane.nearest(outline.u + inner * dx, outline.v + inner * dy);
-            seen += 1;
-            *level = inside;
-            *step = sign * (inside - self.plane.nearest(x, y));
+            _ => Err(Reason::NotAnEllipse),
         }
-        let mut sorted = steps;
-        sorted.sort_unstable_by(f32::total_cmp);
-        // the typical step of the better half
-        let least = (0.4 * sorted[11]).max(threshold);
-        let agree = steps.iter().filter(|&&step| step > least).count();
-        levels.sort_unstable_by(f32::total_cmp);
-        // two fifths of the outline may be hidden, and every target is even inside
-        let even = levels[13] - levels[2] < 0.8 * sorted[11];
-        seen > 0 && agree * 16 >= seen * 9 && even
     }
 
     /// Median difference over two pixels across the kept edges.

@@ -9,11 +9,13 @@
 use super::ellipse::EllipseFit;
 
 /// Largest share of the outline that may be missing in one piece without further demands.
-const SMALL_GAP: f64 = 0.1;
+pub(crate) const SMALL_GAP: f64 = 0.1;
 /// Largest share of the outline that may be missing at all.
 pub(crate) const HIDDEN: f64 = 0.42;
+/// Contrast, in standard deviations of the noise, below which noise hides what tells a letter's inside from an ellipse.
+pub(crate) const FAINT: f64 = 25.0;
 /// Smallest minor axis, in pixels, of a target with a gap.
-const GAP_MINOR: f64 = 12.0;
+pub(crate) const GAP_MINOR: f64 = 12.0;
 /// Largest unexplained share of the contrast of a target with a gap.
 const GAP_MISFIT: f64 = 0.024;
 
@@ -35,11 +37,15 @@ fn gap(ellipse: &EllipseFit) -> f64 {
     ellipse.gap.max(0.6 * ellipse.occluded)
 }
 
+/// Whether the outline is large enough for the gap that it has.
+pub(crate) fn size_allows(ellipse: &EllipseFit) -> bool {
+    gap(ellipse) <= SMALL_GAP || 2.0 * ellipse.outline.axes().1 >= GAP_MINOR
+}
+
 /// Whether the outline alone still allows a target.
 pub(crate) fn outline_allows(ellipse: &EllipseFit, noise: f64, contrast: f64) -> bool {
-    let b = ellipse.outline.axes().1;
-    let gap_allows = gap(ellipse) <= SMALL_GAP || 2.0 * b >= GAP_MINOR && contrast > 12.0 * noise;
-    gap_allows && edge_ratio(ellipse, noise, contrast) < 1.1
+    let gap_allows = gap(ellipse) <= SMALL_GAP || contrast > 20.0 * noise;
+    size_allows(ellipse) && gap_allows && edge_ratio(ellipse, noise, contrast) < 1.1
 }
 
 /// Whether outline and fit together are those of a target; `uneven` is the fit's residual less its mean profile.

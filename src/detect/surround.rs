@@ -41,6 +41,7 @@ pub(crate) fn measure<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64,
     let width = (a * b).sqrt() + 6.0;
     let spacing = (width / 24.0).max(1.0);
     let mut spots: Vec<Spot> = Vec::with_capacity(kept.len() * 8);
+    let mut sums = Sums::default();
     let mut found: Option<(Vector3<f64>, f64)> = None;
     let mut outer = start;
     let mut ring = Vec::with_capacity(2 * kept.len());
@@ -60,6 +61,7 @@ pub(crate) fn measure<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64,
                 spots.extend_from_slice(&ring);
                 if step == 1 {
                     found = Some(robust_plane(&mut spots)?);
+                    sums.add(&spots);
                 }
             }
             Some((coefficients, noise)) => {
@@ -77,16 +79,16 @@ pub(crate) fn measure<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64,
                 if square > (1.7 * floor).powi(2) || mean.abs() > 0.9 * floor {
                     break;
                 }
-                spots.extend_from_slice(&ring);
+                sums.add(&ring);
                 if step % 3 == 0 {
-                    (*coefficients, *noise) = plane_through(&spots)?;
+                    (*coefficients, *noise) = sums.plane()?;
                 }
             }
         }
         outer = distance;
         step += 1;
     }
-    let (coefficients, noise) = if outer > start + 1.5 * spacing { plane_through(&spots)? } else { found? };
+    let (coefficients, noise) = if outer > start + 1.5 * spacing { sums.plane()? } else { found? };
     let mut inside = Vec::with_capacity(33);
     inside.extend(pixel(outline.u, outline.v));
     for radius in [0.25, 0.5, 0.7] {
@@ -113,20 +115,41 @@ fn residual(coefficients: &Vector3<f64>, [x, y, level]: &Spot) -> f64 {
     level - coefficients.x - coefficients.y * x - coefficients.z * y
 }
 
-/// Least-squares plane and the standard deviation from it.
+/// Sums of the normal equations of a plane.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    normal: Matrix3<f64>,
+    right: Vector3<f64>,
+    square: f64,
+    count: usize,
+}
+
+impl Sums {
+    fn add(&mut self, spots: &[Spot]) {
+        for [x, y, level] in spots {
+            let row = Vector3::new(1.0, *x, *y);
+            self.normal += row * row.transpose();
+            self.right += row * *level;
+            self.square += level * level;
+        }
+        self.count += spots.len();
+    }
+
+    /// Least-squares plane and the standard deviation from it.
+    fn plane(&self) -> Option<(Vector3<f64>, f64)> {
+        if self.count < 8 {
+            return None;
+        }
+        let coefficients = self.normal.cholesky()?.solve(&self.right);
+        let square = self.square - coefficients.dot(&self.right);
+        Some((coefficients, (square.max(0.0) / (self.count - 3) as f64).sqrt()))
+    }
+}
+
 fn plane_through(spots: &[Spot]) -> Option<(Vector3<f64>, f64)> {
-    if spots.len() < 8 {
-        return None;
-    }
-    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
-    for [x, y, level] in spots {
-        let row = Vector3::new(1.0, *x, *y);
-        normal += row * row.transpose();
-        right += row * *level;
-    }
-    let coefficients = normal.cholesky()?.solve(&right);
-    let square: f64 = spots.iter().map(|spot| residual(&coefficients, spot).powi(2)).sum();
-    Some((coefficients, (square / (spots.len() - 3) as f64).sqrt()))
+    let mut sums = Sums::default();
+    sums.add(spots);
+    sums.plane()
 }
 
 /// The same without outliers, which are removed from the spots: further than three robust sigmas from the plane.

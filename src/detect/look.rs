@@ -1,0 +1,115 @@
+//! A quick look at a blob, before anything is fitted: sixteen directions, two pixels each.
+//!
+//! Inside, a target has one level; outside, in most directions, it has another. Where the outside has the inside's own
+//! level, the shape is open there: it is joined with something else of its grey, or it is the bowl of a letter. What hides
+//! a part of a target differs from both.
+
+use super::code::DotLevels;
+use super::edge::rim_points;
+use super::outline::{Outline, RimPoint};
+use crate::image::{Plane, Sample};
+
+/// Directions that are looked at.
+pub(crate) const DIRECTIONS: u32 = 16;
+/// Distance of the outer pixel from the rim: beyond the blur of a sharp photograph.
+const OUTSIDE: f64 = 2.5;
+
+/// What was seen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Look {
+    /// Directions with a step of the right sign, at least two fifths of the typical one.
+    pub agree: u32,
+    /// Mean step of the better three quarters: single pixels, so it is good to a quarter of their noise.
+    pub step: f32,
+    /// Directions in which the inside goes on outside.
+    pub open: u32,
+    /// Whether the inside has one level, but for two fifths of the outline that something may hide.
+    pub even: bool,
+}
+
+/// Looks at a blob; none as soon as more than `missing` directions have no step above the threshold.
+pub(crate) fn look<T: Sample>(
+    plane: &Plane<T>,
+    outline: &Outline,
+    bright: bool,
+    threshold: f32,
+    missing: u32,
+) -> Option<Look> {
+    let b = outline.axes().1;
+    let sign = if bright { 1.0 } else { -1.0 };
+    let inner = (1.0 - 2.0 / b.max(1.0)).clamp(0.2, 0.85);
+    let (mut steps, mut insides) = ([0f32; DIRECTIONS as usize], [0f32; DIRECTIONS as usize]);
+    let mut without = 0;
+    for ((rim, step), level) in around(outline).zip(&mut steps).zip(&mut insides) {
+        let [nx, ny] = rim.normal;
+        let (x, y) = (rim.x + OUTSIDE * nx, rim.y + OUTSIDE * ny);
+        let [dx, dy] = [rim.x - outline.u, rim.y - outline.v];
+        *level = plane.nearest(outline.u + inner * dx, outline.v + inner * dy);
+        if plane.holds(x, y, 0.0) {
+            *step = sign * (*level - plane.nearest(x, y));
+        }
+        without += u32::from(*step <= threshold);
+        if without > missing {
+            return None;
+        }
+    }
+    let (mut sorted, mut levels) = (steps, insides);
+    sorted.sort_unstable_by(f32::total_cmp);
+    levels.sort_unstable_by(f32::total_cmp);
+    // the typical step is that of the better half
+    let typical = sorted[11];
+    let least = (0.4 * typical).max(threshold);
+    let own = |level: f32| (level - levels[8]).abs() < 0.3 * typical;
+    let open = steps.iter().zip(&insides).filter(|(step, inside)| own(**inside) && own(**inside - sign * **step));
+    Some(Look {
+        agree: steps.iter().filter(|step| **step > least).count() as u32,
+        step: sorted[4..].iter().sum::<f32>() / 12.0,
+        open: open.count() as u32,
+        even: levels[13] - levels[2] < 0.8 * typical,
+    })
+}
+
+/// Rim points in the directions, the first few already far apart: what is no blob shows early.
+fn around(outline: &Outline) -> impl Iterator<Item = RimPoint> + use<> {
+    let outline = *outline;
+    // a turn by five sixteenths goes through all of them
+    let [turn_c, turn_s] = [-0.382_683_432_365_089_8, 0.923_879_532_511_286_7];
+    let (mut c, mut s) = (1.0, 0.0);
+    (0..DIRECTIONS).map(move |_| {
+        let rim = outline.rim(c, s);
+        (c, s) = (c * turn_c - s * turn_s, s * turn_c + c * turn_s);
+        rim
+    })
+}
+
+/// Directions in which the inside's level comes back outside of the rim, within about the semi-minor axis: nearly all of
+/// them for the inside of a letter's stroke, those of the set bits in a code ring.
+pub(crate) fn stroke<T: Sample>(plane: &Plane<T>, outline: &Outline, levels: DotLevels) -> u32 {
+    let reach = 1.1 * outline.axes().1 + 1.0;
+    let half = 0.5 * (levels.dot - levels.background).abs();
+    let comes_back = |rim: RimPoint| {
+        let [nx, ny] = rim.normal;
+        (0..(reach - 0.5) as u32).map(|k| reach - f64::from(k)).any(|distance| {
+            let level = f64::from(plane.nearest(rim.x + distance * nx, rim.y + distance * ny));
+            (level - levels.dot).abs() < half
+        })
+    };
+    rim_points(outline, DIRECTIONS as usize).filter(|rim| comes_back(*rim)).count() as u32
+}
+
+/// Share of the outline that is missing though nothing lies in front of it: where neither side of the rim shows a level
+/// that differs, by 0.3 of the contrast, from both the target's and the background's.
+pub(crate) fn unexplained<T: Sample>(plane: &Plane<T>, outline: &Outline, kept: &[bool], levels: DotLevels) -> f64 {
+    let inner = (1.0 - 2.0 / outline.axes().1.max(1.0)).clamp(0.2, 0.85);
+    let limit = 0.3 * (levels.dot - levels.background).abs();
+    let foreign = |x: f64, y: f64| {
+        let level = f64::from(plane.nearest(x, y));
+        (level - levels.dot).abs() > limit && (level - levels.background).abs() > limit
+    };
+    let missing = rim_points(outline, kept.len()).zip(kept).filter(|(_, kept)| !**kept).filter(|(rim, _)| {
+        let [nx, ny] = rim.normal;
+        let [dx, dy] = [rim.x - outline.u, rim.y - outline.v];
+        !foreign(rim.x + OUTSIDE * nx, rim.y + OUTSIDE * ny) && !foreign(outline.u + inner * dx, outline.v + inner * dy)
+    });
+    missing.count() as f64 / kept.len().max(1) as f64
+}
