@@ -111,7 +111,7 @@ fn check(options: &DetectOptions) -> Result<()> {
 fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let levels = noise::levels(&plane);
     let blobs = search::search(&plane, &levels, options);
-    let mut census = Census::default();
+    let mut census = Census::new(plane.width, plane.height);
     for no in &blobs.rejected {
         census.count(no);
     }

@@ -160,6 +160,44 @@ impl<'a, T: Sample> Plane<'a, T> {
         self.row(y)[x].level() as f32
     }
 
+    /// Bilinear samples at equal steps from a place on.
+    ///
+    /// Places are counted in 2^-16 pixels, so that walking costs additions of whole numbers.
+    pub fn profile(&self, start: [f64; 2], step: [f64; 2], out: &mut [f32]) {
+        const ONE: f64 = 65536.0;
+        let count = out.len() as f64;
+        let ends = [start, [start[0] + count * step[0], start[1] + count * step[1]]];
+        // further out than 2^15 pixels, and at the border, the samples are taken one by one
+        let inside = ends.iter().all(|end| {
+            let [x, y] = [end[0] - 0.5, end[1] - 0.5];
+            x >= 0.0
+                && y >= 0.0
+                && x < (self.width as f64 - 2.0).min(32000.0)
+                && y < (self.height as f64 - 2.0).min(32000.0)
+        });
+        if !inside {
+            for (i, value) in out.iter_mut().enumerate() {
+                let t = i as f64;
+                *value = self.sample((start[0] + t * step[0]) as f32, (start[1] + t * step[1]) as f32);
+            }
+            return;
+        }
+        let [mut x, mut y] = [(start[0] - 0.5) * ONE, (start[1] - 0.5) * ONE].map(|place| place as i32);
+        let [dx, dy] = step.map(|step| (step * ONE) as i32);
+        for value in out {
+            let at = (y >> 16) as usize * self.width + (x >> 16) as usize;
+            let [fx, fy] = [x, y].map(|place| (place & 0xffff) as f32 * (1.0 / 65536.0));
+            if let (Some([a, b]), Some([c, d])) =
+                (self.samples.get(at..at + 2), self.samples.get(at + self.width..at + self.width + 2))
+            {
+                let [a, b, c, d] = [a, b, c, d].map(|sample| sample.level() as f32);
+                let (top, bottom) = (a + fx * (b - a), c + fx * (d - c));
+                *value = top + fy * (bottom - top);
+            }
+            (x, y) = (x + dx, y + dy);
+        }
+    }
+
     /// Bilinear sample at pixel coordinates (first pixel's centre 0.5, 0.5), clamped to the picture.
     #[inline]
     pub fn sample(&self, u: f32, v: f32) -> f32 {

@@ -4,8 +4,6 @@
 //! ellipse; specks lie inside of targets. Everything decided is entered into a grid of cells, and a candidate is compared
 //! with its neighbours only.
 
-use std::collections::HashMap;
-
 use super::blob::NoBlob;
 use super::outline::Outline;
 use super::search::Candidate;
@@ -23,14 +21,22 @@ struct Entry {
 }
 
 /// Targets and decided places.
-#[derive(Default)]
 pub(crate) struct Census {
     pub targets: Vec<Target>,
     pub detection: Detection,
-    cells: HashMap<(i32, i32), Vec<Entry>>,
+    cells: Vec<Vec<Entry>>,
+    columns: usize,
+    rows: usize,
 }
 
 impl Census {
+    /// Of a picture of this size, with nothing in it yet.
+    pub fn new(width: usize, height: usize) -> Self {
+        let [columns, rows] = [width, height].map(|size| size / CELL as usize + 1);
+        let cells = vec![Vec::new(); columns * rows];
+        Self { targets: Vec::new(), detection: Detection::default(), cells, columns, rows }
+    }
+
     /// Whether nothing was decided about a candidate yet: it is no decided outline again and lies in no target.
     pub fn is_new(&self, candidate: &Candidate) -> bool {
         let outline = &candidate.outline;
@@ -86,24 +92,27 @@ impl Census {
         Detection { targets: self.targets, ..self.detection }
     }
 
-    /// Entries whose cells the outline's centre lies in.
+    /// Entries that touch the cell in which the outline's centre lies.
     fn near(&self, outline: &Outline) -> impl Iterator<Item = &Entry> {
-        self.cells.get(&cell(outline.u, outline.v)).into_iter().flatten()
+        self.cells[self.cell(outline.u, outline.v)].iter()
     }
 
     /// Enters into every cell that the outline's box touches.
     fn enter(&mut self, entry: Entry) {
         let (half_u, half_v) = entry.outline.half_box();
-        let low = cell(entry.outline.u - half_u, entry.outline.v - half_v);
-        let high = cell(entry.outline.u + half_u, entry.outline.v + half_v);
-        for x in low.0..=high.0.min(low.0.saturating_add(64)) {
-            for y in low.1..=high.1.min(low.1.saturating_add(64)) {
-                self.cells.entry((x, y)).or_default().push(entry);
+        let low = self.cell(entry.outline.u - half_u, entry.outline.v - half_v);
+        let high = self.cell(entry.outline.u + half_u, entry.outline.v + half_v);
+        for row in low / self.columns..=high / self.columns {
+            for column in low % self.columns..=high % self.columns {
+                self.cells[row * self.columns + column].push(entry);
             }
         }
     }
-}
 
-fn cell(u: f64, v: f64) -> (i32, i32) {
-    ((u / CELL).floor() as i32, (v / CELL).floor() as i32)
+    /// Index of the cell of a place; places outside of the picture belong to its border.
+    fn cell(&self, u: f64, v: f64) -> usize {
+        let column = ((u / CELL) as usize).min(self.columns - 1);
+        let row = ((v / CELL) as usize).min(self.rows - 1);
+        row * self.columns + column
+    }
 }

@@ -54,11 +54,11 @@ pub(crate) fn search<T: Sample>(
     let samples = 2 * side + 3;
     for rim in rim_points(outline, count) {
         let mut profile = [0f32; LONGEST];
-        let [nx, ny] = rim.normal.map(|n| n as f32);
-        let (x0, y0) = (rim.x as f32, rim.y as f32);
-        for (i, value) in profile[..samples].iter_mut().enumerate() {
-            let t = i as f32 - (side as f32 + 1.0);
-            *value = sign * plane.sample(x0 + t * nx, y0 + t * ny);
+        let back = side as f64 + 1.0;
+        let start = [rim.x - back * rim.normal[0], rim.y - back * rim.normal[1]];
+        plane.profile(start, rim.normal, &mut profile[..samples]);
+        for value in &mut profile[..samples] {
+            *value *= sign;
         }
         let fall = |i: usize| profile[i - 1] - profile[i + 1];
         let mut best = (f32::NEG_INFINITY, side + 1);

@@ -38,7 +38,7 @@ pub(crate) struct Workspace {
     band: Band,
 }
 
-/// Corrections below this, in pixels, end the iteration.
+/// Expected corrections below this, in pixels, end the iteration.
 const CONVERGED: f64 = 2e-4;
 
 /// Fits the rendered ellipse, started at the region's outline with the given blur; none when it does not converge.
@@ -54,7 +54,7 @@ pub(crate) fn fit<T: Sample>(plane: &Plane<T>, region: &Region, blur: f64, work:
     let flats = work.band.collect(plane, &work.field, region)?;
     let mut normal = Normal::zeros();
     let (mut render_all, mut dropped, mut settled) = (true, None, false);
-    let mut anew = true;
+    let (mut anew, mut last) = (true, f64::INFINITY);
     for _ in 0..12 {
         if !work.field.holds(&state.outline, state.blur) {
             return None;
@@ -93,7 +93,9 @@ pub(crate) fn fit<T: Sample>(plane: &Plane<T>, region: &Region, blur: f64, work:
         if !state.outline.is_proper() {
             return None;
         }
-        settled = size < CONVERGED;
+        // corrections shrink by about the same factor each time: the next one would be this small
+        settled = size * (size / last).min(1.0) < CONVERGED;
+        last = size;
         if settled && dropped.is_some() {
             break;
         }

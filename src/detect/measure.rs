@@ -76,7 +76,9 @@ impl<'a, T: Sample> Measure<'a, T> {
                 return Err(Reason::NotAnEllipse);
             }
             let reach = if round == 0 { (0.3 * b).clamp(2.0, 12.0) } else { (0.15 * b).clamp(2.0, 6.0) };
+            // most of what is no target shows in a few rays
             let count = edge::ray_count(&outline);
+            let count = if round == 0 { count.min(32) } else { count };
             edge::search(&self.plane, &outline, bright, reach, count, self.threshold(), &mut self.edges);
             let found = ellipse::fit(&mut self.edges, &outline, round == 0).ok_or(Reason::NotAnEllipse)?;
             outline = found.outline;
