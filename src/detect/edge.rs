@@ -21,9 +21,10 @@ pub(crate) struct EdgePoint {
 /// Longest ray, in samples.
 const LONGEST: usize = 64;
 
-/// Number of rays for an outline: about one a pixel and a half of rim.
+/// Number of rays for an outline: about one a pixel and a half of rim. A multiple of four, so that the rays of a turned
+/// or mirrored picture are the same rays.
 pub(crate) fn ray_count(outline: &Outline) -> usize {
-    ((outline.perimeter() / 1.5) as usize).clamp(20, 48)
+    ((outline.perimeter() / 6.0).round() as usize * 4).clamp(20, 48)
 }
 
 /// Rim points at equal steps of the parameter.

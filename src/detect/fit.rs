@@ -38,11 +38,15 @@ pub(crate) struct Workspace {
     band: Band,
 }
 
-/// Expected corrections below this, in pixels, end the iteration.
-const CONVERGED: f64 = 2e-4;
-
-/// Fits the rendered ellipse, started at the region's outline with the given blur; none when it does not converge.
-pub(crate) fn fit<T: Sample>(plane: &Plane<T>, region: &Region, blur: f64, work: &mut Workspace) -> Option<Fit> {
+/// Fits the rendered ellipse, started at the region's outline with the given blur, until corrections below `converged`
+/// pixels are expected; none when that does not happen.
+pub(crate) fn fit<T: Sample>(
+    plane: &Plane<T>,
+    region: &Region,
+    blur: f64,
+    converged: f64,
+    work: &mut Workspace,
+) -> Option<Fit> {
     let surround = region.surround;
     let mut state = State {
         outline: region.outline,
@@ -94,7 +98,7 @@ pub(crate) fn fit<T: Sample>(plane: &Plane<T>, region: &Region, blur: f64, work:
             return None;
         }
         // corrections shrink by about the same factor each time: the next one would be this small
-        settled = size * (size / last).min(1.0) < CONVERGED;
+        settled = size * (size / last).min(1.0) < converged;
         last = size;
         if settled && dropped.is_some() {
             break;

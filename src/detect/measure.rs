@@ -34,6 +34,19 @@ fn undisturbed(edges: &[EdgePoint]) -> Vec<bool> {
     (0..count).map(|k| edges[k].kept || edges[(k + 1) % count].kept && edges[(k + count - 1) % count].kept).collect()
 }
 
+/// Expected corrections, in pixels, that end the first and the second fit.
+const ROUGH: f64 = 2e-3;
+const CONVERGED: f64 = 1e-4;
+
+/// Blur from which on the surround begins further out, and what is assumed below it.
+const BLURRED: f64 = 1.2;
+const SHARP: f64 = 0.9;
+
+/// Half the width of the band of pixels that the rim's blur reaches.
+fn half_band(blur: f64) -> f64 {
+    3.6 * (blur * blur + 1.0 / 12.0).sqrt() + 0.8
+}
+
 /// What measuring needs besides the outline; scratch is reused.
 pub(crate) struct Measure<'a, T> {
     pub plane: Plane<'a, T>,
@@ -123,9 +136,9 @@ impl<'a, T: Sample> Measure<'a, T> {
             return Err(Reason::NotAnEllipse);
         }
         let kept = undisturbed(&self.edges);
-        let rough = surround::measure(&self.plane, &outline, 0.9, &kept).ok_or(Reason::AtBorder)?;
+        let rough = surround::measure(&self.plane, &outline, SHARP, &kept).ok_or(Reason::AtBorder)?;
         let blur = self.blur(rough.contrast.abs());
-        let surround = if blur > 1.2 {
+        let surround = if blur > BLURRED {
             surround::measure(&self.plane, &outline, blur, &kept).ok_or(Reason::AtBorder)?
         } else {
             rough
@@ -261,16 +274,28 @@ impl<'a, T: Sample> Measure<'a, T> {
     }
 
     /// The fit of the rendered ellipse, checked against what it started from.
+    ///
+    /// Which pixels count depends on the outline around which they are chosen. The first fit starts from the edges and finds
+    /// the outline; the second takes its pixels around that outline, so that the way to it leaves no trace in the result.
     pub fn least_squares(&mut self, found: &Found) -> Result<fit::Fit, Reason> {
+        let whole = found.kept.iter().all(|kept| *kept);
         let region = Region {
             outline: found.ellipse.outline,
-            half_band: 3.6 * (found.blur * found.blur + 1.0 / 12.0).sqrt() + 0.8,
+            half_band: half_band(found.blur),
             surround: &found.surround,
             kept: &found.kept,
-            whole: found.kept.iter().all(|kept| *kept),
+            whole,
             saturation: self.levels.saturation,
         };
-        let fit = fit::fit(&self.plane, &region, found.blur, &mut self.work).ok_or(Reason::NoFit)?;
+        let first = fit::fit(&self.plane, &region, found.blur, ROUGH, &mut self.work).ok_or(Reason::NoFit)?;
+        let all = vec![true; edge::ray_count(&first.outline)];
+        let kept = if whole { &all } else { &found.kept };
+        let reach = if first.blur > BLURRED { first.blur } else { SHARP };
+        let mut surround = surround::measure(&self.plane, &first.outline, reach, kept).ok_or(Reason::NoFit)?;
+        surround.contrast = first.contrast;
+        let last =
+            Region { outline: first.outline, half_band: half_band(first.blur), surround: &surround, kept, ..region };
+        let fit = fit::fit(&self.plane, &last, first.blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
         let (a, b, _) = fit.outline.axes();
         let moved = (fit.outline.u - region.outline.u).hypot(fit.outline.v - region.outline.v);
         let contrast = if found.bright { fit.contrast } else { -fit.contrast };
