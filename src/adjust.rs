@@ -1,13 +1,18 @@
 //! Bundle adjustment: weighted least squares on image coordinates, control, distances and observed parameters.
 //!
 //! [`adjust`] numbers the document (`network`), chooses an order of the photos (`layout`), iterates (`iteration`) on
-//! reduced normal equations (`normal`) factored in tiles (`tiles`, `kernel`), brings the result into its datum
-//! (`datum`) and computes the statistics (`cofactor`, `result`).
+//! reduced normal equations (`normal`: points are eliminated in `eliminate`, kept in `eliminated`) factored in tiles
+//! (`tiles`, `kernel`), brings the result into its datum (`datum`) and computes the statistics (`cofactor`, `result`).
+//! Circular targets of known diameter are freed of their eccentricity (`eccentric`).
 
+mod blocks;
 mod cofactor;
 mod datum;
 mod doctor;
-mod full;
+mod eccentric;
+mod eliminate;
+mod eliminated;
+mod gradient;
 mod iteration;
 mod kernel;
 mod layout;
@@ -20,6 +25,7 @@ mod rows;
 mod session;
 mod snooping;
 mod tiles;
+mod triple;
 mod unmodelled;
 
 use crate::adjustment::{AdjustOptions, Adjustment, Advice, Iteration, Termination};

@@ -12,14 +12,14 @@
 use nalgebra::{DMatrix, Matrix3, Matrix6, SMatrix};
 
 use super::datum::{FreeDatum, SIMILARITY, at_photo, at_point};
-use super::full::Elimination;
 use super::kernel::TILE;
 use super::layout::Layout;
 use super::network::Network;
-use super::normal::{Normal, backward3, bar_row, forward3, with_interior_size};
+use super::normal::{Normal, bar_row, with_interior_size};
 use super::parameters::State;
 use super::rows::{Row, Weighting, linearise, models};
 use super::tiles::TileMatrix;
+use super::triple::{backward3, forward3};
 
 /// Cofactors in the scaled unknowns of the frame of the adjustment.
 #[derive(Clone, Debug, Default)]
@@ -111,12 +111,13 @@ fn multiply_pair(q: &[f64], zi: &[[f64; 6]; 3], zk: &[[f64; 6]; 3], ti: &mut [[f
         let column: &[f64; 6] = column[..6].try_into().unwrap_or(&[0.0; 6]);
         for m in 0..3 {
             let factor = zk[m][c];
-            let mut sum = 0.0;
+            // Two sums side by side, as the lanes have it.
+            let mut sum = [0.0; 2];
             for r in 0..6 {
                 ti[m][r] += column[r] * factor;
-                sum += column[r] * zi[m][r];
+                sum[r % 2] += column[r] * zi[m][r];
             }
-            tk[m][c] += sum;
+            tk[m][c] += sum[0] + sum[1];
         }
     }
 }
@@ -141,7 +142,7 @@ fn compute<const N: usize>(
     let models = models(state)?;
     let inverse = normal.matrix.inverse();
     let transformation = match datum {
-        Some(datum) => Some(transformation::<N>(normal, network, layout, state, weighting, datum)?),
+        Some(datum) => Some(transformation(normal, network, layout, state, datum)?),
         None => None,
     };
     let mut result = Cofactors {
@@ -152,11 +153,12 @@ fn compute<const N: usize>(
     reduced_blocks(&mut result, network, layout, state, &inverse, transformation.as_ref());
 
     let mut rows: Vec<Row<N>> = Vec::new();
-    let mut elimination = Elimination::<N>::new();
+    let mut places: Vec<usize> = Vec::new();
+    let mut interiors: Vec<(usize, usize, [[f64; N]; 3])> = Vec::new();
     let mut t_photos: Vec<[[f64; 6]; 3]> = Vec::new();
     let mut behind = 0;
     for (point, network_point) in network.points.iter().enumerate() {
-        if !linearise(network, state, &models, weighting, point, &mut rows, &mut behind) {
+        if full && !linearise(network, state, &models, weighting, point, &mut rows, &mut behind) {
             return None;
         }
         if network_point.kept {
@@ -164,9 +166,16 @@ fn compute<const N: usize>(
             push_point(&mut result, network, layout, state, point, q, transformation.as_ref(), |at, v| v[at]);
             continue;
         }
-        let l = normal.points[point].l;
-        elimination.fill(network, layout, &l, &rows);
-        let Elimination { photos: z, places, interiors } = &elimination;
+        let l = normal.eliminated.factors[point].l;
+        let z = &normal.eliminated.z[network_point.rays.clone()];
+        places.clear();
+        places.extend(network.rays[network_point.rays.clone()].iter().map(|ray| layout.photo[ray.photo]));
+        interiors.clear();
+        interiors.extend(normal.eliminated.own(point).iter().map(|own| {
+            let mut u = [[0.0; N]; 3];
+            (0..3).for_each(|m| u[m][..own.length].copy_from_slice(normal.eliminated.u(own, m)));
+            (own.interior, layout.interior[own.interior], u)
+        }));
         t_photos.clear();
         t_photos.resize(z.len(), [[0.0; 6]; 3]);
         for i in 0..z.len() {
@@ -184,7 +193,7 @@ fn compute<const N: usize>(
                 multiply(&inverse, (*at, length), (*place, 6), &z[i], t);
                 multiply(&inverse, (*place, 6), (*at, length), u, &mut t_photos[i]);
             }
-            for (other, other_at, v) in interiors {
+            for (other, other_at, v) in &interiors {
                 let other_length = network.interiors[*other].estimated.len();
                 multiply(&inverse, (*at, length), (*other_at, other_length), v, t);
             }
@@ -228,27 +237,10 @@ fn compute<const N: usize>(
             q.row_mut(a).fill(0.0);
             q.column_mut(a).fill(0.0);
         }
-        let z_with = |v: &[f64]| -> [f64; 3] {
-            std::array::from_fn(|m| {
-                let photos: f64 = z
-                    .iter()
-                    .zip(places)
-                    .map(|(z, at)| z[m].iter().zip(&v[*at..]).map(|(z, v)| z * v).sum::<f64>())
-                    .sum();
-                let interiors: f64 = interiors
-                    .iter()
-                    .map(|(q, at, u)| {
-                        let length = network.interiors[*q].estimated.len();
-                        u[m].iter().zip(&v[*at..*at + length]).map(|(u, v)| u * v).sum::<f64>()
-                    })
-                    .sum();
-                photos + interiors
-            })
-        };
         let at_this_point = transformation.as_ref().map(|t| {
             let own = carried(t, datum, point);
             let v = (0..t.defect).map(|j| {
-                let from_reduced = z_with(&t.v[j]);
+                let from_reduced = normal.eliminated.product(network, layout, point, &t.v[j]);
                 let direct = forward3(&l, own[j]);
                 backward3(&l, std::array::from_fn(|m| direct[m] - from_reduced[m]))
             });
@@ -453,15 +445,13 @@ fn reduced_blocks(
 }
 
 /// Solves the equations for the datum's constraints as right-hand sides.
-fn transformation<const N: usize>(
+fn transformation(
     normal: &Normal,
     network: &Network,
     layout: &Layout,
     state: &State,
-    weighting: Weighting<'_>,
     datum: &FreeDatum,
 ) -> Option<Transformation> {
-    let models = models(state)?;
     // D (DᵀG)⁻ᵀ, so that everything below is already multiplied by the inverse.
     let d = datum.constraint_rows(state) * datum.inverse_of_constrained(state)?.transpose();
     let mut t = Transformation {
@@ -470,9 +460,6 @@ fn transformation<const N: usize>(
         d,
         square: SMatrix::zeros(),
     };
-    let mut rows: Vec<Row<N>> = Vec::new();
-    let mut elimination = Elimination::<N>::new();
-    let mut behind = 0;
     let mut eliminated = Vec::new();
     let mut carriers: Vec<usize> = datum.carriers.iter().map(|(point, _)| *point).collect();
     carriers.dedup();
@@ -485,23 +472,9 @@ fn transformation<const N: usize>(
             own.iter().zip(&mut t.v).for_each(|(own, v)| (0..3).for_each(|a| v[at + a] += own[a]));
             continue;
         }
-        if !linearise(network, state, &models, weighting, point, &mut rows, &mut behind) {
-            return None;
-        }
-        let l = normal.points[point].l;
-        elimination.fill(network, layout, &l, &rows);
+        let l = &normal.eliminated.factors[point].l;
         for (own, v) in own.iter().zip(&mut t.v) {
-            let direct = forward3(&l, *own);
-            for (z, at) in elimination.photos.iter().zip(&elimination.places) {
-                for k in 0..6 {
-                    v[at + k] -= (0..3).map(|m| z[m][k] * direct[m]).sum::<f64>();
-                }
-            }
-            for (q, at, u) in &elimination.interiors {
-                for k in 0..network.interiors[*q].estimated.len() {
-                    v[at + k] -= (0..3).map(|m| u[m][k] * direct[m]).sum::<f64>();
-                }
-            }
+            normal.eliminated.subtract(network, layout, point, &forward3(l, *own), v);
         }
         eliminated.push((point, own));
     }
@@ -512,7 +485,7 @@ fn transformation<const N: usize>(
         for j in 0..t.defect {
             let mut sum: f64 = right_hand_sides[i].iter().zip(&t.v[j]).map(|(r, x)| r * x).sum();
             for (point, own) in &eliminated {
-                let l = &normal.points[*point].l;
+                let l = &normal.eliminated.factors[*point].l;
                 let (a, b) = (forward3(l, own[i]), forward3(l, own[j]));
                 sum += a.iter().zip(&b).map(|(a, b)| a * b).sum::<f64>();
             }

@@ -10,7 +10,7 @@ use crate::error::{Defect, Error, Result};
 use crate::project::{DatumKind, Project};
 
 use super::datum;
-use super::full::{Full, solve_all};
+use super::eliminated::Full;
 use super::layout::Layout;
 use super::network::Network;
 use super::normal::Normal;
@@ -204,7 +204,7 @@ fn null_space(
     normal.factor();
     let diagonal = Full {
         reduced: normal.reference.clone(),
-        points: normal.points.iter().map(|p| p.damping().map(|d| d / SHIFT)).collect(),
+        points: normal.eliminated.factors.iter().map(|p| p.damping.map(|d| d / SHIFT)).collect(),
     };
     let product = |a: &Full, b: &Full| -> f64 {
         let reduced: f64 = (0..layout.size).map(|k| a.reduced[k] * diagonal.reduced[k] * b.reduced[k]).sum();
@@ -229,9 +229,7 @@ fn null_space(
             vector.reduced.iter_mut().zip(&diagonal.reduced).for_each(|(x, d)| *x *= d);
             vector.points.iter_mut().zip(&diagonal.points).for_each(|(x, d)| (0..3).for_each(|k| x[k] *= d[k]));
         }
-        if !solve_all(normal, network, layout, state, weighting, &mut vectors) {
-            return None;
-        }
+        normal.solve_all(network, layout, &mut vectors);
         for k in 0..count {
             let (done, rest) = vectors.split_at_mut(k);
             let vector = &mut rest[0];

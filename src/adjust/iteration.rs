@@ -7,18 +7,35 @@
 
 use crate::adjustment::{Iteration, Termination};
 
+use super::gradient::cost;
 use super::layout::Layout;
 use super::network::Network;
-use super::normal::{Normal, cost};
+use super::normal::Normal;
 use super::parameters::State;
 use super::rows::Weighting;
 
 /// Steps shorter than this part of the standard errors end the iteration.
 const NEGLIGIBLE: f64 = 1e-5;
+/// A step this much shorter than the one before leaves the factor of the equations as it is: the next step solves them for a
+/// new right-hand side alone (simplified Newton iteration; P. Deuflhard, Newton Methods, 2004).
+const KEEPING: f64 = 0.01;
+/// While steps shrink at least by this factor c, what is left after one of length l is about l·c/(1 - c).
+const SHRINKING: f64 = 0.1;
 /// First damping when an undamped step fails.
 const FIRST_DAMPING: f64 = 1e-4;
 /// Damping beyond which no step is left to try.
 const LARGEST_DAMPING: f64 = 1e12;
+
+/// What the normal equations hold for the present state.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Ready {
+    /// Nothing.
+    No,
+    /// The equations, not factored.
+    Built,
+    /// An earlier factor and the present right-hand side.
+    Renewed,
+}
 
 /// What the iteration works on.
 pub struct Setting<'a> {
@@ -59,24 +76,28 @@ pub fn iterate(
     let mut lambda = 0.0;
     let mut growth = 4.0;
     let mut flat_steps = 0;
-    let mut built = normal.build(network, layout, &state, weighting, lambda, pins);
+    let mut ready =
+        if normal.build(network, layout, &state, weighting, lambda, pins) { Ready::Built } else { Ready::No };
     let mut behind = normal.behind;
     let mut singular = Vec::new();
+    // Length of the last full step in standard errors.
+    let mut length: Option<f64> = None;
     let outcome = |state, termination, singular| Outcome { state, termination, singular };
-    if !built {
+    if ready == Ready::No {
         return outcome(state, Termination::Diverged, singular);
     }
     for _ in 0..max_iterations {
-        if !built && !normal.build(network, layout, &state, weighting, lambda, pins) {
+        if ready == Ready::No && !normal.build(network, layout, &state, weighting, lambda, pins) {
             return outcome(state, Termination::Diverged, singular);
         }
-        built = false;
         let before = normal.cost;
-        let lost = normal.factor();
-        if lambda == 0.0 {
+        let kept = ready == Ready::Renewed;
+        let lost = if kept { Vec::new() } else { normal.factor() };
+        ready = Ready::No;
+        if lambda == 0.0 && !kept {
             singular.clone_from(&lost);
         }
-        let solution = normal.solve(network, layout, &state, weighting);
+        let solution = normal.solve(network, layout);
         let trial = state.stepped(network, &solution.step);
         let going = log(Iteration {
             sigma0: (before / unit).sqrt(),
@@ -85,7 +106,13 @@ pub fn iterate(
         });
         let usable = trial.is_sound() && solution.decrement.is_finite() && lost.is_empty();
         let limit = NEGLIGIBLE * NEGLIGIBLE * before / unit + rounding;
-        if usable && lambda == 0.0 && solution.decrement <= limit {
+        let contraction = length.filter(|_| lambda == 0.0).map(|length| solution.decrement.max(0.0).sqrt() / length);
+        // What is left after the step, when the steps go on shrinking as they did.
+        let left = match contraction {
+            Some(c) if c < SHRINKING => solution.decrement * (c / (1.0 - c)).powi(2),
+            _ => solution.decrement,
+        };
+        if usable && lambda == 0.0 && left <= limit {
             return outcome(trial, Termination::Converged, singular);
         }
         if usable && solution.decrement <= limit && !singular.is_empty() {
@@ -95,8 +122,19 @@ pub fn iterate(
         let after = if !usable {
             None
         } else if lambda == 0.0 {
-            // A full step is nearly always good: its equations are built at once.
-            built = normal.build(network, layout, &trial, weighting, 0.0, pins);
+            // A full step is nearly always good: its equations are built at once, or, where the steps shrink fast, the
+            // right-hand side alone.
+            let keep = contraction.is_some_and(|c| c < KEEPING);
+            let built = if keep {
+                normal.renew(network, layout, &trial, weighting)
+            } else {
+                normal.build(network, layout, &trial, weighting, 0.0, pins)
+            };
+            ready = match (built, keep) {
+                (true, true) => Ready::Renewed,
+                (true, false) => Ready::Built,
+                _ => Ready::No,
+            };
             built.then_some((normal.cost, normal.behind))
         } else {
             cost(network, &trial, weighting)
@@ -110,6 +148,7 @@ pub fn iterate(
         if gain > 1e-3 || flat {
             behind = after.map_or(behind, |(_, now)| now);
             state = trial;
+            length = Some(solution.decrement.max(0.0).sqrt()).filter(|length| lambda == 0.0 && *length > 0.0);
             // The sum no longer tells steps apart; a few more are taken for the unknowns' own digits.
             flat_steps += usize::from(flat && lambda == 0.0);
             if flat_steps > 2 {
@@ -123,9 +162,13 @@ pub fn iterate(
                 }
             }
         } else {
-            built = false;
-            lambda = if lambda == 0.0 { FIRST_DAMPING } else { lambda * growth };
-            growth *= 2.0;
+            ready = Ready::No;
+            length = None;
+            // A step with a kept factor is tried again with new equations first.
+            if !kept {
+                lambda = if lambda == 0.0 { FIRST_DAMPING } else { lambda * growth };
+                growth *= 2.0;
+            }
             if lambda > LARGEST_DAMPING {
                 return outcome(state, Termination::Diverged, singular);
             }

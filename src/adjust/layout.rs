@@ -124,25 +124,26 @@ fn place(network: &Network, neighbours: &[Vec<usize>], order: &[usize]) -> Layou
         size += length;
         size - length
     };
+    let room = network.interior_size();
     let mut photo = vec![0; network.photos.len()];
     let mut interior = vec![usize::MAX; network.interiors.len()];
     for &p in order {
         photo[p] = next(6);
         let own = network.photos[p].interior;
         if network.interiors[own].photo.is_some() {
-            interior[own] = next(network.interiors[own].estimated.len());
+            interior[own] = next(room);
         }
     }
     let point: Vec<usize> = network.points.iter().map(|p| if p.kept { next(3) } else { usize::MAX }).collect();
-    for (place, block) in interior.iter_mut().zip(&network.interiors).filter(|(place, _)| **place == usize::MAX) {
-        *place = next(block.estimated.len());
+    for place in interior.iter_mut().filter(|place| **place == usize::MAX) {
+        *place = next(room);
     }
     let size = size.next_multiple_of(TILE).max(TILE);
 
     let side = size / TILE;
     let mut present = vec![false; side * side];
     let mut join = |a: usize, b: usize| {
-        // An interior orientation without unknowns may stand at the very end.
+        // Interior orientations without unknowns may stand at the very end.
         if a.max(b) < size {
             present[a.max(b) / TILE * side + a.min(b) / TILE] = true;
         }

@@ -262,6 +262,11 @@ impl Network {
         Ok((network, state))
     }
 
+    /// Room for the unknowns of an interior orientation: the largest number of them, made even; 0 to 10.
+    pub fn interior_size(&self) -> usize {
+        self.interiors.iter().map(|i| i.estimated.len()).max().unwrap_or(0).next_multiple_of(2)
+    }
+
     /// Scalar observations of every kind.
     pub fn observations_count(&self) -> usize {
         let weighted = |prior: &Prior| prior.iter().filter(|(_, w)| *w > 0.0).count();

@@ -7,7 +7,7 @@
 use crate::adjustment::ResidualPlace;
 use crate::camera::Model;
 
-use super::network::Network;
+use super::network::{Network, PointBlock};
 use super::parameters::State;
 
 /// Weighted rows of one ray. `N` is the number of interior unknowns, padded with zeros.
@@ -99,4 +99,30 @@ pub fn linearise<const N: usize>(
         rows.push(row);
     }
     true
+}
+
+/// Equations of the point alone, given coordinates included: normal matrix (xx, xy, xz, yy, yz, zz), Aᵀe, squares.
+#[inline(always)]
+pub fn point_equations<const N: usize>(block: &PointBlock, x: &[f64; 3], rows: &[Row<N>]) -> ([f64; 6], [f64; 3], f64) {
+    let (mut n, mut g, mut cost) = ([0.0; 6], [0.0; 3], 0.0);
+    for row in rows {
+        for (a, e) in row.point.iter().zip(row.e) {
+            n[0] += a[0] * a[0];
+            n[1] += a[0] * a[1];
+            n[2] += a[0] * a[2];
+            n[3] += a[1] * a[1];
+            n[4] += a[1] * a[2];
+            n[5] += a[2] * a[2];
+            (0..3).for_each(|k| g[k] += a[k] * e);
+            cost += e * e;
+        }
+    }
+    for a in 0..3 {
+        let (given, weight) = block.prior[a];
+        let e = (x[a] - given) * weight;
+        cost += e * e;
+        g[a] += e * weight;
+        n[[0, 3, 5][a]] += weight * weight;
+    }
+    (n, g, cost)
 }

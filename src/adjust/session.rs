@@ -3,7 +3,8 @@
 use nalgebra::DMatrix;
 
 use crate::adjustment::{
-    AdjustOptions, Covariance, GrossError, GrossErrorAction, Iteration, Robust, StatisticsChoice, Termination,
+    AdjustOptions, Covariance, GrossError, GrossErrorAction, Iteration, ResidualPlace, Robust, StatisticsChoice,
+    Termination,
 };
 use crate::error::{Error, Place, Result};
 use crate::project::Project;
@@ -11,11 +12,13 @@ use crate::project::Project;
 use super::cofactor::{Cofactors, cofactors};
 use super::datum::{self, FreeDatum, at_point};
 use super::doctor;
-use super::full::{Full, solve_all};
+use super::eccentric;
+use super::eliminated::Full;
+use super::gradient;
 use super::iteration::{Outcome, Setting, iterate};
 use super::layout::{Layout, layout};
 use super::network::Network;
-use super::normal::{self, Normal};
+use super::normal::Normal;
 use super::parameters::State;
 use super::result::Solved;
 use super::robust::reweight;
@@ -27,8 +30,13 @@ const MOST_ROUNDS: usize = 500;
 /// Robust weights that change less are settled.
 const SETTLED: f64 = 1e-6;
 
+/// Rounds of eccentricity corrections, and their change in standard errors of a measurement that no longer matters.
+const MOST_CORRECTIONS: usize = 4;
+const CORRECTED: f64 = 1e-3;
 /// A step of this part of the standard errors changes no digit of the statistics.
-const POLISHED: f64 = 1e-7;
+const POLISHED: f64 = 1e-8;
+/// Steps with one factor on the way there.
+const MOST_POLISHING: usize = 4;
 
 /// Progress to the caller: the iterations so far and whether to go on.
 pub struct Log<'a> {
@@ -105,6 +113,21 @@ impl<'a> Session<'a> {
     /// # Errors
     /// [`Error::RankDefect`].
     pub fn iterate(&mut self, options: &AdjustOptions, log: &mut Log<'_>) -> Result<Termination> {
+        self.shift = eccentric::shifts(self.project, &self.network, &self.state);
+        for _ in 0..MOST_CORRECTIONS {
+            let termination = self.iterate_held(options, log)?;
+            let shift = eccentric::shifts(self.project, &self.network, &self.state);
+            let settled = eccentric::difference(&self.network, &shift, &self.shift) <= CORRECTED;
+            if settled || termination != Termination::Converged {
+                return Ok(termination);
+            }
+            self.shift = shift;
+        }
+        self.iterate_held(options, log)
+    }
+
+    /// The iteration with its eccentricity corrections held.
+    fn iterate_held(&mut self, options: &AdjustOptions, log: &mut Log<'_>) -> Result<Termination> {
         let pins = self.pins();
         let setting = Setting {
             network: &self.network,
@@ -134,7 +157,7 @@ impl<'a> Session<'a> {
 
     fn residuals(&self, options: &AdjustOptions) -> Result<Vec<[f64; 2]>> {
         let weighting = Weighting { place: options.residuals, robust: &[], shift: &self.shift };
-        normal::weighted_residuals(&self.network, &self.state, weighting).ok_or_else(unsound)
+        gradient::weighted_residuals(&self.network, &self.state, weighting).ok_or_else(unsound)
     }
 
     fn gross_error(
@@ -271,10 +294,11 @@ impl<'a> Session<'a> {
         let mut last = None;
         let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
         if options.statistics == StatisticsChoice::None {
-            let (cost, _) = normal::cost(&self.network, &self.state, weighting).ok_or_else(unsound)?;
+            let (cost, _) = gradient::cost(&self.network, &self.state, weighting).ok_or_else(unsound)?;
             return Ok(Solution { cost, cofactors: None, covariance: None });
         }
-        // The equations are factored for the statistics anyway: further steps, until the unknowns keep all their digits.
+        // The equations are factored for the statistics anyway: further steps with that factor, until the unknowns keep
+        // all their digits.
         for _ in 0..4 {
             let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
             if !self.normal.build(&self.network, &self.layout, &self.state, weighting, 0.0, &pins) {
@@ -286,21 +310,15 @@ impl<'a> Session<'a> {
             if !polish {
                 break;
             }
-            let solution = self.normal.solve(&self.network, &self.layout, &self.state, weighting);
-            let mut polished = self.state.stepped(&self.network, &solution.step);
-            polished.orthonormalise();
-            if let Some(datum) = &self.datum {
-                datum.align(&mut polished, &self.initial);
-            }
-            if !polished.is_sound() {
+            let (polished, near) = self.polished(options.residuals)?;
+            if near {
+                last = polished;
                 break;
             }
-            let unit = self.normal.cost / self.redundancy.max(1) as f64;
-            if solution.decrement <= POLISHED * POLISHED * unit {
-                last = Some(polished);
-                break;
+            match polished {
+                Some(polished) => self.state = polished,
+                None => break,
             }
-            self.state = polished;
         }
         let cost = self.normal.cost;
         let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
@@ -312,7 +330,7 @@ impl<'a> Session<'a> {
         let covariance = if options.covariance_of.is_empty() {
             None
         } else {
-            Some(self.covariance_of(&options.covariance_of, weighting, variance)?)
+            Some(self.covariance_of(&options.covariance_of, variance)?)
         };
         if let Some(last) = last {
             self.state = last;
@@ -320,8 +338,35 @@ impl<'a> Session<'a> {
         Ok(Solution { cost, cofactors, covariance })
     }
 
+    /// The state after a few steps with the factor at hand, the last of them negligible, and whether the first was already,
+    /// so that the factor serves for the cofactors. None where the steps lead nowhere.
+    fn polished(&mut self, place: ResidualPlace) -> Result<(Option<State>, bool)> {
+        let limit = POLISHED * POLISHED * self.normal.cost / self.redundancy.max(1) as f64;
+        let mut state = self.state.clone();
+        for step in 0..MOST_POLISHING {
+            let solution = self.normal.solve(&self.network, &self.layout);
+            let mut next = state.stepped(&self.network, &solution.step);
+            next.orthonormalise();
+            if let Some(datum) = &self.datum {
+                datum.align(&mut next, &self.initial);
+            }
+            if !next.is_sound() {
+                return Ok((None, false));
+            }
+            state = next;
+            if solution.decrement <= limit {
+                return Ok((Some(state), step == 0));
+            }
+            let weighting = Weighting { place, robust: &self.weights, shift: &self.shift };
+            if !self.normal.renew(&self.network, &self.layout, &state, weighting) {
+                return Err(unsound());
+            }
+        }
+        Ok((Some(state), false))
+    }
+
     /// Full covariance of chosen points: Q' e = S Q Sᵀ e for every axis e, S the datum's S-transformation.
-    fn covariance_of(&self, ids: &[String], weighting: Weighting<'_>, variance: f64) -> Result<Covariance> {
+    fn covariance_of(&self, ids: &[String], variance: f64) -> Result<Covariance> {
         let places = ids.iter().map(|id| {
             let at = self.network.points.iter().position(|p| self.project.points[p.index].id == *id);
             let missing =
@@ -353,9 +398,7 @@ impl<'a> Session<'a> {
             }
             vectors.push(e);
         }
-        if !solve_all(&self.normal, &self.network, &self.layout, &self.state, weighting, &mut vectors) {
-            return Err(unsound());
-        }
+        self.normal.solve_all(&self.network, &self.layout, &mut vectors);
         let factor = variance * self.network.frame.scale.powi(2);
         let value = |column: usize, (point, axis): (usize, usize)| {
             let x = &vectors[column];

@@ -69,6 +69,21 @@ pub struct TileMatrix {
     data: Vec<f64>,
 }
 
+/// A row of the matrix.
+#[derive(Clone, Copy, Debug)]
+pub struct Line {
+    first: usize,
+    row: usize,
+}
+
+impl Line {
+    /// As [`TileMatrix::place`] of this row and a column not after it.
+    #[inline]
+    pub fn place(self, matrix: &TileMatrix, column: usize) -> usize {
+        matrix.pattern.slot[self.first + column / TILE] as usize * AREA + column % TILE * TILE + self.row
+    }
+}
+
 fn tile(data: &[f64], slot: usize) -> &Tile {
     let (tiles, _) = data.as_chunks::<AREA>();
     &tiles[slot]
@@ -96,6 +111,12 @@ impl TileMatrix {
     #[inline]
     pub fn place(&self, row: usize, column: usize) -> usize {
         self.pattern.slot(row / TILE, column / TILE) * AREA + column % TILE * TILE + row % TILE
+    }
+
+    /// A row, for the places of several numbers in it.
+    #[inline]
+    pub fn line(&self, row: usize) -> Line {
+        Line { first: row / TILE * self.pattern.side, row: row % TILE }
     }
 
     /// The numbers, for [`Self::place`].

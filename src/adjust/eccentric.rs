@@ -1,0 +1,230 @@
+//! Eccentricity of circular targets: how far the centre of the ellipse that was measured lies from the image of the
+//! circle's centre ([`crate::eccentricity`]), for targets whose diameter the document gives.
+//!
+//! The circle's normal is that of the surface it lies on: the plane through the point and its nearest neighbours. Where
+//! these do not lie in one plane the normal is unknown and nothing is corrected. The corrections depend so weakly on the
+//! unknowns that they are held during an iteration and computed again after it.
+
+use nalgebra::{DMatrix, Vector3};
+
+use crate::eccentricity::{Circle, pixels};
+use crate::project::{Interior, Project};
+
+use super::network::Network;
+use super::parameters::State;
+
+/// Neighbours that span the surface.
+const NEIGHBOURS: usize = 6;
+/// Deviation from the plane, as a part of the neighbourhood's larger extent, up to which it is one.
+const FLAT: f64 = 0.02;
+/// Smaller extent of a neighbourhood, as a part of the larger, below which it is a line.
+const WIDE: f64 = 0.1;
+
+/// Corrections in the units of the residuals, per ray, to be taken off the measurements; empty where no target has a
+/// diameter.
+pub fn shifts(project: &Project, network: &Network, state: &State) -> Vec<[f64; 2]> {
+    let diameter = |k: usize| project.points[network.points[k].index].diameter.filter(|d| *d > 0.0);
+    if (0..network.points.len()).all(|k| diameter(k).is_none()) {
+        return Vec::new();
+    }
+    let cameras: Vec<_> = (network.interiors.iter().zip(&state.interiors))
+        .map(|(block, interior)| {
+            let mut camera = project.cameras[block.camera].clone();
+            camera.interior = *interior;
+            camera
+        })
+        .collect();
+    let mut shifts = vec![[0.0; 2]; network.rays.len()];
+    let sorted = Sorted::new(&state.points);
+    for (k, block) in network.points.iter().enumerate() {
+        let Some(normal) = diameter(k).and_then(|_| sorted.normal(k)) else { continue };
+        let diameter = diameter(k).unwrap_or_default() / network.frame.scale;
+        for ray in block.rays.clone() {
+            let photo = network.rays[ray].photo;
+            let camera = &cameras[network.photos[photo].interior];
+            let pose = &state.poses[photo];
+            let centre = Vector3::from(pose.camera_point(&state.points[k]));
+            let circle = Circle { centre, normal: pose.matrix() * normal, diameter };
+            let Some([du, dv]) = pixels(camera, &circle) else { continue };
+            shifts[ray] = match camera.interior {
+                Interior::Brown { .. } => {
+                    let pitch = camera.pitch();
+                    [du * pitch[0], -dv * pitch[1]]
+                }
+                Interior::Opencv { .. } => [du, dv],
+            };
+        }
+    }
+    shifts
+}
+
+/// Largest difference between two sets of corrections, in a priori standard errors.
+pub fn difference(network: &Network, a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
+    let of = |shifts: &[[f64; 2]], k: usize, side: usize| shifts.get(k).map_or(0.0, |s| s[side]);
+    let one = |k: usize, side: usize| ((of(a, k, side) - of(b, k, side)) * network.rays[k].weight[side]).abs();
+    (0..network.rays.len()).flat_map(|k| [one(k, 0), one(k, 1)]).fold(0.0, f64::max)
+}
+
+/// Points in the order of their first coordinate, for finding neighbours.
+struct Sorted<'a> {
+    points: &'a [[f64; 3]],
+    order: Vec<usize>,
+    place: Vec<usize>,
+}
+
+impl<'a> Sorted<'a> {
+    fn new(points: &'a [[f64; 3]]) -> Self {
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_by(|a, b| points[*a][0].total_cmp(&points[*b][0]));
+        let mut place = vec![0; points.len()];
+        order.iter().enumerate().for_each(|(at, k)| place[*k] = at);
+        Self { points, order, place }
+    }
+
+    /// The nearest points, nearest first.
+    fn neighbours(&self, k: usize) -> Vec<usize> {
+        let x = self.points[k];
+        let mut found: Vec<(f64, usize)> = Vec::with_capacity(NEIGHBOURS + 1);
+        let mut visit = |other: usize| {
+            let y = self.points[other];
+            let along = (y[0] - x[0]).powi(2);
+            if found.len() == NEIGHBOURS && along > found[NEIGHBOURS - 1].0 {
+                return false;
+            }
+            let squared = along + (y[1] - x[1]).powi(2) + (y[2] - x[2]).powi(2);
+            let at = found.partition_point(|(d, _)| *d < squared);
+            found.insert(at, (squared, other));
+            found.truncate(NEIGHBOURS);
+            true
+        };
+        // Outwards on either side, until the first coordinate alone is farther than what was found.
+        let (before, after) = self.order.split_at(self.place[k]);
+        let _ = before.iter().rev().all(|other| visit(*other));
+        let _ = after[1..].iter().all(|other| visit(*other));
+        found.into_iter().map(|(_, other)| other).collect()
+    }
+
+    /// Normal of the plane through a point and its neighbours; none where they do not lie in one.
+    fn normal(&self, k: usize) -> Option<Vector3<f64>> {
+        let mut around = self.neighbours(k);
+        if around.len() < 3 {
+            return None;
+        }
+        around.push(k);
+        let at = |k: usize| Vector3::from(self.points[k]);
+        let mean = around.iter().map(|k| at(*k)).sum::<Vector3<f64>>() / around.len() as f64;
+        let centred = DMatrix::from_fn(3, around.len(), |a, n| at(around[n])[a] - mean[a]);
+        let eigen = nalgebra::SymmetricEigen::try_new(&centred * centred.transpose(), 1e-15, 200)?;
+        let mut order = [0, 1, 2];
+        order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+        let [most, middle, least] = order.map(|a| eigen.eigenvalues[a].max(0.0).sqrt());
+        let normal = eigen.eigenvectors.column(order[2]);
+        (middle > WIDE * most && least <= FLAT * most).then(|| Vector3::new(normal[0], normal[1], normal[2]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+    use crate::adjust::adjust;
+    use crate::adjustment::{AdjustOptions, Adjustment};
+    use crate::camera::pixel_from_camera_point;
+    use crate::detect::conic;
+    use crate::project::{Camera, DatumKind, Observation, Parameter, Photo, Point, Sigma};
+    use crate::rotation::{angles, object_to_camera};
+
+    const DIAMETER: f64 = 30.0;
+
+    /// Circles of 30 mm on a plate of 1 m, seen from 1.2 m: centres of the ellipses through their projected rims.
+    fn plate() -> Project {
+        let mut project = Project { unit: "mm".into(), ..Project::default() };
+        let mut camera = Camera::new("c", 4000, 3000, Interior::brown(20.0));
+        camera.pixel_pitch = Some([0.005; 2]);
+        camera.free = vec![Parameter::C, Parameter::X0, Parameter::Y0];
+        let turn = object_to_camera([0.3, -0.2, 0.1]).transpose();
+        for k in 0..25 {
+            let xyz = turn * Vector3::new(f64::from(k % 5 - 2) * 200.0, f64::from(k / 5 - 2) * 200.0, 0.0);
+            let diameter = Some(DIAMETER);
+            project.points.push(Point { id: k.to_string(), xyz: Some(xyz.into()), diameter, ..Point::default() });
+        }
+        for k in 0..8 {
+            let azimuth = f64::from(k) * 0.785;
+            let place = Vector3::new(1000.0 * azimuth.cos(), 1000.0 * azimuth.sin(), 900.0 + 200.0 * f64::from(k % 2));
+            let z = place.normalize();
+            let x = Vector3::z().cross(&z).normalize();
+            let y = z.cross(&x);
+            let (x, y) = if k % 2 == 0 { (x, y) } else { (y, -x) };
+            let m = nalgebra::Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]) * turn.transpose();
+            let centre = turn * place;
+            let id = format!("p{k}");
+            for point in &project.points {
+                let circle = m * (Vector3::from(point.xyz.expect("given")) - centre);
+                let (e1, e2) = (m * turn * Vector3::x(), m * turn * Vector3::y());
+                let rim: Vec<[f64; 3]> = (0..24)
+                    .map(|k| {
+                        let (s, c) = (f64::from(k) * std::f64::consts::TAU / 24.0).sin_cos();
+                        let rim = circle + (e1 * c + e2 * s) * (DIAMETER / 2.0);
+                        let [u, v] = pixel_from_camera_point(&camera, rim).expect("in front");
+                        [u, v, 1.0]
+                    })
+                    .collect();
+                let ellipse = conic::fit(&rim).expect("an ellipse");
+                project.observations.push(Observation {
+                    photo: id.clone(),
+                    point: point.id.clone(),
+                    u: ellipse.u,
+                    v: ellipse.v,
+                    sigma: Sigma::One(0.01),
+                    enabled: true,
+                });
+            }
+            let (position, rotation) = (Some(centre.into()), Some(angles(&m)));
+            project.photos.push(Photo {
+                id,
+                camera: "c".into(),
+                position,
+                rotation,
+                enabled: true,
+                ..Photo::default()
+            });
+        }
+        project.cameras.push(camera);
+        project.datum.kind = DatumKind::Free;
+        project
+    }
+
+    fn solve(project: &Project) -> Adjustment {
+        adjust(project, &AdjustOptions::default(), &mut |_| true).expect("solvable")
+    }
+
+    #[test]
+    fn projected_circles_give_back_their_centres() {
+        let project = plate();
+        let adjustment = solve(&project);
+        let sigma0 = adjustment.sigma0.expect("redundant");
+        assert!(sigma0 < 1e-3, "{sigma0}");
+        let camera = adjustment.cameras[0].camera.interior;
+        assert!((camera.get(Parameter::C).expect("c") - 20.0).abs() < 1e-5, "{camera:?}");
+        let mut plain = project.clone();
+        plain.points.iter_mut().for_each(|point| point.diameter = None);
+        let uncorrected = solve(&plain).sigma0.expect("redundant");
+        assert!(uncorrected > 0.1, "{uncorrected} without diameters, {sigma0} with");
+    }
+
+    #[test]
+    fn a_normal_comes_from_a_flat_neighbourhood_only() {
+        let flat: Vec<[f64; 3]> =
+            (0..9).map(|k| [f64::from(k % 3), f64::from(k / 3), 0.5 * f64::from(k % 3)]).collect();
+        let normal = Sorted::new(&flat).normal(4).expect("flat");
+        assert!((normal.dot(&Vector3::new(-0.5, 0.0, 1.0).normalize()).abs() - 1.0).abs() < 1e-12);
+        let mut bent = flat.clone();
+        bent[0][2] += 1.0;
+        bent[1][2] -= 0.6;
+        assert_eq!(Sorted::new(&bent).normal(4), None);
+        let line: Vec<[f64; 3]> = (0..9).map(|k| [f64::from(k), 2.0 * f64::from(k), 0.0]).collect();
+        assert_eq!(Sorted::new(&line).normal(4), None);
+    }
+}
