@@ -1,6 +1,8 @@
 //! The engine from outside, natively and as wasm in Node: one binary, one topic a module.
 
+mod aerial;
 mod behaviour;
+mod damage;
 mod data;
 mod document;
 mod exchange;
