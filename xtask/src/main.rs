@@ -48,7 +48,8 @@ fn run(arguments: &[String]) -> Outcome {
             install::node()?;
             build::pkg()?;
             process::run(&mut process::cargo(&["bench", "--package", "sightline"]))?;
-            process::run(&mut process::program("node", &["benches/border.mjs"]))
+            process::run(&mut process::program("node", &["benches/border.mjs"]))?;
+            process::run(&mut process::program("node", &["benches/growth.mjs"]))
         }
         "check" => {
             none_of(rest)?;
