@@ -21,6 +21,7 @@ mod look;
 mod measure;
 mod noise;
 pub(crate) mod outline;
+mod propagation;
 mod quality;
 mod rendered;
 mod scan;

@@ -82,7 +82,7 @@ impl Band {
         let hollow = outline.axes().1 > region.half_band + 0.3;
         let mut flats = Flats::default();
         let (half_u, half_v) = rings[2].half_box();
-        let rows = clipped(outline.v - half_v, outline.v + half_v, plane.height);
+        let rows = clipped(outline.v - half_v, outline.v + half_v + 1.0, plane.height);
         if outline.u + half_u < 0.0 || rows.is_empty() {
             return None;
         }

@@ -103,6 +103,17 @@ pub(crate) struct Profile {
     pub blur: f64,
 }
 
+/// Slope of the edge's profile at whole pixels from its middle: the weights of the samples in its place.
+pub(crate) fn slopes(blur: f64) -> Vec<f64> {
+    let side = refined_side(blur) as i32;
+    (-side..=side).map(|t| normal(f64::from(t) / blur).1 / blur).collect()
+}
+
+/// Pixels to both sides of the rim that a refined edge is fitted to.
+fn refined_side(blur: f64) -> usize {
+    ((3.0 * blur).ceil() as usize).clamp(2, LONGEST / 2 - 2)
+}
+
 /// Edge points by fitting each ray's profile, level + contrast Φ(-(t - δ)/s), for its shift δ: Gauss-Newton steps of one
 /// unknown. All samples across the edge count, each with the derivative of the profile as its weight.
 pub(crate) fn refine<T: Sample>(
@@ -113,7 +124,7 @@ pub(crate) fn refine<T: Sample>(
     found: &mut Vec<EdgePoint>,
 ) {
     found.clear();
-    let side = ((3.0 * profile.blur).ceil() as usize).clamp(2, LONGEST / 2 - 2);
+    let side = refined_side(profile.blur);
     for rim in rim_points(outline, count) {
         let mut values = [0f64; LONGEST];
         for (i, value) in values[..=2 * side].iter_mut().enumerate() {

@@ -16,8 +16,8 @@ pub(crate) struct EllipseFit {
     pub outline: Outline,
     /// Rms of the orthogonal distances of the kept points, in pixels.
     pub rms: f64,
-    /// Cofactors of the centre: uu, uv, vv (covariance for edge points of sigma 1 px).
-    pub cofactors: [f64; 3],
+    /// Cofactors of (u, v, p, q, r): their covariance for independent edge points of sigma 1 px.
+    pub cofactors: SMatrix<f64, 5, 5>,
     /// Share of the rays without a fitting edge.
     pub occluded: f64,
     /// Longest run of such rays, as a share of all.
@@ -70,7 +70,7 @@ pub(crate) fn fit(points: &mut [EdgePoint], start: &Outline, rough: bool) -> Opt
         result = Some(EllipseFit {
             outline,
             rms: (sum / (used - 5) as f64).sqrt(),
-            cofactors: [cofactors[(0, 0)], cofactors[(0, 1)], cofactors[(1, 1)]],
+            cofactors,
             occluded: 1.0 - used as f64 / count as f64,
             gap: longest_gap(points) as f64 / count as f64,
         });

@@ -113,3 +113,59 @@ pub(crate) fn unexplained<T: Sample>(plane: &Plane<T>, outline: &Outline, kept: 
     });
     missing.count() as f64 / kept.len().max(1) as f64
 }
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    const SIZE: usize = 60;
+
+    /// A picture of 60 x 60 pixels, bright where the condition holds about its middle.
+    fn picture(bright: impl Fn(f64, f64) -> bool) -> Vec<u8> {
+        let place = |i: usize| i as f64 + 0.5 - 30.0;
+        (0..SIZE * SIZE).map(|i| if bright(place(i % SIZE), place(i / SIZE)) { 200 } else { 40 }).collect()
+    }
+
+    fn disc() -> Outline {
+        Outline::from_axes(30.0, 30.0, 10.0, 10.0, 0.0)
+    }
+
+    #[test]
+    fn a_disc_has_a_step_all_around_and_a_handle_opens_it() {
+        let samples = picture(|x, y| x.hypot(y) < 10.0);
+        let plain = look(&Plane::new(SIZE, SIZE, &samples), &disc(), true, 6.0, 0).unwrap();
+        assert_eq!((plain.agree, plain.open, plain.even), (DIRECTIONS, 0, true));
+        assert!(look(&Plane::new(SIZE, SIZE, &samples), &disc(), false, 6.0, 7).is_none());
+        let samples = picture(|x, y| x.hypot(y) < 10.0 || x > 0.0 && y.abs() < 9.5);
+        let handle = look(&Plane::new(SIZE, SIZE, &samples), &disc(), true, 6.0, 7).unwrap();
+        assert_eq!((handle.agree, handle.open), (DIRECTIONS - 5, 5));
+    }
+
+    #[test]
+    fn a_stroke_comes_back_and_a_card_does_not() {
+        let levels = DotLevels { dot: 200.0, background: 40.0 };
+        let samples = picture(|x, y| x.hypot(y) < 10.0 || x.hypot(y) > 15.0);
+        assert_eq!(stroke(&Plane::new(SIZE, SIZE, &samples), &disc(), levels), DIRECTIONS);
+        let samples = picture(|x, y| x.hypot(y) < 10.0 || x.hypot(y) > 24.0);
+        assert_eq!(stroke(&Plane::new(SIZE, SIZE, &samples), &disc(), levels), 0);
+    }
+
+    #[test]
+    fn a_gap_is_explained_by_what_lies_in_front() {
+        let levels = DotLevels { dot: 200.0, background: 40.0 };
+        let kept: Vec<bool> = (0..40).map(|k| k < 30).collect();
+        let mut samples = picture(|x, y| x.hypot(y) < 10.0);
+        let open = unexplained(&Plane::new(SIZE, SIZE, &samples), &disc(), &kept, levels);
+        assert!((open - 0.25).abs() < 1e-12);
+        for (i, sample) in samples.iter_mut().enumerate() {
+            // a grey card over the upper right quarter, where the last rays are
+            if i % SIZE >= 30 && i / SIZE < 30 {
+                *sample = 120;
+            }
+        }
+        assert!(unexplained(&Plane::new(SIZE, SIZE, &samples), &disc(), &kept, levels) < 0.05);
+    }
+}

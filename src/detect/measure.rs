@@ -9,6 +9,7 @@ use super::fit::{self, Workspace};
 use super::look;
 use super::noise::Levels;
 use super::outline::Outline;
+use super::propagation;
 use super::quality;
 use super::surround::{self, Surround};
 use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
@@ -38,6 +39,8 @@ fn undisturbed(edges: &[EdgePoint]) -> Vec<bool> {
 const ROUGH: f64 = 2e-3;
 const CONVERGED: f64 = 1e-4;
 
+/// Share of clipped pixels that explains why a target has no fit.
+const CLIPPED: f64 = 0.5;
 /// Blur from which on the surround begins further out, and what is assumed below it.
 const BLURRED: f64 = 1.2;
 const SHARP: f64 = 0.9;
@@ -198,6 +201,13 @@ impl<'a, T: Sample> Measure<'a, T> {
 
     /// Measurement of a found target by one method.
     pub fn finish(&mut self, found: &Found, method: Method) -> Result<Target, Reason> {
+        let measured = self.measured(found, method);
+        // without a fit, what is clipped in most of its pixels has failed for that
+        let clipped = measured == Err(Reason::NoFit) && self.saturated(&found.ellipse.outline) > CLIPPED;
+        if clipped { Err(Reason::Saturated) } else { measured }
+    }
+
+    fn measured(&mut self, found: &Found, method: Method) -> Result<Target, Reason> {
         let mut outline = found.ellipse.outline;
         let (mut contrast, mut blur) = (found.surround.contrast.abs(), found.blur);
         let (mut fit_rms, mut occluded) = (found.ellipse.rms, found.ellipse.occluded);
@@ -210,10 +220,10 @@ impl<'a, T: Sample> Measure<'a, T> {
                 Centre { u: outline.u, v: outline.v, covariance: fit.covariance }
             }
             Method::Ellipse => {
-                let fit = self.refined_ellipse(found)?;
+                let (fit, covariance) = self.refined_ellipse(found)?;
                 outline = fit.outline;
                 (fit_rms, occluded) = (fit.rms, fit.occluded);
-                Centre { u: outline.u, v: outline.v, covariance: fit.cofactors.map(|q| q * fit.rms * fit.rms) }
+                Centre { u: outline.u, v: outline.v, covariance }
             }
             Method::Intensity => {
                 centroid::intensity(&self.plane, &outline, &found.surround, margin).ok_or(Reason::NoFit)?
@@ -252,8 +262,9 @@ impl<'a, T: Sample> Measure<'a, T> {
         })
     }
 
-    /// The ellipse through edges refined with the target's own levels and blur.
-    fn refined_ellipse(&mut self, found: &Found) -> Result<EllipseFit, Reason> {
+    /// The ellipse through edges refined with the target's own levels and blur, and the covariance of its centre: the
+    /// propagated noise, and as much more as the edges scatter more than it explains.
+    fn refined_ellipse(&mut self, found: &Found) -> Result<(EllipseFit, [f64; 3]), Reason> {
         let outline = found.ellipse.outline;
         let surround = &found.surround;
         let profile = Profile {
@@ -263,9 +274,13 @@ impl<'a, T: Sample> Measure<'a, T> {
             contrast: surround.contrast,
             blur: (found.blur * found.blur + SAMPLED).sqrt(),
         };
-        let count = (outline.perimeter() as usize).clamp(20, 1500);
-        edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
-        ellipse::fit(&mut self.edges, &outline, false).ok_or(Reason::NoFit)
+        let count = (outline.perimeter() / 4.0).round() as usize * 4;
+        edge::refine(&self.plane, &outline, &profile, count.clamp(20, 1500), &mut self.edges);
+        let fit = ellipse::fit(&mut self.edges, &outline, false).ok_or(Reason::NoFit)?;
+        let (unit, edge) = propagation::covariance(&outline, &profile, &self.edges, &fit.outline, &fit.cofactors);
+        let noise = surround.noise.powi(2).max(1.0 / 12.0);
+        let variance = noise.max(fit.rms * fit.rms / edge.max(1e-12));
+        Ok((fit, unit.map(|q| q * variance)))
     }
 
     /// Noise around a target; where the surround is not plane, what the whole picture has is believed.

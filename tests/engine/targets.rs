@@ -22,8 +22,8 @@ fn nearest(targets: &[Target], u: f64, v: f64) -> Option<&Target> {
         .filter(|target| (target.u - u).hypot(target.v - v) < 1.5)
 }
 
-/// 144 circles of a diameter at random sub-pixel places, contrast 200, noise 2, blur 0.7.
-fn circles(diameter: f64) -> (Grey, Vec<Spot>) {
+/// 144 circles of a diameter at random sub-pixel places, contrast 200, blur 0.7.
+fn circles(diameter: f64) -> (Canvas, Vec<Spot>) {
     let pitch = diameter as usize + 32;
     let mut canvas = Canvas::new(12 * pitch, 12 * pitch, 30.0);
     let mut random = Uniform(diameter as u64);
@@ -37,7 +37,7 @@ fn circles(diameter: f64) -> (Grey, Vec<Spot>) {
     for spot in &spots {
         canvas.add(spot, 0.7);
     }
-    (canvas.expose(2.0, diameter as u64), spots)
+    (canvas, spots)
 }
 
 /// Mean error, rms error and rms of error over sigma, per axis.
@@ -55,31 +55,48 @@ fn errors(picture: &Grey, spots: &[Spot], method: Method) -> (f64, f64, f64) {
             n += 1.0;
         }
     }
-    // the smallest circles cover two scanned rows: one in a hundred may be missed
-    assert!(n >= 2.0 * (0.99 * spots.len() as f64).floor(), "{method:?}: {n} of {}", 2 * spots.len());
+    assert_eq!(n as usize, 2 * spots.len(), "{method:?}: some are missing");
     let bias = (sum[0] / n * 2.0).abs().max((sum[1] / n * 2.0).abs());
     (bias, f64::sqrt(squares / n), f64::sqrt(normalised / n))
 }
 
+/// Diameters and their Cramér-Rao bound per axis at noise 2.
+const BOUNDS: [(f64, f64); 4] = [(5.0, 0.00614), (10.0, 0.00422), (20.0, 0.00296), (40.0, 0.00209)];
+
 #[test]
-fn the_fit_and_the_ellipse_keep_their_bias_scatter_and_sigma() {
-    // diameter, Cramer-Rao bound per axis; 288 errors give the rms to 4 %, the mean to a twelfth of the rms
-    for (diameter, bound) in [(5.0, 0.00614), (10.0, 0.00422), (20.0, 0.00296), (40.0, 0.00209)] {
-        let (picture, spots) = circles(diameter);
-        for (method, limit) in [(Method::LeastSquares, 1.05), (Method::Ellipse, 1.25)] {
-            let (bias, rms, normalised) = errors(&picture, &spots, method);
-            println!(
-                "{diameter} {method:?}: bias {:.3} rms {:.3} of the bound, error/sigma {normalised:.3}",
-                bias / bound,
-                rms / bound
-            );
-            let chance = 1.12;
-            assert!(rms < limit * chance * bound, "{diameter} {method:?}: rms {rms}");
-            assert!(bias < 0.3 * rms, "{diameter} {method:?}: bias {bias}");
-            if method == Method::LeastSquares {
-                assert!((0.88..1.13).contains(&normalised), "{diameter} {method:?}: error/sigma {normalised}");
+fn every_method_keeps_its_scatter_and_states_it() {
+    // rms over the bound, and rms of error over sigma, each with the range it may have over all 1152 errors: chance moves
+    // an rms by 2 %. Centroids scatter more, as they must; what a threshold cuts off is known to a quarter only.
+    let methods = [
+        (Method::LeastSquares, 1.05, 0.95..1.05),
+        (Method::Ellipse, 1.25, 0.85..1.15),
+        (Method::Gradient, 10.0, 0.9..1.1),
+        (Method::Intensity, 4.2, 0.9..1.3),
+    ];
+    let mut sums = [(0.0, 0.0); 4];
+    for (diameter, bound) in BOUNDS {
+        let (canvas, spots) = circles(diameter);
+        let picture = canvas.expose(2.0, diameter as u64);
+        for ((method, largest, _), sum) in methods.iter().zip(&mut sums) {
+            let (bias, rms, normal) = errors(&picture, &spots, *method);
+            println!("{diameter} {method:?}: bias {:.3} rms {:.3}, error/sigma {normal:.3}", bias / bound, rms / bound);
+            *sum = (sum.0 + (rms / bound).powi(2) / 4.0, sum.1 + normal * normal / 4.0);
+            // the mean of 144 errors
+            assert!(bias < 0.25 * rms, "{diameter} {method:?}: bias {bias}");
+            if matches!(method, Method::LeastSquares | Method::Ellipse) {
+                assert!(rms < 1.08 * largest * bound, "{diameter} {method:?}: rms {rms}");
             }
         }
+        // so little noise that the mean shows a hundredth of the bound at noise 2
+        let (bias, ..) = errors(&canvas.expose(0.25, diameter as u64), &spots, Method::LeastSquares);
+        println!("{diameter}: bias {:.4} of the bound over the phase of the pixels", bias / bound);
+        assert!(bias < 0.1 * bound, "{diameter}: bias {bias}");
+    }
+    for ((method, largest, honest), (squares, normalised)) in methods.iter().zip(sums) {
+        let (ratio, normalised) = (f64::sqrt(squares), f64::sqrt(normalised));
+        println!("{method:?}: rms {ratio:.3} of the bound, error/sigma {normalised:.3}");
+        assert!(ratio < *largest, "{method:?}: {ratio}");
+        assert!(honest.contains(&normalised), "{method:?}: error/sigma {normalised}");
     }
 }
 
@@ -125,8 +142,7 @@ fn same(before: &Detection, after: &Detection, map: impl Fn(f64, f64) -> (f64, f
         let (u, v) = map(target.u, target.v);
         let other = nearest(&after.targets, u, v).unwrap_or_else(|| panic!("nothing at {u} {v}"));
         let off = (other.u - u).hypot(other.v - v);
-        // another order of the scanned rows may choose another surround: that must stay inside the noise
-        assert!(off < 1.0 * target.sigma_u.min(target.sigma_v), "{off} at {u} {v}, sigma {}", target.sigma_u);
+        assert!(off < 0.05 * target.sigma_u.min(target.sigma_v), "{off} at {u} {v}, sigma {}", target.sigma_u);
     }
 }
 
@@ -187,7 +203,7 @@ fn a_click_measures_what_the_search_measures_by_every_method() {
         let click = measure_at(&view, spot.u + 1.0, spot.v - 1.0, &DetectOptions::default()).expect("inside");
         let click = click.unwrap_or_else(|| panic!("nothing at {spot:?}"));
         let target = nearest(&all.targets, spot.u, spot.v).expect("found before");
-        assert!((click.u - target.u).hypot(click.v - target.v) < 0.5 * target.sigma_u, "{spot:?}");
+        assert!((click.u - target.u).hypot(click.v - target.v) < 0.1 * target.sigma_u, "{spot:?}");
         let results = measure_all(&view, spot.u, spot.v, &DetectOptions::default()).expect("inside");
         assert_eq!(results.len(), 4);
         for result in results {
@@ -256,6 +272,33 @@ fn no_picture_and_no_option_makes_it_fail() {
                 assert!(numbers.iter().all(|x| x.is_finite()), "{t:?}");
             }
             measure_at(&view, random.next(), random.next(), &options).expect("inside");
+        }
+    }
+}
+
+#[test]
+fn damaged_files_end_in_a_result_or_an_error() {
+    let picture = mixed().0.expose(2.0, 3);
+    let Samples::U8(samples) = &picture.samples else { panic!("8 bits") };
+    let cut: Vec<u8> = samples.chunks(picture.width).take(96).flat_map(|row| row[..128].to_vec()).collect();
+    let image = image::GrayImage::from_raw(128, 96, cut).expect("as many samples");
+    let mut random = Uniform(23);
+    for format in [image::ImageFormat::Png, image::ImageFormat::Tiff, image::ImageFormat::Jpeg] {
+        let mut file = std::io::Cursor::new(Vec::new());
+        image.write_to(&mut file, format).expect("encodable");
+        let file = file.into_inner();
+        for _ in 0..60 {
+            let mut bytes = file.clone();
+            for _ in 0..1 + (8.0 * random.next()) as usize {
+                let at = (random.next().powi(3) * bytes.len() as f64) as usize;
+                bytes[at] = (256.0 * random.next()) as u8;
+            }
+            bytes.truncate((bytes.len() as f64 * random.within(0.2, 1.5)) as usize);
+            if let Ok(grey) = decode::grey(&bytes, Channel::Grey)
+                && grey.width * grey.height < 1 << 20
+            {
+                detected(&grey, &DetectOptions::default());
+            }
         }
     }
 }

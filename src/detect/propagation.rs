@@ -1,0 +1,60 @@
+//! Covariance of an ellipse's centre from the noise of the pixels.
+//!
+//! A ray's edge is a weighted sum of bilinear samples, and these of pixels; the centre is a weighted sum of edges. Neighbouring
+//! rays share pixels, so that their errors are alike: treated as independent they promise too much, by a third. Here the
+//! weights of every pixel in the centre are added up, and the noise is propagated through them: Σ = n² W W'.
+
+use nalgebra::SMatrix;
+
+use super::edge::{EdgePoint, Profile, rim_points, slopes};
+use super::outline::Outline;
+
+/// Covariance (uu, uv, vv) of the centre for pixels of unit noise, and the mean variance of a single edge.
+///
+/// `points` are the edges found on rays across `cast`, `fitted` is the ellipse through them and `cofactors` the inverse of its
+/// normal matrix.
+pub(crate) fn covariance(
+    cast: &Outline,
+    profile: &Profile,
+    points: &[EdgePoint],
+    fitted: &Outline,
+    cofactors: &SMatrix<f64, 5, 5>,
+) -> ([f64; 3], f64) {
+    let slopes = slopes(profile.blur);
+    let side = (slopes.len() / 2) as f64;
+    let square: f64 = slopes.iter().map(|slope| slope * slope).sum();
+    let (half_u, half_v) = cast.half_box();
+    let [left, top] = [cast.u - half_u - side - 2.0, cast.v - half_v - side - 2.0].map(f64::floor);
+    let [width, height] = [half_u, half_v].map(|half| (2.0 * (half + side)) as usize + 6);
+    let mut weights = vec![[0.0; 2]; width * height];
+    let (mut edges, mut used) = (0.0, 0usize);
+    let mut shares: Vec<(usize, f64)> = Vec::with_capacity(4 * slopes.len());
+    for (rim, point) in rim_points(cast, points.len()).zip(points).filter(|(_, point)| point.kept) {
+        shares.clear();
+        for (i, slope) in slopes.iter().enumerate() {
+            let t = i as f64 - side;
+            let [x, y] = [rim.x + t * rim.normal[0] - 0.5 - left, rim.y + t * rim.normal[1] - 0.5 - top];
+            let [fx, fy] = [x - x.floor(), y - y.floor()];
+            let at = y as usize * width + x as usize;
+            let weight = slope / (square * profile.contrast);
+            for (offset, share) in
+                [(0, (1.0 - fx) * (1.0 - fy)), (1, fx * (1.0 - fy)), (width, (1.0 - fx) * fy), (width + 1, fx * fy)]
+            {
+                shares.push((at + offset, weight * share));
+            }
+        }
+        shares.sort_unstable_by_key(|share| share.0);
+        let moves = fitted.nearest(point.x, point.y).0.moves;
+        let influence = cofactors * SMatrix::<f64, 5, 1>::from(moves);
+        for pixel in shares.chunk_by(|a, b| a.0 == b.0) {
+            let share: f64 = pixel.iter().map(|share| share.1).sum();
+            edges += share * share;
+            if let Some(weight) = weights.get_mut(pixel[0].0) {
+                *weight = [weight[0] + share * influence[0], weight[1] + share * influence[1]];
+            }
+        }
+        used += 1;
+    }
+    let sum = |i: usize, j: usize| weights.iter().map(|weight| weight[i] * weight[j]).sum();
+    ([sum(0, 0), sum(0, 1), sum(1, 1)], edges / used.max(1) as f64)
+}
