@@ -7,8 +7,8 @@
 //! distortion, and centimetres and half degrees of orientation.
 //!
 //! The paper says that the stations are about 2.8 m away, that every target is in view, and that 100 to 119 were measured
-//! a photo. The first excludes the others: at 2.8 m 13.8 x 9.2 mm behind 20.46 mm see 1.9 x 1.3 m of the 2.0 x 1.5 m. Its
-//! table of points decides here, and the distance is assumed; so are the depths of the targets.
+//! a photo. The first excludes the others: at 2.8 m 13.8 x 9.2 mm behind 20.46 mm see 1.9 x 1.3 m of the 2.0 x 1.5 m. The
+//! distance is assumed, so that more of the field is in view, though still not as many points as his; so are the depths.
 
 mod report;
 

@@ -224,8 +224,8 @@ texts! {
         "왜곡 보정표는 보통 크기로 만들었습니다. 논문에는 그림만 있습니다.";
     a_film_along(v): "The film shrank to {v} along its run.", "필름은 길이 방향으로 {v}배 수축했습니다.";
     a_film_across(v): "The film shrank to {v} across it.", "필름은 폭 방향으로 {v}배 수축했습니다.";
-    a_station_distance(v, paper): "Stations {v} mm away; the paper says about {paper} mm, from where this camera sees 1.9 × 1.3 m of the 2.0 × 1.5 m field. The 100 to 119 targets a photo of its table 1 decide.",
-        "촬영점은 {v} mm 거리입니다. 논문의 약 {paper} mm에서는 이 카메라가 2.0 × 1.5 m 가운데 1.9 × 1.3 m만 봅니다. 표 1의 사진당 100~119점을 따랐습니다.";
+    a_station_distance(v, paper): "Stations {v} mm away; the paper says about {paper} mm, from where this camera sees 1.9 × 1.3 m of the 2.0 × 1.5 m field and fewer targets than the 100 to 119 a photo of its table 1. Farther away it sees more of them, though still not as many.",
+        "촬영점은 {v} mm 거리입니다. 논문의 약 {paper} mm에서는 이 카메라가 2.0 × 1.5 m 가운데 1.9 × 1.3 m만 보여 표 1의 사진당 100~119점에 미치지 못합니다. 더 멀리서는 늘지만 그만큼은 아닙니다.";
     a_field_depth(v): "Targets at depths over {v} mm: the paper says \"three-dimensional\" and no more.", "표적의 깊이 범위는 {v} mm입니다. 논문에는 \"3차원\"이라고만 적혀 있습니다.";
     a_station_directions: "Stations on an arc at ±10°, ±30°, ±50°: the paper draws them without figures.", "촬영점은 ±10°, ±30°, ±50°의 호 위에 있습니다. 논문에는 수치 없이 그림만 있습니다.";
     a_psf(v): "Lens blur of {v} px (standard deviation).", "렌즈 번짐은 {v} px(표준편차)입니다.";
