@@ -1,21 +1,25 @@
 //! Step 6: the result with its statistics. Of a project that changed since, no number is shown.
 
-use std::collections::HashMap;
+mod cameras;
+mod tables;
+mod units;
 
 use leptos::prelude::*;
-use sightline::adjustment::{AdjustedCamera, AdjustedObservation, Adjustment};
-use sightline::project::{Camera, Interior, Parameter, Project, Role};
+use sightline::adjustment::Adjustment;
+use sightline::project::{Camera, Project, Role};
 
-use super::adjust::{parameter_name, parameter_unit};
 use super::advice::CRITICAL_W;
 use super::changes::change_words;
 use super::icon::{Glyph, Icon};
 use super::plots::{ResidualPlot, Vector};
 use super::shell::export_tables;
-use super::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 use crate::format;
 use crate::i18n::text;
 use crate::store::{Desk, Step};
+
+use cameras::Cameras;
+use tables::{CheckPoints, PhotosTable, PointsTable, Worst, largest_w};
+use units::{rms_px, shown_as, unit_per_pixel};
 
 #[component]
 pub fn Results() -> impl IntoView {
@@ -66,49 +70,6 @@ fn OutOfDate() -> impl IntoView {
 /// Reads the present adjustment; components below exist only while there is one.
 fn read<T: Default>(desk: Desk, read: impl FnOnce(&Adjustment, &Project) -> T) -> T {
     desk.document.with(|d| d.current().map(|r| read(&r.adjustment, &r.input)).unwrap_or_default())
-}
-
-/// Rms of all image residuals in pixels: residuals over the pixel size of their camera.
-fn rms_px(adjustment: &Adjustment, project: &Project) -> Option<f64> {
-    let cameras: HashMap<&str, &Camera> = project.cameras.iter().map(|c| (c.id.as_str(), c)).collect();
-    let (mut sum, mut count) = (0.0, 0);
-    for photo in &adjustment.photos {
-        let camera = project.photos.iter().find(|p| p.id == photo.id).and_then(|p| cameras.get(p.camera.as_str()))?;
-        let [px, py] = unit_per_pixel(camera);
-        sum += photo.points as f64 * ((photo.rms_x / px).powi(2) + (photo.rms_y / py).powi(2));
-        count += 2 * photo.points;
-    }
-    (count > 0).then(|| (sum / count as f64).sqrt())
-}
-
-/// Residual units per pixel: millimetres in the brown model with a pitch, pixels elsewhere.
-fn unit_per_pixel(camera: &Camera) -> [f64; 2] {
-    if matches!(camera.interior, Interior::Opencv { .. }) { [1.0, 1.0] } else { camera.pitch() }
-}
-
-/// How residuals of a camera are shown: micrometres where millimetres are known, else pixels.
-fn shown_as(camera: Option<&Camera>) -> (f64, &'static str) {
-    match camera {
-        Some(c) if c.pixel_pitch.is_some() && matches!(c.interior, Interior::Brown { .. }) => (1000.0, "µm"),
-        _ => (1.0, "px"),
-    }
-}
-
-/// One unit for a whole table: micrometres only when every camera has them.
-fn common_unit(project: &Project) -> (f64, &'static str) {
-    let units = project.cameras.iter().map(|c| shown_as(Some(c))).collect::<Vec<_>>();
-    if units.iter().all(|u| u.1 == "µm") { (1000.0, "µm") } else { (1.0, "px") }
-}
-
-/// Factor from a photo's residuals to the table's unit.
-fn factors(project: &Project) -> HashMap<String, [f64; 2]> {
-    let (factor, unit) = common_unit(project);
-    let of = |photo: &sightline::project::Photo| {
-        let camera = project.cameras.iter().find(|c| c.id == photo.camera)?;
-        let [px, py] = unit_per_pixel(camera);
-        Some((photo.id.clone(), if unit == "px" { [1.0 / px, 1.0 / py] } else { [factor, factor] }))
-    };
-    project.photos.iter().filter_map(of).collect()
 }
 
 #[component]
@@ -200,262 +161,6 @@ fn TestBar(statistic: f64, lower: f64, upper: f64) -> impl IntoView {
             <path class="within" d=format!("M{0} 2v10M{0} 7H{1}M{1} 2v10", x(lower), x(upper))></path>
             <path class="mark-at" d=format!("M{at} 0v14")></path>
         </svg>
-    }
-}
-
-/// Value, sigma and unit of a parameter, with a power of ten where the value is small.
-fn parameter_cells(camera: &Camera, parameter: Parameter, value: f64, sigma: Option<f64>) -> (String, String, String) {
-    let size = value.abs().max(sigma.unwrap_or(0.0));
-    let exponent = if size > 0.0 && size < 0.01 { size.log10().floor() as i32 } else { 0 };
-    let power = 10f64.powi(exponent);
-    let decimals = sigma.map_or(6, |s| format::decimals_for(s / power));
-    let unit = parameter_unit(camera, parameter);
-    let unit = if exponent == 0 { unit } else { format!("{} {unit}", format::power(exponent)) };
-    (format::fixed(value / power, decimals), sigma.map_or("–".into(), |s| format::fixed(s / power, decimals)), unit)
-}
-
-#[component]
-fn Cameras() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let cameras = Memo::new(move |_| read(desk, |a, _| a.cameras.clone()));
-    view! { {move || cameras.get().into_iter().map(|camera| view! { <CameraTable camera/> }).collect_view()} }
-}
-
-/// A camera's parameters with their correlations in the same rows.
-#[component]
-fn CameraTable(camera: AdjustedCamera) -> impl IntoView {
-    let names =
-        camera.correlation.names.iter().map(|n| n.parse::<Parameter>().map_or("", parameter_name)).collect::<Vec<_>>();
-    let id = camera.camera.id.clone();
-    let estimated =
-        camera.correlation.names.iter().enumerate().filter_map(|(i, n)| Some((i, n.parse::<Parameter>().ok()?)));
-    let rows = estimated.map(|(i, p)| {
-        let value = camera.camera.interior.get(p).unwrap_or(0.0);
-        let sigma = camera.sigma.get(&p).copied();
-        let (value, sigma, unit) = parameter_cells(&camera.camera, p, value, sigma);
-        let row = camera.correlation.matrix.get(i).cloned().unwrap_or_default();
-        let cells = (0..names.len()).map(|j| correlation_cell(i, j, row.get(j).copied().unwrap_or(0.0))).collect_view();
-        view! {
-            <tr data-camera=camera.camera.id.clone() data-parameter=p.name()>
-                <td class="left id">{parameter_name(p)}</td><td><b>{value}</b></td><td>{sigma}</td><td class="left">{unit}</td>{cells}
-            </tr>
-        }
-    }).collect_view();
-    let held = camera
-        .camera
-        .interior
-        .parameters()
-        .iter()
-        .filter(|p| **p != Parameter::F && !camera.camera.estimated().contains(p));
-    let held = held.map(|p| parameter_name(*p)).collect::<Vec<_>>().join(", ");
-    view! {
-        <h2 class="section-head">
-            <span>{move || text::camera_and_correlations(&id)}</span>
-            <span class="aside"><i class="swatch minus"></i>" −1 " <i class="swatch plus"></i> " +1"</span>
-        </h2>
-        <table class="table correlations">
-            <thead><tr>
-                <th class="left"></th><th>{text::value}</th><th>"σ 1σ"</th><th class="left">{text::unit}</th>
-                {names.iter().map(|n| view! { <th class="cell">{*n}</th> }).collect_view()}
-            </tr></thead>
-            <tbody>{rows}</tbody>
-        </table>
-        {(!held.is_empty()).then(|| view! { <p class="note">{move || text::all_held(&held)}</p> })}
-    }
-}
-
-fn correlation_cell(i: usize, j: usize, r: f64) -> impl IntoView {
-    let shown = if i != j && r.abs() >= 0.4 { format::fixed(r, 2).replacen("0.", ".", 1) } else { String::new() };
-    let class = match (j.cmp(&i), r < 0.0) {
-        (std::cmp::Ordering::Greater, _) => "cell",
-        (std::cmp::Ordering::Equal, _) => "cell own",
-        (_, true) => "cell minus",
-        _ => "cell plus",
-    };
-    let strength = if r.abs() > 0.8 { 100.0 } else { 55.0 * r.abs() };
-    let shown = if j > i { String::new() } else { shown };
-    view! { <td class=class class:full={j < i && r.abs() > 0.8} style:--strength=format!("{strength:.0}%")>{shown}</td> }
-}
-
-/// Differences at the check points.
-#[component]
-fn CheckPoints() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let all = Memo::new(move |_| read(desk, |a, _| a.check_points.clone()));
-    let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
-    view! {
-        <Show when=move || all.with(|a| !a.is_empty())>
-            <h2 class="section-head"><span>{text::check_points}</span><span class="aside">{text::adjusted_minus_given}</span></h2>
-            <table class="table">
-                <thead><tr><th class="left">{text::id}</th>{["X", "Y", "Z"].map(|n| view! { <th>"Δ" {n} " " <u>{unit}</u></th> }).collect_view()}</tr></thead>
-                <tbody>
-                    {move || all.get().into_iter().map(|c| view! {
-                        <tr><td class="left id">{c.id}</td>{(0..3).map(|k| view! { <td>{format::maybe(c.difference.map(|d| d[k]), 4)}</td> }).collect_view()}</tr>
-                    }).collect_view()}
-                </tbody>
-            </table>
-        </Show>
-    }
-}
-
-#[component]
-fn PhotosTable() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let sorting = RwSignal::new(None::<Sorting>);
-    let columns = Signal::derive(move || {
-        let length = desk.document.with(|d| d.project.unit.clone());
-        let unit = read(desk, |_, p| common_unit(p).1.to_owned());
-        vec![
-            Column::words(text::photo),
-            Column::number(text::points_column),
-            Column::number(text::rms_x).unit(unit.clone()),
-            Column::number(text::rms_y).unit(unit),
-            Column::number(|| "X").unit(length.clone()),
-            Column::number(|| "Y").unit(length.clone()),
-            Column::number(|| "Z").unit(length.clone()),
-            Column::number(|| "σ").low("X").unit(length.clone()),
-            Column::number(|| "σ").low("Y").unit(length.clone()),
-            Column::number(|| "σ").low("Z").unit(length),
-        ]
-    });
-    let rows = Memo::new(move |_| {
-        read(desk, |a, project| {
-            let factors = factors(project);
-            let row = |p: &sightline::adjustment::AdjustedPhoto| {
-                let [fx, fy] = factors.get(&p.id).copied().unwrap_or([1.0, 1.0]);
-                let sigma = p.sigma_position;
-                let decimals = sigma.map_or(3, |s| format::decimals_for(s.into_iter().fold(f64::INFINITY, f64::min)));
-                let mut cells = vec![Cell::id(&p.id), Cell::count(p.points)];
-                cells.push(Cell::number(Some(p.rms_x * fx), 2 + usize::from(fx < 100.0)));
-                cells.push(Cell::number(Some(p.rms_y * fy), 2 + usize::from(fy < 100.0)));
-                cells.extend(p.position.map(|x| Cell::number(Some(x), decimals)));
-                cells.extend((0..3).map(|k| Cell::number(sigma.map(|s| s[k]), decimals)));
-                Row { key: p.id.clone(), cells, off: false }
-            };
-            a.photos.iter().map(row).collect::<Vec<_>>()
-        })
-    });
-    let chosen = Signal::derive(move || desk.selection.with(|s| s.photo.clone()));
-    view! {
-        <h2 class="section-head">
-            <span>{text::photos} " " <span class="id">{move || rows.with(Vec::len)}</span></span>
-            <CopyButton columns rows/>
-        </h2>
-        <NumberTable label=text::photos columns rows chosen on_choose=Callback::new(move |id: String| desk.select_photo(&id)) sorting/>
-    }
-}
-
-#[component]
-fn PointsTable() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let sorting = RwSignal::new(Some(Sorting { column: 7, descending: true }));
-    let columns = Signal::derive(move || {
-        let unit = desk.document.with(|d| d.project.unit.clone());
-        let number = |name: fn() -> &'static str, low| Column::number(name).low(low).unit(unit.clone());
-        vec![
-            Column::words(text::id),
-            Column::number(text::rays),
-            number(|| "X", ""),
-            number(|| "Y", ""),
-            number(|| "Z", ""),
-            number(|| "σ", "X"),
-            number(|| "σ", "Y"),
-            number(|| "σ", "Z"),
-        ]
-    });
-    let rows = Memo::new(move |_| {
-        read(desk, |a, _| {
-            let largest = a.points.iter().filter_map(|p| p.sigma).map(|s| s[2]).fold(0.0_f64, f64::max);
-            let typical = a.precision.as_ref().map_or(0.001, |p| p.rms_sigma.into_iter().fold(f64::INFINITY, f64::min));
-            let decimals = format::decimals_for(typical);
-            let row = |p: &sightline::adjustment::AdjustedPoint| {
-                let rays = Cell::count(p.rays).class(if p.rays < 3 { "warn" } else { "" });
-                let mut cells = vec![Cell::id(&p.id), rays];
-                cells.extend(p.xyz.map(|x| Cell::number(Some(x), decimals)));
-                cells.extend((0..3).map(|k| Cell::number(p.sigma.map(|s| s[k]), decimals)));
-                if let (Some(s), Some(last)) = (p.sigma, cells.last_mut()) {
-                    last.bar = (largest > 0.0).then(|| s[2] / largest);
-                }
-                Row { key: p.id.clone(), cells, off: false }
-            };
-            a.points.iter().map(row).collect::<Vec<_>>()
-        })
-    });
-    let chosen = Signal::derive(move || desk.selection.with(|s| s.point.clone()));
-    view! {
-        <h2 class="section-head">
-            <span>{text::points} " " <span class="id">{move || format::count(rows.with(Vec::len))}</span></span>
-            <CopyButton columns rows/>
-        </h2>
-        <NumberTable label=text::points columns rows chosen on_choose=Callback::new(move |id: String| desk.select_point(&id)) sorting/>
-    }
-}
-
-fn largest_w(o: &AdjustedObservation) -> Option<f64> {
-    [o.wx, o.wy].into_iter().flatten().max_by(|a, b| a.abs().total_cmp(&b.abs()))
-}
-
-/// Observations by the size of their test value.
-#[component]
-fn Worst() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let sorting = RwSignal::new(Some(Sorting { column: 5, descending: true }));
-    let columns = Signal::derive(move || {
-        let unit = read(desk, |_, p| common_unit(p).1.to_owned());
-        vec![
-            Column::words(text::id),
-            Column::words(text::photo),
-            Column::number(|| "v").low("x").unit(unit.clone()),
-            Column::number(|| "v").low("y").unit(unit),
-            Column::number(|| "r"),
-            Column::number(|| "w"),
-            Column::words(|| ""),
-        ]
-    });
-    let rows = Memo::new(move |_| {
-        read(desk, |a, project| {
-            let factors = factors(project);
-            let row = |o: &AdjustedObservation| {
-                let [fx, fy] = factors.get(&o.photo).copied().unwrap_or([1.0, 1.0]);
-                let decimals = 2 + usize::from(fx < 100.0);
-                let w = largest_w(o);
-                let r = [o.rx, o.ry].into_iter().flatten().min_by(f64::total_cmp);
-                let over = w.is_some_and(|w| w.abs() > CRITICAL_W);
-                let mut size = Cell::number(w, 2).class(if over { "bad" } else { "" });
-                size.order = w.map(f64::abs);
-                let verdict = if over { format!("✕ {}", text::over(CRITICAL_W)) } else { String::new() };
-                Row {
-                    key: format!("{}\u{1f}{}", o.photo, o.point),
-                    cells: vec![
-                        Cell::id(&o.point),
-                        Cell::words(&o.photo),
-                        Cell::number(Some(o.vx * fx), decimals),
-                        Cell::number(Some(o.vy * fy), decimals),
-                        Cell::number(r, 2),
-                        size,
-                        Cell::words(verdict).class("left wide bad"),
-                    ],
-                    off: !o.enabled,
-                }
-            };
-            a.observations.iter().filter(|o| o.enabled).map(row).collect::<Vec<_>>()
-        })
-    });
-    let chosen = Signal::derive(move || {
-        desk.selection.with(|s| Some(format!("{}\u{1f}{}", s.photo.clone()?, s.point.clone()?)))
-    });
-    let choose = Callback::new(move |key: String| {
-        if let Some((photo, point)) = key.split_once('\u{1f}') {
-            desk.select_observation(photo, point);
-        }
-    });
-    view! {
-        <h2 class="section-head">
-            <span>{text::worst_observations}</span>
-            <span class="aside">{text::baarda}</span>
-            <CopyButton columns rows/>
-        </h2>
-        <NumberTable label=text::worst_observations columns rows chosen on_choose=choose sorting/>
     }
 }
 

@@ -1,0 +1,194 @@
+//! Check points, photos, points and the worst observations of a result.
+
+use leptos::prelude::*;
+use sightline::adjustment::AdjustedObservation;
+
+use super::read;
+use super::units::{common_unit, factors};
+use crate::format;
+use crate::i18n::text;
+use crate::store::Desk;
+use crate::view::advice::CRITICAL_W;
+use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+
+/// Differences at the check points.
+#[component]
+pub(super) fn CheckPoints() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let all = Memo::new(move |_| read(desk, |a, _| a.check_points.clone()));
+    let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
+    view! {
+        <Show when=move || all.with(|a| !a.is_empty())>
+            <h2 class="section-head"><span>{text::check_points}</span><span class="aside">{text::adjusted_minus_given}</span></h2>
+            <table class="table">
+                <thead><tr><th class="left">{text::id}</th>{["X", "Y", "Z"].map(|n| view! { <th>"Δ" {n} " " <u>{unit}</u></th> }).collect_view()}</tr></thead>
+                <tbody>
+                    {move || all.get().into_iter().map(|c| view! {
+                        <tr><td class="left id">{c.id}</td>{(0..3).map(|k| view! { <td>{format::maybe(c.difference.map(|d| d[k]), 4)}</td> }).collect_view()}</tr>
+                    }).collect_view()}
+                </tbody>
+            </table>
+        </Show>
+    }
+}
+
+#[component]
+pub(super) fn PhotosTable() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let sorting = RwSignal::new(None::<Sorting>);
+    let columns = Signal::derive(move || {
+        let length = desk.document.with(|d| d.project.unit.clone());
+        let unit = read(desk, |_, p| common_unit(p).1.to_owned());
+        vec![
+            Column::words(text::photo),
+            Column::number(text::points_column),
+            Column::number(text::rms_x).unit(unit.clone()),
+            Column::number(text::rms_y).unit(unit),
+            Column::number(|| "X").unit(length.clone()),
+            Column::number(|| "Y").unit(length.clone()),
+            Column::number(|| "Z").unit(length.clone()),
+            Column::number(|| "σ").low("X").unit(length.clone()),
+            Column::number(|| "σ").low("Y").unit(length.clone()),
+            Column::number(|| "σ").low("Z").unit(length),
+        ]
+    });
+    let rows = Memo::new(move |_| {
+        read(desk, |a, project| {
+            let factors = factors(project);
+            let row = |p: &sightline::adjustment::AdjustedPhoto| {
+                let [fx, fy] = factors.get(&p.id).copied().unwrap_or([1.0, 1.0]);
+                let sigma = p.sigma_position;
+                let decimals = sigma.map_or(3, |s| format::decimals_for(s.into_iter().fold(f64::INFINITY, f64::min)));
+                let mut cells = vec![Cell::id(&p.id), Cell::count(p.points)];
+                cells.push(Cell::number(Some(p.rms_x * fx), 2 + usize::from(fx < 100.0)));
+                cells.push(Cell::number(Some(p.rms_y * fy), 2 + usize::from(fy < 100.0)));
+                cells.extend(p.position.map(|x| Cell::number(Some(x), decimals)));
+                cells.extend((0..3).map(|k| Cell::number(sigma.map(|s| s[k]), decimals)));
+                Row { key: p.id.clone(), cells, off: false }
+            };
+            a.photos.iter().map(row).collect::<Vec<_>>()
+        })
+    });
+    let chosen = Signal::derive(move || desk.selection.with(|s| s.photo.clone()));
+    view! {
+        <h2 class="section-head">
+            <span>{text::photos} " " <span class="id">{move || rows.with(Vec::len)}</span></span>
+            <CopyButton columns rows/>
+        </h2>
+        <NumberTable label=text::photos columns rows chosen on_choose=Callback::new(move |id: String| desk.select_photo(&id)) sorting/>
+    }
+}
+
+#[component]
+pub(super) fn PointsTable() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let sorting = RwSignal::new(Some(Sorting { column: 7, descending: true }));
+    let columns = Signal::derive(move || {
+        let unit = desk.document.with(|d| d.project.unit.clone());
+        let number = |name: fn() -> &'static str, low| Column::number(name).low(low).unit(unit.clone());
+        vec![
+            Column::words(text::id),
+            Column::number(text::rays),
+            number(|| "X", ""),
+            number(|| "Y", ""),
+            number(|| "Z", ""),
+            number(|| "σ", "X"),
+            number(|| "σ", "Y"),
+            number(|| "σ", "Z"),
+        ]
+    });
+    let rows = Memo::new(move |_| {
+        read(desk, |a, _| {
+            let largest = a.points.iter().filter_map(|p| p.sigma).map(|s| s[2]).fold(0.0_f64, f64::max);
+            let typical = a.precision.as_ref().map_or(0.001, |p| p.rms_sigma.into_iter().fold(f64::INFINITY, f64::min));
+            let decimals = format::decimals_for(typical);
+            let row = |p: &sightline::adjustment::AdjustedPoint| {
+                let rays = Cell::count(p.rays).class(if p.rays < 3 { "warn" } else { "" });
+                let mut cells = vec![Cell::id(&p.id), rays];
+                cells.extend(p.xyz.map(|x| Cell::number(Some(x), decimals)));
+                cells.extend((0..3).map(|k| Cell::number(p.sigma.map(|s| s[k]), decimals)));
+                if let (Some(s), Some(last)) = (p.sigma, cells.last_mut()) {
+                    last.bar = (largest > 0.0).then(|| s[2] / largest);
+                }
+                Row { key: p.id.clone(), cells, off: false }
+            };
+            a.points.iter().map(row).collect::<Vec<_>>()
+        })
+    });
+    let chosen = Signal::derive(move || desk.selection.with(|s| s.point.clone()));
+    view! {
+        <h2 class="section-head">
+            <span>{text::points} " " <span class="id">{move || format::count(rows.with(Vec::len))}</span></span>
+            <CopyButton columns rows/>
+        </h2>
+        <NumberTable label=text::points columns rows chosen on_choose=Callback::new(move |id: String| desk.select_point(&id)) sorting/>
+    }
+}
+
+pub(super) fn largest_w(o: &AdjustedObservation) -> Option<f64> {
+    [o.wx, o.wy].into_iter().flatten().max_by(|a, b| a.abs().total_cmp(&b.abs()))
+}
+
+/// Observations by the size of their test value.
+#[component]
+pub(super) fn Worst() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let sorting = RwSignal::new(Some(Sorting { column: 5, descending: true }));
+    let columns = Signal::derive(move || {
+        let unit = read(desk, |_, p| common_unit(p).1.to_owned());
+        vec![
+            Column::words(text::id),
+            Column::words(text::photo),
+            Column::number(|| "v").low("x").unit(unit.clone()),
+            Column::number(|| "v").low("y").unit(unit),
+            Column::number(|| "r"),
+            Column::number(|| "w"),
+            Column::words(|| ""),
+        ]
+    });
+    let rows = Memo::new(move |_| {
+        read(desk, |a, project| {
+            let factors = factors(project);
+            let row = |o: &AdjustedObservation| {
+                let [fx, fy] = factors.get(&o.photo).copied().unwrap_or([1.0, 1.0]);
+                let decimals = 2 + usize::from(fx < 100.0);
+                let w = largest_w(o);
+                let r = [o.rx, o.ry].into_iter().flatten().min_by(f64::total_cmp);
+                let over = w.is_some_and(|w| w.abs() > CRITICAL_W);
+                let mut size = Cell::number(w, 2).class(if over { "bad" } else { "" });
+                size.order = w.map(f64::abs);
+                let verdict = if over { format!("✕ {}", text::over(CRITICAL_W)) } else { String::new() };
+                Row {
+                    key: format!("{}\u{1f}{}", o.photo, o.point),
+                    cells: vec![
+                        Cell::id(&o.point),
+                        Cell::words(&o.photo),
+                        Cell::number(Some(o.vx * fx), decimals),
+                        Cell::number(Some(o.vy * fy), decimals),
+                        Cell::number(r, 2),
+                        size,
+                        Cell::words(verdict).class("left wide bad"),
+                    ],
+                    off: !o.enabled,
+                }
+            };
+            a.observations.iter().filter(|o| o.enabled).map(row).collect::<Vec<_>>()
+        })
+    });
+    let chosen = Signal::derive(move || {
+        desk.selection.with(|s| Some(format!("{}\u{1f}{}", s.photo.clone()?, s.point.clone()?)))
+    });
+    let choose = Callback::new(move |key: String| {
+        if let Some((photo, point)) = key.split_once('\u{1f}') {
+            desk.select_observation(photo, point);
+        }
+    });
+    view! {
+        <h2 class="section-head">
+            <span>{text::worst_observations}</span>
+            <span class="aside">{text::baarda}</span>
+            <CopyButton columns rows/>
+        </h2>
+        <NumberTable label=text::worst_observations columns rows chosen on_choose=choose sorting/>
+    }
+}
