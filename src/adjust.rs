@@ -25,6 +25,7 @@ mod rows;
 mod session;
 mod snooping;
 mod tiles;
+mod transformation;
 mod triple;
 mod unmodelled;
 
