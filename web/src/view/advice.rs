@@ -155,7 +155,8 @@ fn items(desk: Desk) -> Vec<Item> {
         if let Some(result) = d.current() {
             let unmodelled = sightline::adjust::unmodelled(&result.input, &result.adjustment);
             from_result(&result.adjustment, unmodelled, &mut items);
-            items.extend(result.adjustment.advice.iter().map(network_item));
+            items.extend(camera_against_photos(&result.adjustment.advice));
+            items.extend(result.adjustment.advice.iter().filter(|a| !of_one_photo(a)).map(network_item));
         }
     });
     let said = items.iter().map(|i| i.target.clone()).collect::<Vec<_>>();
@@ -191,6 +192,43 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     if all.len() > 8 { format!("{shown}, …") } else { shown }
 }
 
+/// Whether it is a correlation with an element of one photo's orientation.
+fn of_one_photo(advice: &sightline::adjustment::Advice) -> bool {
+    matches!(advice, sightline::adjustment::Advice::HighCorrelation { photo: Some(_), .. })
+}
+
+fn correlated_name(name: &str) -> String {
+    name.parse::<Parameter>().map_or_else(|_| name.to_owned(), |p| parameter_name(p).to_owned())
+}
+
+/// Correlations of camera parameters with elements of photos, as one item. Angles of one photo among themselves are left
+/// out: they say how it is turned to the axes, not what the network lacks.
+fn camera_against_photos(advice: &[sightline::adjustment::Advice]) -> Option<Item> {
+    use sightline::adjustment::Advice;
+    let mut photos = Vec::new();
+    let mut strongest: Option<(f64, String)> = None;
+    for advice in advice {
+        let Advice::HighCorrelation { photo: Some(photo), first, second, correlation, .. } = advice else { continue };
+        if [first, second].iter().all(|name| name.parse::<Parameter>().is_err()) {
+            continue;
+        }
+        if !photos.contains(photo) {
+            photos.push(photo.clone());
+        }
+        if strongest.as_ref().is_none_or(|(r, _)| correlation.abs() > r.abs()) {
+            strongest = Some((*correlation, format!("{} – {}", correlated_name(first), correlated_name(second))));
+        }
+    }
+    let (r, pair) = strongest?;
+    Some(Item {
+        warning: true,
+        title: text::camera_against_photos(photos.len()),
+        body: text::camera_against_photos_body(listed(photos.iter().map(String::as_str))),
+        evidence: format!("{pair} {}", format::fixed(r, 2)),
+        target: photos.first().map_or(Target::None, |photo| Target::Photo(photo.clone())),
+    })
+}
+
 /// What the engine says of a network that is solvable but weak.
 fn network_item(advice: &sightline::adjustment::Advice) -> Item {
     use sightline::adjustment::Advice;
@@ -203,13 +241,8 @@ fn network_item(advice: &sightline::adjustment::Advice) -> Item {
             .map_or(Target::None, |(photo, point)| Target::Observation { photo: photo.clone(), point: point.clone() })
     };
     let (title, body, evidence, target) = match advice {
-        Advice::HighCorrelation { camera, photo, first, second, correlation } => {
-            let name = |n: &str| n.parse::<Parameter>().map_or_else(|_| n.to_owned(), |p| parameter_name(p).to_owned());
-            let second = match photo {
-                Some(photo) => format!("{} ({} {photo})", name(second), text::photo()),
-                None => name(second),
-            };
-            let title = text::correlated(name(first), second);
+        Advice::HighCorrelation { camera, first, second, correlation, .. } => {
+            let title = text::correlated(correlated_name(first), correlated_name(second));
             (title, text::correlated_body(camera), format::fixed(*correlation, 2), Target::None)
         }
         Advice::LowRedundancy { observations } => {
