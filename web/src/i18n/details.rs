@@ -2,7 +2,7 @@
 //! words, and the values between them are carried over. A sentence that is not listed stays as the engine wrote it.
 
 /// English as the engine writes it, and Korean; `{}` stands for a value, in the same order in both unless numbered.
-const SENTENCES: [(&str, &str); 63] = [
+const SENTENCES: [(&str, &str); 71] = [
     // The document
     (
         "this is format \"{}\" version {}; \"sightline\" version 1 is read here",
@@ -148,6 +148,27 @@ const SENTENCES: [(&str, &str); 63] = [
     ),
     ("all fiducial marks lie in one point", "사진지표가 모두 한 점에 있습니다"),
     ("the fiducial marks lie on a line", "사진지표가 한 직선 위에 있습니다"),
+    (
+        "unmodelled is {}; a number of pixels from 0 is expected",
+        "모형화되지 않은 오차가 {}입니다. 0 이상의 화소 수여야 합니다",
+    ),
+    ("{} radii and {} distortions do not determine {} terms", "반경 {}개와 왜곡량 {}개로는 {}개 항을 정할 수 없습니다"),
+    (
+        "radii and distortions are finite numbers, not all 0",
+        "반경과 왜곡량은 유한한 수여야 하며 모두 0일 수는 없습니다",
+    ),
+    ("the radii do not determine {} terms", "이 반경들로는 {}개 항을 정할 수 없습니다"),
+    // Experiments
+    (
+        "the standard deviation of image coordinates is from 0.01 to 1000 µm",
+        "사진좌표의 표준편차는 0.01에서 1000 µm까지입니다",
+    ),
+    ("the noise of the pixels is a share from 0 to 0.2", "화소 잡음은 최댓값의 0에서 0.2까지입니다"),
+    (
+        "the standard error of control coordinates is from 1e-6 to 1000 mm",
+        "기준점 좌표의 표준오차는 1e-6에서 1000 mm까지입니다",
+    ),
+    ("at most 100000 rounds of Monte Carlo", "몬테카를로 반복은 100000회까지입니다"),
 ];
 
 /// The sentence in Korean, with its values; none where it is not listed.
@@ -225,6 +246,29 @@ mod tests {
                     assert!(korean(&detail).is_some(), "{format}: {detail}")
                 }
                 other => panic!("{format} {text:?}: {other:?}"),
+            }
+        }
+    }
+
+    /// So does what an experiment refuses.
+    #[test]
+    fn refused_options_are_translated() {
+        use sightline::experiments::{ExperimentOptions, run};
+        let with = |change: fn(&mut ExperimentOptions)| {
+            let mut options = ExperimentOptions::default();
+            change(&mut options);
+            run("kim", &options, &mut |_, _| true)
+        };
+        let refused = [
+            with(|o| o.image_sigma_um = Some(-1.0)),
+            with(|o| o.pixel_noise = Some(2.0)),
+            with(|o| o.control_sigma_mm = Some(f64::NAN)),
+            with(|o| o.rounds = Some(1_000_000)),
+        ];
+        for outcome in refused {
+            match outcome {
+                Err(sightline::Error::Invalid { detail, .. }) => assert!(korean(&detail).is_some(), "{detail}"),
+                other => panic!("{:?}", other.err()),
             }
         }
     }
