@@ -48,7 +48,7 @@ pub fn detect_file(
         let grey = decode::grey(&value::bytes(&bytes, "bytes")?, options.channel)?;
         detect::detect(&grey.view()?, &options)
     };
-    found().map(|detection| value::write(&detection)).map_err(|error| thrown(&error))
+    found().map(value::detection_object).map_err(|error| thrown(&error))
 }
 
 /// Finds and measures the targets of a grey picture, given row by row from the top left.
@@ -65,7 +65,7 @@ pub fn detect_grey(
         let grey = Grey { width, height, samples: samples_of(&samples)? };
         detect::detect(&grey.view()?, &options)
     };
-    found().map(|detection| value::write(&detection)).map_err(|error| thrown(&error))
+    found().map(value::detection_object).map_err(|error| thrown(&error))
 }
 
 fn samples_of(samples: &JsValue) -> crate::Result<Samples> {

@@ -6,6 +6,7 @@ use js_sys::{Array, Float64Array, JsString, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::adjustment::{AdjustedObservation, AdjustedPoint};
+use crate::detection::{Reason, Rejected};
 use crate::error::{Error, Place, Result};
 use crate::project::{Observation, Point, Role, Sigma};
 
@@ -35,6 +36,8 @@ extern "C" {
     fn write_points(numbers: &Float64Array, places: &Uint32Array, names: &Array) -> Array;
     #[wasm_bindgen(js_name = writeAdjustedObservations)]
     fn write_adjusted_observations(numbers: &Float64Array, places: &Uint32Array, names: &Array) -> Array;
+    #[wasm_bindgen(js_name = writeRejected)]
+    fn write_rejected(numbers: &Float64Array, reasons: &Uint32Array, names: &Array) -> Array;
     #[wasm_bindgen(js_name = writeAdjustedPoints)]
     fn write_adjusted_points(numbers: &Float64Array, places: &Uint32Array, names: &Array) -> Array;
 }
@@ -156,6 +159,22 @@ pub fn adjusted_point_rows(points: &[AdjustedPoint]) -> Array {
         places.extend([*rays as u32, u32::from(sigma.is_some()) + 2 * u32::from(covariance.is_some())]);
     }
     write_adjusted_points(&columns(&numbers), &Uint32Array::from(places.as_slice()), &names)
+}
+
+/// Rows of rejected blobs.
+pub fn rejected_rows(blobs: &[Rejected]) -> Array {
+    let mut names: Vec<Reason> = Vec::new();
+    let (mut numbers, mut reasons) = (Vec::with_capacity(3 * blobs.len()), Vec::with_capacity(blobs.len()));
+    for Rejected { u, v, diameter, reason } in blobs {
+        numbers.extend([*u, *v, *diameter]);
+        let at = names.iter().position(|name| name == reason).unwrap_or_else(|| {
+            names.push(*reason);
+            names.len() - 1
+        });
+        reasons.push(at as u32);
+    }
+    let names: Array = names.iter().map(super::value::write).collect();
+    write_rejected(&columns(&numbers), &Uint32Array::from(reasons.as_slice()), &names)
 }
 
 fn columns(numbers: &[f64]) -> Float64Array {

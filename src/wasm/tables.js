@@ -183,3 +183,13 @@ export function writeAdjustedPoints(numbers, places, names) {
   }
   return rows;
 }
+
+/** Columns u, v, diameter; reason. */
+export function writeRejected(numbers, reasons, names) {
+  const rows = new Array(reasons.length);
+  for (let row = 0; row < rows.length; row++) {
+    const n = 3 * row;
+    rows[row] = { u: numbers[n], v: numbers[n + 1], diameter: numbers[n + 2], reason: names[reasons[row]] };
+  }
+  return rows;
+}

@@ -9,6 +9,7 @@ use wasm_bindgen::prelude::*;
 
 use super::table;
 use crate::adjustment::Adjustment;
+use crate::detection::Detection;
 use crate::error::{Error, Place, Result};
 use crate::exchange::Files;
 use crate::image::{Grey, Samples};
@@ -121,6 +122,14 @@ pub fn oriented_object(oriented: Oriented) -> JsValue {
     let object = project_object(oriented.project);
     set(object.unchecked_ref(), "notes", &write(&oriented.notes));
     object
+}
+
+/// A detection as plain objects.
+pub fn detection_object(mut detection: Detection) -> JsValue {
+    let rejected = std::mem::take(&mut detection.rejected_blobs);
+    let object: Object = write(&detection).unchecked_into();
+    set(&object, "rejected_blobs", &table::rejected_rows(&rejected));
+    object.into()
 }
 
 /// An adjustment as plain objects.
