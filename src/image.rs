@@ -1,5 +1,7 @@
 //! Grey pictures of 8 or 16 bits, owned or borrowed, row by row from the top left.
 
+use wide::{u8x16, u16x8};
+
 use crate::error::{Error, Place, Result};
 
 /// Samples of a grey picture.
@@ -92,7 +94,14 @@ pub(crate) trait Sample: Copy + Ord + Default {
     fn of(level: u32) -> Self;
     /// Absolute difference.
     fn distance(self, other: Self) -> Self;
+    /// Where two rows of samples differ by more than the threshold: bit k for the k-th of them.
+    fn differing(left: &[Self; LANES], right: &[Self; LANES], threshold: Self) -> u32;
+    /// Rounded mean of four samples above and four below.
+    fn mean_of_eight(upper: [Self; 4], lower: [Self; 4]) -> Self;
 }
+
+/// Samples that are compared at once.
+pub(crate) const LANES: usize = 16;
 
 impl Sample for u8 {
     const MAX: u32 = 255;
@@ -107,6 +116,22 @@ impl Sample for u8 {
     #[inline(always)]
     fn distance(self, other: Self) -> Self {
         self.abs_diff(other)
+    }
+    #[inline(always)]
+    fn differing(left: &[Self; LANES], right: &[Self; LANES], threshold: Self) -> u32 {
+        let (left, right) = (u8x16::new(*left), u8x16::new(*right));
+        let distance = left.saturating_sub(right) | right.saturating_sub(left);
+        distance.simd_gt(u8x16::splat(threshold)).to_bitmask()
+    }
+    #[inline(always)]
+    fn mean_of_eight(upper: [Self; 4], lower: [Self; 4]) -> Self {
+        // two sums of 16 bits at once, every second sample in each
+        let pairs = |four: [u8; 4]| {
+            let word = u32::from_le_bytes(four);
+            (word & 0x00ff_00ff) + ((word >> 8) & 0x00ff_00ff)
+        };
+        let sums = pairs(upper) + pairs(lower);
+        (((sums & 0xffff) + (sums >> 16) + 4) >> 3) as u8
     }
 }
 
@@ -123,6 +148,21 @@ impl Sample for u16 {
     #[inline(always)]
     fn distance(self, other: Self) -> Self {
         self.abs_diff(other)
+    }
+    #[inline(always)]
+    fn differing(left: &[Self; LANES], right: &[Self; LANES], threshold: Self) -> u32 {
+        let half = |samples: &[u16; LANES], from: usize| u16x8::new(std::array::from_fn(|k| samples[from + k]));
+        let bits = |from: usize| {
+            let (left, right) = (half(left, from), half(right, from));
+            let distance = left.saturating_sub(right) | right.saturating_sub(left);
+            distance.simd_gt(u16x8::splat(threshold)).to_bitmask()
+        };
+        bits(0) | bits(8) << 8
+    }
+    #[inline(always)]
+    fn mean_of_eight(upper: [Self; 4], lower: [Self; 4]) -> Self {
+        let sum: u32 = upper.iter().chain(&lower).map(|sample| u32::from(*sample)).sum();
+        ((sum + 4) >> 3) as u16
     }
 }
 
@@ -156,7 +196,8 @@ impl<'a, T: Sample> Plane<'a, T> {
     /// Level of the pixel at pixel coordinates, clamped to the picture.
     #[inline]
     pub fn nearest(&self, u: f64, v: f64) -> f32 {
-        let (x, y) = ((u.max(0.0) as usize).min(self.width - 1), (v.max(0.0) as usize).min(self.height - 1));
+        // the conversion makes 0 of what is negative
+        let (x, y) = ((u as usize).min(self.width - 1), (v as usize).min(self.height - 1));
         self.row(y)[x].level() as f32
     }
 

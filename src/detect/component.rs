@@ -51,7 +51,7 @@ struct Active {
 /// An outline loses at most its outermost row to this.
 fn alike(run: &Chord, above: &Active) -> bool {
     let (length, other) = (run.x1 - run.x0, above.x1 - above.x0);
-    length.min(other) > 0.35 * length.max(other)
+    length > 0.35 * other && other > 0.35 * length
 }
 
 /// Links the runs of one polarity, row by row, into chains.

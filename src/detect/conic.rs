@@ -85,11 +85,8 @@ fn from_conic(quadratic: Vector3<f64>, linear: Vector3<f64>) -> Option<Outline> 
     if !(q_det > 0.0 && q11 + q22 > 0.0) {
         return None;
     }
-    // square root of the inverse M of a 2 x 2 matrix: (M + sqrt(det M) I) / sqrt(trace M + 2 sqrt(det M))
-    let (m11, m12, m22) = (q22 / q_det, -q12 / q_det, q11 / q_det);
-    let root = (1.0 / q_det).sqrt();
-    let norm = (m11 + m22 + 2.0 * root).sqrt();
-    Some(Outline { u, v, p: (m11 + root) / norm, q: (m22 + root) / norm, r: m12 / norm })
+    // the inverse of Q is A A'
+    Some(Outline::of_matrix(u, v, q22 / q_det, -q12 / q_det, q11 / q_det))
 }
 
 /// Eigenvector of the one positive eigenvalue of a symmetric matrix.
@@ -166,7 +163,7 @@ mod tests {
     #[test]
     fn points_on_a_line_give_none_or_a_flat_ellipse() {
         let line: Vec<[f64; 3]> = (0..20).map(|k| [f64::from(k), 2.0 * f64::from(k), 1.0]).collect();
-        assert!(fit(&line).is_none_or(|outline| outline.axes().1 < 0.1));
+        assert!(fit(&line).is_none_or(|outline| outline.semi_axes().1 < 0.1));
         assert!(fit(&[[1.0, 1.0, 1.0]; 9]).is_none());
         assert!(fit(&[[f64::NAN, 1.0, 1.0]; 9]).is_none());
         assert!(fit(&rim(&Outline::from_axes(0.0, 0.0, 2.0, 1.0, 0.0), 0, 4, 0.0)).is_none());

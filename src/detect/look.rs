@@ -4,6 +4,8 @@
 //! level, the shape is open there: it is joined with something else of its grey, or it is the bowl of a letter. What hides
 //! a part of a target differs from both.
 
+use wide::f32x4;
+
 use super::code::DotLevels;
 use super::edge::rim_points;
 use super::outline::{Outline, RimPoint};
@@ -35,7 +37,7 @@ pub(crate) fn look<T: Sample>(
     threshold: f32,
     missing: u32,
 ) -> Option<Look> {
-    let b = outline.axes().1;
+    let b = outline.semi_axes().1;
     let sign = if bright { 1.0 } else { -1.0 };
     let inner = (1.0 - 2.0 / b.max(1.0)).clamp(0.2, 0.85);
     let (mut steps, mut insides) = ([0f32; DIRECTIONS as usize], [0f32; DIRECTIONS as usize]);
@@ -53,9 +55,10 @@ pub(crate) fn look<T: Sample>(
             return None;
         }
     }
-    let (mut sorted, mut levels) = (steps, insides);
-    sorted.sort_unstable_by(f32::total_cmp);
-    levels.sort_unstable_by(f32::total_cmp);
+    let mut pairs = std::array::from_fn(|k| f32x4::new([steps[k], insides[k], 0.0, 0.0]));
+    sort(&mut pairs);
+    let sorted = pairs.map(|pair| pair.to_array()[0]);
+    let levels = pairs.map(|pair| pair.to_array()[1]);
     // the typical step is that of the better half
     let typical = sorted[11];
     let least = (0.4 * typical).max(threshold);
@@ -69,23 +72,65 @@ pub(crate) fn look<T: Sample>(
     })
 }
 
-/// Rim points in the directions, the first few already far apart: what is no blob shows early.
+/// Sorts pairs, the first values among themselves and the second ones, by Batcher's network of odd-even merges: without a
+/// branch, whatever the order.
+fn sort(pairs: &mut [f32x4; DIRECTIONS as usize]) {
+    for (i, j) in NETWORK {
+        let (a, b) = (pairs[i], pairs[j]);
+        (pairs[i], pairs[j]) = (a.fast_min(b), a.fast_max(b));
+    }
+}
+
+/// The comparisons of that network.
+const NETWORK: [(usize, usize); 63] = {
+    let mut network = [(0, 0); 63];
+    let (mut count, mut merged) = (0, 1);
+    while merged < DIRECTIONS as usize {
+        let mut distance = merged;
+        while distance > 0 {
+            let mut i = distance % merged;
+            while i + distance < DIRECTIONS as usize {
+                let same = i / (2 * merged) == (i + distance) / (2 * merged);
+                if same && (i - distance % merged) / distance % 2 == 0 {
+                    network[count] = (i, i + distance);
+                    count += 1;
+                }
+                i += 1;
+            }
+            distance /= 2;
+        }
+        merged *= 2;
+    }
+    assert!(count == 63);
+    network
+};
+
+/// Rim points in the directions. The sides were found by the search; above and below is where what is no blob shows.
 fn around(outline: &Outline) -> impl Iterator<Item = RimPoint> + use<> {
     let outline = *outline;
-    // a turn by five sixteenths goes through all of them
-    let [turn_c, turn_s] = [-0.382_683_432_365_089_8, 0.923_879_532_511_286_7];
-    let (mut c, mut s) = (1.0, 0.0);
-    (0..DIRECTIONS).map(move |_| {
-        let rim = outline.rim(c, s);
-        (c, s) = (c * turn_c - s * turn_s, s * turn_c + c * turn_s);
-        rim
+    [4, 12, 5, 11, 3, 13, 6, 10, 2, 14, 7, 9, 1, 15, 8, 0].into_iter().map(move |k| {
+        let [c, s] = CIRCLE[k];
+        outline.rim(c, s)
     })
 }
+
+/// Cosine and sine of the directions.
+const CIRCLE: [[f64; 2]; DIRECTIONS as usize] = {
+    const C: [f64; 5] = [1.0, 0.923_879_532_511_286_7, std::f64::consts::FRAC_1_SQRT_2, 0.382_683_432_365_089_8, 0.0];
+    let mut circle = [[0.0; 2]; DIRECTIONS as usize];
+    let mut k = 0;
+    while k < 4 {
+        let [c, s] = [C[k], C[4 - k]];
+        (circle[k], circle[k + 4], circle[k + 8], circle[k + 12]) = ([c, s], [-s, c], [-c, -s], [s, -c]);
+        k += 1;
+    }
+    circle
+};
 
 /// Directions in which the inside's level comes back outside of the rim, within about the semi-minor axis: nearly all of
 /// them for the inside of a letter's stroke, those of the set bits in a code ring.
 pub(crate) fn stroke<T: Sample>(plane: &Plane<T>, outline: &Outline, levels: DotLevels) -> u32 {
-    let reach = 1.1 * outline.axes().1 + 1.0;
+    let reach = 1.1 * outline.semi_axes().1 + 1.0;
     let half = 0.5 * (levels.dot - levels.background).abs();
     let comes_back = |rim: RimPoint| {
         let [nx, ny] = rim.normal;
@@ -100,7 +145,7 @@ pub(crate) fn stroke<T: Sample>(plane: &Plane<T>, outline: &Outline, levels: Dot
 /// Share of the outline that is missing though nothing lies in front of it: where neither side of the rim shows a level
 /// that differs, by 0.3 of the contrast, from both the target's and the background's.
 pub(crate) fn unexplained<T: Sample>(plane: &Plane<T>, outline: &Outline, kept: &[bool], levels: DotLevels) -> f64 {
-    let inner = (1.0 - 2.0 / outline.axes().1.max(1.0)).clamp(0.2, 0.85);
+    let inner = (1.0 - 2.0 / outline.semi_axes().1.max(1.0)).clamp(0.2, 0.85);
     let limit = 0.3 * (levels.dot - levels.background).abs();
     let foreign = |x: f64, y: f64| {
         let level = f64::from(plane.nearest(x, y));
@@ -131,6 +176,16 @@ mod tests {
 
     fn disc() -> Outline {
         Outline::from_axes(30.0, 30.0, 10.0, 10.0, 0.0)
+    }
+
+    #[test]
+    fn the_network_sorts() {
+        // a network that sorts every row of zeros and ones sorts everything
+        for bits in 0..1u32 << DIRECTIONS {
+            let mut pairs = std::array::from_fn(|k| f32x4::splat((bits >> k & 1) as f32));
+            sort(&mut pairs);
+            assert!(pairs.map(|pair| pair.to_array()[1]).is_sorted(), "{bits:016b}");
+        }
     }
 
     #[test]

@@ -31,23 +31,36 @@ impl Outline {
         Self { u, v, p: a * c * c + b * s * s, q: a * s * s + b * c * c, r: (a - b) * s * c }
     }
 
-    /// Semi-axes (the larger first) and the angle of the major one, from -90 to 90 degrees.
-    pub fn axes(&self) -> (f64, f64, f64) {
+    /// From its centre and A A' = [[m11, m12], [m12, m22]], whose square root A is.
+    pub fn of_matrix(u: f64, v: f64, m11: f64, m12: f64, m22: f64) -> Self {
+        let root = (m11 * m22 - m12 * m12).sqrt();
+        let norm = (m11 + m22 + 2.0 * root).sqrt();
+        Self { u, v, p: (m11 + root) / norm, q: (m22 + root) / norm, r: m12 / norm }
+    }
+
+    /// Semi-axes, the larger first.
+    pub fn semi_axes(&self) -> (f64, f64) {
         let mean = (self.p + self.q) / 2.0;
         let half = (self.p - self.q) / 2.0;
         let spread = (half * half + self.r * self.r).sqrt();
-        (mean + spread, mean - spread, 0.5 * self.r.atan2(half))
+        (mean + spread, mean - spread)
+    }
+
+    /// Semi-axes (the larger first) and the angle of the major one, from -90 to 90 degrees.
+    pub fn axes(&self) -> (f64, f64, f64) {
+        let (a, b) = self.semi_axes();
+        (a, b, 0.5 * self.r.atan2((self.p - self.q) / 2.0))
     }
 
     /// A proper ellipse of finite numbers.
     pub fn is_proper(&self) -> bool {
-        let (a, b, _) = self.axes();
+        let (a, b) = self.semi_axes();
         self.u.is_finite() && self.v.is_finite() && a.is_finite() && b > 0.0
     }
 
     /// Perimeter in pixels (Ramanujan).
     pub fn perimeter(&self) -> f64 {
-        let (a, b, _) = self.axes();
+        let (a, b) = self.semi_axes();
         std::f64::consts::PI * (3.0 * (a + b) - ((3.0 * a + b) * (a + 3.0 * b)).sqrt())
     }
 
@@ -69,7 +82,8 @@ impl Outline {
     pub fn rim(&self, c: f64, s: f64) -> RimPoint {
         let [dx, dy] = [-self.p * s + self.r * c, -self.r * s + self.q * c];
         let speed = (dx * dx + dy * dy).sqrt();
-        let normal = [dy / speed, -dx / speed];
+        let scale = 1.0 / speed;
+        let normal = [dy * scale, -dx * scale];
         let [nx, ny] = normal;
         RimPoint {
             x: self.u + self.p * c + self.r * s,
@@ -84,10 +98,28 @@ impl Outline {
     #[inline]
     pub fn nearest(&self, x: f64, y: f64) -> (RimPoint, f64) {
         let [c, s] = self.normalised(x, y);
-        let length = (c * c + s * s).sqrt().max(1e-12);
-        let rim = self.rim(c / length, s / length);
+        let square = c * c + s * s;
+        let scale = if square > 1e-24 { 1.0 / square.sqrt() } else { 1e12 };
+        let rim = self.rim(c * scale, s * scale);
         let distance = (x - rim.x) * rim.normal[0] + (y - rim.y) * rim.normal[1];
         (rim, distance)
+    }
+
+    /// Distance of a place from the rim to first order (Sampson), for places near it; outside positive.
+    #[inline]
+    pub fn distance(&self, x: f64, y: f64) -> f64 {
+        let scale = 1.0 / (self.p * self.q - self.r * self.r);
+        let (x, y) = (x - self.u, y - self.v);
+        let (c, s) = (scale * (self.q * x - self.r * y), scale * (self.p * y - self.r * x));
+        let (gx, gy) = (scale * (self.q * c - self.r * s), scale * (self.p * s - self.r * c));
+        let square = c * c + s * s;
+        if square > 0.0 { (square - square.sqrt()) / (gx * gx + gy * gy).sqrt() } else { -self.semi_axes().1 }
+    }
+
+    /// Largest difference of u, v, p, q and r, in pixels.
+    pub fn differs(&self, other: &Self) -> f64 {
+        let differences = [self.u - other.u, self.v - other.v, self.p - other.p, self.q - other.q, self.r - other.r];
+        differences.iter().fold(0.0, |largest, d| if d.abs() > largest { d.abs() } else { largest })
     }
 
     /// Moved and reshaped by a correction of (u, v, p, q, r).
@@ -97,6 +129,9 @@ impl Outline {
 
     /// Semi-axes longer by `pixels` (both), at least a thousandth.
     pub fn grown(&self, pixels: f64) -> Self {
+        if self.semi_axes().1 + pixels > 1e-3 {
+            return Self { p: self.p + pixels, q: self.q + pixels, ..*self };
+        }
         let (a, b, angle) = self.axes();
         Self::from_axes(self.u, self.v, (a + pixels).max(1e-3), (b + pixels).max(1e-3), angle)
     }
@@ -165,6 +200,7 @@ mod tests {
                 let place = [rim.x + distance * rim.normal[0], rim.y + distance * rim.normal[1]];
                 let (_, found) = outline.nearest(place[0], place[1]);
                 assert!((found - distance).abs() < 5e-3, "{k} {found}");
+                assert!((outline.distance(place[0], place[1]) - distance).abs() < 5e-3);
             }
         }
     }

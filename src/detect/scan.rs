@@ -2,10 +2,10 @@
 //!
 //! Where |g(x + 3) - g(x)| exceeds the threshold there is an edge; a run of such places of one sign is one edge, placed
 //! at its centroid. Three pixels bridge the blur of a sharp photograph, so that an edge shows its whole contrast, and are
-//! short enough to keep the two sides of a target of five pixels apart. The comparison is written over plain slices, which
-//! the compiler turns into 16 comparisons at a time; only the few places where it strikes are looked at one by one.
+//! short enough to keep the two sides of a target of five pixels apart. Sixteen places are compared at a time; only the few
+//! where there is a difference are looked at one by one.
 
-use crate::image::{Plane, Sample};
+use crate::image::{LANES, Plane, Sample};
 
 /// Distance of the two samples that are compared, in pixels.
 pub(crate) const BASE: usize = 3;
@@ -21,42 +21,43 @@ pub(crate) struct Edge {
     pub strength: u32,
 }
 
-/// Finds the edges of a row, from left to right. `mask` is scratch.
-pub(crate) fn edges<T: Sample>(row: &[T], threshold: T, mask: &mut Vec<u8>, found: &mut Vec<Edge>) {
+/// Finds the edges of a row, from left to right.
+pub(crate) fn edges<T: Sample>(row: &[T], threshold: T, found: &mut Vec<Edge>) {
     found.clear();
-    if row.len() <= BASE {
-        return;
-    }
-    let count = row.len() - BASE;
-    let padded = count.next_multiple_of(16);
-    mask.resize(padded, 0);
-    for ((strong, &left), &right) in mask.iter_mut().zip(row).zip(&row[BASE..]) {
-        *strong = u8::from(left.distance(right) > threshold);
-    }
-    mask[count..].fill(0);
-
-    let mut open: Option<Open> = None;
-    for (block, bytes) in mask.chunks_exact(16).enumerate() {
-        let Ok(bytes) = <[u8; 16]>::try_from(bytes) else { continue };
-        let mut bits = u128::from_le_bytes(bytes);
-        while bits != 0 {
-            let place = (bits.trailing_zeros() / 8) as usize;
-            bits &= !(0xff << (8 * place));
-            let x = 16 * block + place;
-            let (left, right) = (row[x], row[x + BASE]);
-            let (rising, weight) = (right > left, left.distance(right).level());
-            match &mut open {
-                Some(edge) if edge.next == x && edge.rising == rising => edge.add(x, weight),
-                _ => {
-                    found.extend(open.map(|edge| edge.close()));
-                    let mut edge = Open { first: x, next: x, rising, strength: 0, sum: 0, moment: 0 };
-                    edge.add(x, weight);
-                    open = Some(edge);
-                }
-            }
+    let Some(shifted) = row.get(BASE..) else { return };
+    let mut open = None;
+    let (blocks, remainder) = shifted.as_chunks();
+    let rest = row.len() - BASE - remainder.len();
+    for (block, (left, right)) in row.as_chunks().0.iter().zip(blocks).enumerate() {
+        let bits = T::differing(left, right, threshold);
+        if bits != 0 {
+            extend(row, LANES * block, bits, &mut open, found);
         }
     }
-    found.extend(open.map(|edge| edge.close()));
+    let last = (rest..row.len() - BASE).enumerate();
+    let bits = last.fold(0, |bits, (k, x)| bits | u32::from(row[x].distance(row[x + BASE]) > threshold) << k);
+    extend(row, rest, bits, &mut open, found);
+    if let Some(edge) = open {
+        found.push(edge.close());
+    }
+}
+
+/// Adds the places of a block, given as bits, to the open edge, or closes it and opens the next.
+fn extend<T: Sample>(row: &[T], from: usize, mut bits: u32, open: &mut Option<Open>, found: &mut Vec<Edge>) {
+    while bits != 0 {
+        let x = from + bits.trailing_zeros() as usize;
+        bits &= bits - 1;
+        let (left, right) = (row[x].level(), row[x + BASE].level());
+        let (rising, weight) = (right > left, left.abs_diff(right));
+        if let Some(edge) = open {
+            if edge.next == x && edge.rising == rising {
+                edge.add(weight);
+                continue;
+            }
+            found.push(edge.close());
+        }
+        *open = Some(Open { first: x, next: x + 1, rising, strength: weight, sum: weight.into(), moment: 0 });
+    }
 }
 
 /// An edge that is still growing.
@@ -72,11 +73,11 @@ struct Open {
 
 impl Open {
     #[inline]
-    fn add(&mut self, x: usize, weight: u32) {
+    fn add(&mut self, weight: u32) {
         self.sum += u64::from(weight);
         self.strength = self.strength.max(weight);
-        self.moment += u64::from(weight) * (x - self.first) as u64;
-        self.next = x + 1;
+        self.moment += u64::from(weight) * (self.next - self.first) as u64;
+        self.next += 1;
     }
 
     #[inline]
@@ -91,13 +92,9 @@ impl Open {
 pub(crate) fn quartered<T: Sample>(plane: &Plane<T>) -> (usize, usize, Vec<T>) {
     let (width, height) = (plane.width / 4, plane.height / 4);
     let mut out = Vec::with_capacity(width * height);
-    let mut sums = vec![0u32; 4 * width];
     for y in 0..height {
-        // sums of two rows are the compiler's business, 16 at a time; those of four columns are few
-        for ((sum, upper), lower) in sums.iter_mut().zip(plane.row(4 * y + 1)).zip(plane.row(4 * y + 2)) {
-            *sum = upper.level() + lower.level();
-        }
-        out.extend(sums.chunks_exact(4).map(|four| T::of((four[0] + four[1] + four[2] + four[3] + 4) / 8)));
+        let (upper, lower) = (plane.row(4 * y + 1).as_chunks::<4>().0, plane.row(4 * y + 2).as_chunks::<4>().0);
+        out.extend(upper.iter().zip(lower).map(|(upper, lower)| T::mean_of_eight(*upper, *lower)));
     }
     (width, height, out)
 }
@@ -114,8 +111,8 @@ mod tests {
         let mut row = [20u8; 60];
         row[10..30].fill(200);
         row[9] = 110; // the left side lies half a pixel further out
-        let (mut mask, mut found) = (Vec::new(), Vec::new());
-        edges(&row, 30, &mut mask, &mut found);
+        let mut found = Vec::new();
+        edges(&row, 30, &mut found);
         assert_eq!(found.len(), 2);
         assert!(found[0].rising && !found[1].rising);
         assert!((found[0].x - 9.5).abs() < 1e-5 && (found[1].x - 30.0).abs() < 1e-5, "{found:?}");
@@ -123,10 +120,10 @@ mod tests {
 
     #[test]
     fn short_rows_and_flat_rows_have_none() {
-        let (mut mask, mut found) = (Vec::new(), Vec::new());
-        edges(&[0u8, 255, 0], 3, &mut mask, &mut found);
+        let mut found = Vec::new();
+        edges(&[0u8, 255, 0], 3, &mut found);
         assert!(found.is_empty());
-        edges(&[1000u16; 77], 3, &mut mask, &mut found);
+        edges(&[1000u16; 77], 3, &mut found);
         assert!(found.is_empty());
     }
 }

@@ -89,9 +89,9 @@ fn pass<T: Sample>(plane: &Plane<T>, threshold: f64, range: f64, polarity: Polar
             blobs: Blobs::default(),
         })
         .collect();
-    let (mut mask, mut edges, mut runs) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut edges, mut runs) = (Vec::new(), Vec::new());
     for y in (0..plane.height).step_by(limits.step) {
-        scan::edges(plane.row(y), T::of(lowest), &mut mask, &mut edges);
+        scan::edges(plane.row(y), T::of(lowest), &mut edges);
         for level in &mut levels {
             edges.retain(|edge| edge.strength > level.threshold);
             for (bright, linker) in &mut level.linkers {
