@@ -5,9 +5,10 @@
 //! Of the flat parts only moments are kept: their model, B + gx x + gy y (+ C inside), is linear.
 
 use nalgebra::{SMatrix, SVector};
+use wide::f32x8;
 
 use super::outline::Outline;
-use super::rendered::{DERIVATIVES, Field};
+use super::rendered::{DERIVATIVES, Field, Span};
 use super::surround::Surround;
 use crate::image::{Plane, Sample};
 
@@ -15,6 +16,9 @@ use crate::image::{Plane, Sample};
 pub(crate) const UNKNOWNS: usize = 10;
 pub(crate) type Normal = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
 pub(crate) type Unknowns = SVector<f64, UNKNOWNS>;
+
+/// Columns that are multiplied with one other at a time.
+const BLOCK: usize = 4;
 
 /// Which pixels are used.
 pub(crate) struct Region<'a> {
@@ -33,12 +37,13 @@ pub(crate) struct Region<'a> {
 /// Pixels of the band, one array a column; what does not count is zero in all of them.
 #[derive(Default)]
 pub(crate) struct Band {
-    /// Row of the field, first column, number of pixels.
-    spans: Vec<(usize, usize, usize)>,
+    pub spans: Vec<Span>,
     grey: Vec<f32>,
     x: Vec<f32>,
     y: Vec<f32>,
     kept: Vec<f32>,
+    /// Whether all of them count.
+    whole: bool,
     share: Vec<f32>,
     derivatives: [Vec<f32>; DERIVATIVES],
     residual: Vec<f32>,
@@ -79,7 +84,8 @@ impl Band {
             outline.grown(reach),
             outline.grown(reach.max(region.surround.outer)),
         ];
-        let hollow = outline.axes().1 > region.half_band + 0.3;
+        let hollow = outline.semi_axes().1 > region.half_band + 0.3;
+        let saturation = region.saturation as f32;
         let mut flats = Flats::default();
         let (half_u, half_v) = rings[2].half_box();
         let rows = clipped(outline.v - half_v, outline.v + half_v + 1.0, plane.height);
@@ -106,17 +112,24 @@ impl Band {
             let field_row = y as i64 - field.top;
             for span in [outer.start..inner.start, inner.end.max(outer.start)..outer.end] {
                 let column = span.start as i64 - field.left;
-                if span.is_empty() || field_row < 0 || field_row >= field.height as i64 || column < 0 {
+                let end = column + span.len() as i64;
+                if span.is_empty()
+                    || !(0..field.height as i64).contains(&field_row)
+                    || column < 0
+                    || end > field.width as i64
+                {
                     continue;
                 }
                 self.spans.push((field_row as usize, column as usize, span.len()));
-                for x in span {
-                    let level = f64::from(row[x].level());
-                    let kept = level < region.saturation && region.counts(x, y);
+                let first = (span.start as f64 + 0.5 - outline.u) as f32;
+                let dy = (height - outline.v) as f32;
+                for (k, sample) in row[span.clone()].iter().enumerate() {
+                    let level = sample.level() as f32;
+                    let kept = level < saturation && (region.whole || region.counts(span.start + k, y));
                     let mask = if kept { 1.0 } else { 0.0 };
-                    self.grey.push(mask * level as f32);
-                    self.x.push(mask * (x as f64 + 0.5 - outline.u) as f32);
-                    self.y.push(mask * (height - outline.v) as f32);
+                    self.grey.push(mask * level);
+                    self.x.push(mask * (first + k as f32));
+                    self.y.push(mask * dy);
                     self.kept.push(mask);
                 }
             }
@@ -130,7 +143,9 @@ impl Band {
             column.clear();
             column.resize(padded, 0.0);
         }
-        (self.kept.iter().sum::<f32>() >= 3.0 * UNKNOWNS as f32).then_some(flats)
+        let used = self.kept.iter().sum::<f32>();
+        self.whole = used == count as f32;
+        (used >= 3.0 * UNKNOWNS as f32).then_some(flats)
     }
 
     /// Takes the rendered values, and the derivatives if wanted, from the field.
@@ -138,9 +153,7 @@ impl Band {
         let mut start = 0;
         for &(row, column, count) in &self.spans {
             let copy = |from: &[f32], to: &mut [f32]| {
-                if let Some(from) = from.get(column..column + count) {
-                    to[start..start + count].copy_from_slice(from);
-                }
+                to[start..start + count].copy_from_slice(&from[column..column + count]);
             };
             copy(field.share(row), &mut self.share);
             if derivatives {
@@ -150,10 +163,12 @@ impl Band {
             }
             start += count;
         }
-        mask(&mut self.share, &self.kept);
-        if derivatives {
-            for column in &mut self.derivatives {
-                mask(column, &self.kept);
+        if !self.whole {
+            mask(&mut self.share, &self.kept);
+            if derivatives {
+                for column in &mut self.derivatives {
+                    mask(column, &self.kept);
+                }
             }
         }
     }
@@ -173,6 +188,7 @@ impl Band {
         for i in 0..self.residual.len() {
             if f64::from(self.residual[i].abs()) > limit {
                 dropped += 1;
+                self.whole = false;
                 for column in
                     [&mut self.grey, &mut self.x, &mut self.y, &mut self.kept, &mut self.share, &mut self.residual]
                 {
@@ -202,7 +218,7 @@ impl Band {
     pub fn unevenness(&self) -> f64 {
         let mut sums = [(0f64, 0f64, 0f64); 16];
         for ((r, share), _) in self.residual.iter().zip(&self.share).zip(&self.kept).filter(|(_, kept)| **kept > 0.0) {
-            let bin = &mut sums[((share * 16.0).max(0.0) as usize).min(15)];
+            let bin = &mut sums[((share * 16.0) as usize).min(15)];
             *bin = (bin.0 + 1.0, bin.1 + f64::from(*r), bin.2 + f64::from(r * r));
         }
         let used: f64 = sums.iter().map(|s| s.0).sum();
@@ -213,7 +229,8 @@ impl Band {
     /// Variance of the residuals of the pixels that count, and how many pixels they are.
     pub fn variance(&self) -> (f64, usize) {
         let used = self.kept.iter().filter(|kept| **kept > 0.0).count();
-        (dot(&self.residual, &self.residual) / used.saturating_sub(UNKNOWNS - 2).max(1) as f64, used)
+        let [square] = dots(&self.residual, [&self.residual]);
+        (square / used.saturating_sub(UNKNOWNS - 2).max(1) as f64, used)
     }
 
     fn columns(&self) -> [&[f32]; UNKNOWNS] {
@@ -226,11 +243,15 @@ impl Band {
         let columns = self.columns();
         let scale = |i: usize| if i < DERIVATIVES { contrast } else { 1.0 };
         let mut normal = Normal::zeros();
+        // blocks of columns share their loads
         for i in 0..UNKNOWNS {
-            for j in 0..=i {
-                let sum = dot(columns[i], columns[j]) * scale(i) * scale(j);
-                normal[(i, j)] = sum;
-                normal[(j, i)] = sum;
+            for j in (0..=i).step_by(BLOCK) {
+                let sums = dots(columns[i], std::array::from_fn::<_, BLOCK, _>(|k| columns[(j + k).min(i)]));
+                for (k, sum) in sums.into_iter().enumerate().take(i + 1 - j) {
+                    let sum = sum * scale(i) * scale(j + k);
+                    normal[(i, j + k)] = sum;
+                    normal[(j + k, i)] = sum;
+                }
             }
         }
         normal
@@ -238,8 +259,10 @@ impl Band {
 
     /// J'r of the band.
     pub fn right(&self, contrast: f64) -> Unknowns {
-        let columns = self.columns();
-        Unknowns::from_fn(|i, _| dot(columns[i], &self.residual) * if i < DERIVATIVES { contrast } else { 1.0 })
+        let [u, v, p, q, r, s, share, kept, x, y] = self.columns();
+        let outline = dots(&self.residual, [u, v, p, q, r, s]).map(|sum| sum * contrast);
+        let levels = dots(&self.residual, [share, kept, x, y]);
+        Unknowns::from_iterator(outline.into_iter().chain(levels))
     }
 }
 
@@ -274,33 +297,56 @@ impl Flats {
 }
 
 impl Moments {
+    /// Number, sums of x, x², r and x r of the pixels that count, with x from the middle column and r the level less a whole
+    /// number near the one that is expected there: for what is no outlier these sums are small.
+    #[inline(always)]
+    fn sums<T: Sample>(
+        samples: &[T],
+        first: usize,
+        y: usize,
+        region: &Region,
+        inside: bool,
+        counts: impl Fn(usize) -> bool,
+    ) -> [i32; 5] {
+        let surround = region.surround;
+        let (middle, level) = origin(y, region, inside);
+        let (whole, rest) = (level.round() as i32, (level - level.round()) as f32);
+        let limit = 4.0 * surround.noise.max(0.6) + if inside { 0.05 * surround.contrast.abs() } else { 0.0 };
+        let (limit, slope) = (limit as f32, surround.slope[0] as f32);
+        let saturation = region.saturation as i32;
+        let first = (first as i64 - middle) as i32;
+        let mut sums = [0i32; 5];
+        for (k, sample) in samples.iter().enumerate() {
+            let x = first + k as i32;
+            let grey = sample.level() as i32;
+            let r = grey - whole;
+            let near = (r as f32 - rest - slope * x as f32).abs() <= limit && grey < saturation;
+            let one = i32::from(near && counts(k));
+            for (sum, term) in sums.iter_mut().zip([one, one * x, one * x * x, one * r, one * r * x]) {
+                *sum = sum.wrapping_add(term);
+            }
+        }
+        sums
+    }
+
     /// Adds the pixels of a span of a row that are neither hidden nor outliers: further than four sigmas from the plane.
     fn add<T: Sample>(&mut self, row: &[T], span: std::ops::Range<usize>, y: usize, region: &Region, inside: bool) {
         if span.is_empty() {
             return;
         }
-        let surround = region.surround;
+        let first = span.start;
+        // the plain case apart, which the compiler makes vector code of
+        let sums = if region.whole {
+            Self::sums(&row[span], first, y, region, inside, |_| true)
+        } else {
+            Self::sums(&row[span], first, y, region, inside, |k| region.counts(first + k, y))
+        };
+        let [n, sx, sxx, sr, srx] = sums.map(f64::from);
+        let (middle, level) = origin(y, region, inside);
+        let (sg, sgx) = (sr + level.round() * n, srx + level.round() * sx);
         let dy = y as f64 + 0.5 - region.outline.v;
-        let level = surround.level + surround.slope[1] * dy + if inside { surround.contrast } else { 0.0 };
-        let limit = 4.0 * surround.noise.max(0.6) + if inside { 0.05 * surround.contrast.abs() } else { 0.0 };
-        let (mut n, mut sx, mut sxx, mut sg, mut sgx) = (0u64, 0i64, 0i64, 0i64, 0i64);
-        let middle = region.outline.u.floor() as i64;
-        for x in span {
-            let dx = x as i64 - middle;
-            let grey = row[x].level();
-            let expected = level + surround.slope[0] * dx as f64;
-            if (f64::from(grey) - expected).abs() <= limit && f64::from(grey) < region.saturation && region.counts(x, y)
-            {
-                n += 1;
-                sx += dx;
-                sxx += dx * dx;
-                sg += i64::from(grey);
-                sgx += dx * i64::from(grey);
-            }
-        }
         // from whole columns to the distance from the outline's centre
         let shift = middle as f64 + 0.5 - region.outline.u;
-        let (n, sx, sxx, sg, sgx) = (n as f64, sx as f64, sxx as f64, sg as f64, sgx as f64);
         let x = sx + shift * n;
         self.n += n;
         self.x += x;
@@ -312,6 +358,14 @@ impl Moments {
         self.gx += sgx + shift * sg;
         self.gy += sg * dy;
     }
+}
+
+/// Middle column of a row, and the level expected there.
+fn origin(y: usize, region: &Region, inside: bool) -> (i64, f64) {
+    let surround = region.surround;
+    let dy = y as f64 + 0.5 - region.outline.v;
+    let level = surround.level + surround.slope[1] * dy + if inside { surround.contrast } else { 0.0 };
+    (region.outline.u.floor() as i64, level)
 }
 
 impl Region<'_> {
@@ -331,8 +385,9 @@ impl Region<'_> {
 
 /// Whole numbers from `from` to `to`, inside 0..size: the pixels whose centres lie between.
 fn clipped(from: f64, to: f64, size: usize) -> std::ops::Range<usize> {
-    let low = from.max(0.0) as usize;
-    let high = (to.max(0.0) as usize).min(size);
+    // the conversion makes 0 of what is negative
+    let low = from as usize;
+    let high = (to as usize).min(size);
     low.min(high)..high
 }
 
@@ -342,17 +397,23 @@ fn mask(column: &mut [f32], kept: &[f32]) {
     }
 }
 
-/// Inner product in eight sums of single precision, emptied into double precision every 64 steps.
-fn dot(a: &[f32], b: &[f32]) -> f64 {
-    let mut total = 0.0;
-    for (a, b) in a.chunks(512).zip(b.chunks(512)) {
-        let mut sums = [0f32; 8];
-        for (a, b) in a.chunks_exact(8).zip(b.chunks_exact(8)) {
-            for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-                *sum += a * b;
+/// Inner products of one column with others, each in eight sums of single precision, emptied into double precision every
+/// 64 steps. The columns are padded to eights.
+fn dots<const K: usize>(a: &[f32], b: [&[f32]; K]) -> [f64; K] {
+    let a = a.as_chunks::<8>().0;
+    let b = b.map(|column| &column.as_chunks::<8>().0[..a.len()]);
+    let mut totals = [0.0; K];
+    for from in (0..a.len()).step_by(64) {
+        let mut sums = [f32x8::ZERO; K];
+        for i in from..a.len().min(from + 64) {
+            let a = f32x8::new(a[i]);
+            for k in 0..K {
+                sums[k] += a * f32x8::new(b[k][i]);
             }
         }
-        total += sums.iter().map(|sum| f64::from(*sum)).sum::<f64>();
+        for (total, sums) in totals.iter_mut().zip(&sums) {
+            *total += sums.to_array().iter().map(|sum| f64::from(*sum)).sum::<f64>();
+        }
     }
-    total
+    totals
 }

@@ -43,9 +43,9 @@ impl Census {
         !self.near(outline).any(|entry| {
             let [c, s] = entry.outline.normalised(outline.u, outline.v);
             if entry.accepted {
-                c * c + s * s < 0.81 && outline.axes().0 < 1.2 * entry.outline.axes().0 + 1.5
+                c * c + s * s < 0.81 && outline.semi_axes().0 < 1.2 * entry.outline.semi_axes().0 + 1.5
             } else {
-                let size = entry.outline.axes().0;
+                let size = entry.outline.semi_axes().0;
                 entry.bright == candidate.bright
                     && (entry.outline.u - outline.u).hypot(entry.outline.v - outline.v) < 0.05 * size + 0.3
                     && [entry.outline.p - outline.p, entry.outline.q - outline.q, entry.outline.r - outline.r]
@@ -61,7 +61,7 @@ impl Census {
         let again = self.near(&outline).any(|entry| {
             entry.accepted
                 && entry.bright == bright
-                && (entry.outline.u - outline.u).hypot(entry.outline.v - outline.v) < 0.5 * outline.axes().1
+                && (entry.outline.u - outline.u).hypot(entry.outline.v - outline.v) < 0.5 * outline.semi_axes().1
         });
         if !again {
             self.enter(Entry { outline, bright, accepted: true });
@@ -73,7 +73,7 @@ impl Census {
     pub fn reject(&mut self, candidate: &Candidate, reason: Reason) {
         let Candidate { outline, bright } = *candidate;
         self.enter(Entry { outline, bright, accepted: false });
-        self.count(&NoBlob { u: outline.u, v: outline.v, diameter: 2.0 * outline.axes().0, reason });
+        self.count(&NoBlob { u: outline.u, v: outline.v, diameter: 2.0 * outline.semi_axes().0, reason });
     }
 
     /// Counts a rejected blob, and keeps it for showing when it could be mistaken for a target.

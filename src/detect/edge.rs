@@ -4,6 +4,8 @@
 //! the fall (bright targets) or rise (dark ones) over two pixels is steepest, to a fraction of a pixel by the parabola
 //! through the three steepest values. [`refine`] then fits the whole profile of a blurred edge to each ray.
 
+use wide::f32x4;
+
 use super::outline::{Outline, RimPoint};
 use crate::image::{Plane, Sample};
 
@@ -53,24 +55,25 @@ pub(crate) fn search<T: Sample>(
     let side = (reach.ceil() as usize).clamp(2, LONGEST / 2 - 2);
     let sign = if bright { 1.0 } else { -1.0 };
     let samples = 2 * side + 3;
+    // of two edges alike the nearer one counts
+    let mut weights = [0f32; LONGEST];
+    for (i, weight) in weights[1..samples - 1].iter_mut().enumerate() {
+        let distance = (i as f32 - side as f32) / (side as f32 + 1.0);
+        *weight = sign * (1.0 - 0.4 * distance * distance);
+    }
+    let mut profile = [0f32; LONGEST];
     for rim in rim_points(outline, count) {
-        let mut profile = [0f32; LONGEST];
         let back = side as f64 + 1.0;
         let start = [rim.x - back * rim.normal[0], rim.y - back * rim.normal[1]];
         plane.profile(start, rim.normal, &mut profile[..samples]);
-        for value in &mut profile[..samples] {
-            *value *= sign;
-        }
-        let fall = |i: usize| profile[i - 1] - profile[i + 1];
         let mut best = (f32::NEG_INFINITY, side + 1);
-        for i in 1..samples - 1 {
-            // of two edges alike the nearer one counts
-            let distance = (i as f32 - (side as f32 + 1.0)) / (side as f32 + 1.0);
-            let weighted = fall(i) * (1.0 - 0.4 * distance * distance);
+        for (i, (three, weight)) in profile[..samples].windows(3).zip(&weights[1..]).enumerate() {
+            let weighted = (three[0] - three[2]) * weight;
             if weighted > best.0 {
-                best = (weighted, i);
+                best = (weighted, i + 1);
             }
         }
+        let fall = |i: usize| sign * (profile[i - 1] - profile[i + 1]);
         let (middle, at) = (fall(best.1), best.1);
         let mut point = EdgePoint { x: rim.x, y: rim.y, strength: 0.0, kept: false };
         if f64::from(middle) > threshold {
@@ -159,6 +162,6 @@ pub(crate) fn refine<T: Sample>(
 
 /// Φ(z) and its density.
 fn normal(z: f64) -> (f64, f64) {
-    let (below, density) = super::rendered::normal_distribution(z.clamp(-5.5, 5.5) as f32);
-    (f64::from(below), f64::from(density))
+    let (below, density) = super::rendered::normal_distribution(f32x4::splat(z.clamp(-5.5, 5.5) as f32));
+    (f64::from(below.to_array()[0]), f64::from(density.to_array()[0]))
 }

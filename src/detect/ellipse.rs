@@ -33,10 +33,10 @@ const SIGMAS: f64 = 3.0;
 /// replaced by the direct fit first.
 pub(crate) fn fit(points: &mut [EdgePoint], start: &Outline, rough: bool) -> Option<EllipseFit> {
     let count = points.len();
-    let mut distances = Vec::with_capacity(count);
+    let (mut distances, mut kept) = (Vec::with_capacity(count), Vec::with_capacity(count));
     let mut outline = *start;
     // the start may be a pixel off; what lies far from it is left out at first
-    let first = if rough { 1.0 + 0.05 * outline.axes().1 } else { 2.0 * TOLERANCE };
+    let first = if rough { 1.0 + 0.05 * outline.semi_axes().1 } else { 2.0 * TOLERANCE };
     select(points, &outline, &mut distances, SIGMAS, first);
     let mut changed = true;
     for round in 0..if rough { 3 } else { 0 } {
@@ -46,8 +46,8 @@ pub(crate) fn fit(points: &mut [EdgePoint], start: &Outline, rough: bool) -> Opt
             changed = select(points, &outline, &mut distances, 1.5, tolerance);
             continue;
         }
-        let kept: Vec<[f64; 3]> =
-            points.iter().filter(|point| point.kept).map(|point| [point.x, point.y, 1.0]).collect();
+        kept.clear();
+        kept.extend(points.iter().filter(|point| point.kept).map(|point| [point.x, point.y, 1.0]));
         if kept.len() < 8.max(count / 3) {
             return None;
         }
@@ -112,7 +112,7 @@ fn normal_equations(points: &[EdgePoint], outline: &Outline) -> (SMatrix<f64, 5,
 fn select(points: &mut [EdgePoint], outline: &Outline, distances: &mut Vec<f64>, sigmas: f64, tolerance: f64) -> bool {
     distances.clear();
     distances.extend(
-        points.iter().filter(|point| point.strength > 0.0).map(|point| outline.nearest(point.x, point.y).1.abs()),
+        points.iter().filter(|point| point.strength > 0.0).map(|point| outline.distance(point.x, point.y).abs()),
     );
     // a robust sigma matters only where more than half of the points lie beyond what is always allowed
     let count = distances.len();

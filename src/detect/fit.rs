@@ -8,10 +8,13 @@
 //! is rendered at the start and kept while the corrections are small against the blur (chord method): the limit is the
 //! same, as the residuals are always exact.
 
-use super::band::{Band, Normal, Region, Unknowns};
+use super::band::{Band, Flats, Normal, Region, Unknowns};
 use super::outline::Outline;
 use super::rendered::{BLUR, Field};
 use crate::image::{Plane, Sample};
+
+/// Corrections below this share of the blur (and of the pixel) leave the design matrix as it is.
+const NEAR: f64 = 0.12;
 
 /// What the fit gives.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +41,32 @@ pub(crate) struct Workspace {
     band: Band,
 }
 
+/// Outline, blur and contrast of a fit to all pixels, which only needs to be good enough to choose the pixels of the next
+/// one: corrections below `converged` pixels are expected. None when the steps lead nowhere.
+pub(crate) fn approach<T: Sample>(
+    plane: &Plane<T>,
+    region: &Region,
+    blur: f64,
+    converged: f64,
+    work: &mut Workspace,
+) -> Option<(Outline, f64, f64)> {
+    let (mut state, flats) = work.begin(plane, region, blur)?;
+    let (mut normal, mut render_all, mut last) = (Normal::zeros(), true, f64::INFINITY);
+    for _ in 0..12 {
+        work.residuals(&state, render_all)?;
+        if render_all {
+            normal = work.normal(&state, &flats);
+        }
+        let size = state.step(&normal, &work.right(&state, &flats))?.0;
+        render_all = size > NEAR * (state.blur + 0.3);
+        if !render_all && size * (size / last).min(1.0) < converged && last.is_finite() {
+            return Some((state.outline, state.blur, state.contrast));
+        }
+        last = size;
+    }
+    None
+}
+
 /// Fits the rendered ellipse, started at the region's outline with the given blur, until corrections below `converged`
 /// pixels are expected; none when that does not happen.
 pub(crate) fn fit<T: Sample>(
@@ -48,24 +77,12 @@ pub(crate) fn fit<T: Sample>(
     work: &mut Workspace,
 ) -> Option<Fit> {
     let surround = region.surround;
-    let mut state = State {
-        outline: region.outline,
-        blur: blur.clamp(BLUR.0, BLUR.1),
-        contrast: surround.contrast,
-        background: [surround.level, surround.slope[0], surround.slope[1]],
-    };
-    work.field.place(&region.outline, state.blur, region.half_band);
-    let flats = work.band.collect(plane, &work.field, region)?;
+    let (mut state, flats) = work.begin(plane, region, blur)?;
     let mut normal = Normal::zeros();
     let (mut render_all, mut dropped, mut settled) = (true, None, false);
     let (mut anew, mut last) = (true, f64::INFINITY);
     for _ in 0..12 {
-        if !work.field.holds(&state.outline, state.blur) {
-            return None;
-        }
-        work.field.render(&state.outline, state.blur, render_all);
-        work.band.gather(&work.field, render_all);
-        work.band.subtract(state.contrast, state.background);
+        work.residuals(&state, render_all)?;
         if !render_all && dropped.is_none() {
             // now near the end: what the model cannot explain is not the target
             // (an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel)
@@ -77,33 +94,18 @@ pub(crate) fn fit<T: Sample>(
         }
         if render_all || anew {
             anew = false;
-            normal = work.band.normal(state.contrast);
-            flats.add_normal(&mut normal);
+            normal = work.normal(&state, &flats);
         }
-        let mut right = work.band.right(state.contrast);
-        flats.add_right(state.contrast, state.background, &mut right);
-        let mut step = solve(&normal, &right)?;
-        if state.blur_leaves(step[5]) {
-            // at the end of its range the blur is held, or the others would follow a correction that is never made
-            hold_blur(&mut normal, &mut right);
-            step = solve(&normal, &right)?;
-        }
-        let size = step.fixed_rows::<6>(0).amax();
-        if !size.is_finite() {
-            return None;
-        }
-        let limit = 0.8 * (state.blur + 0.3);
-        state.add(&(step * if size > limit { limit / size } else { 1.0 }));
-        if !state.outline.is_proper() {
-            return None;
-        }
+        let right = work.right(&state, &flats);
+        let (size, used) = state.step(&normal, &right)?;
+        normal = used;
         // corrections shrink by about the same factor each time: the next one would be this small
         settled = size * (size / last).min(1.0) < converged;
         last = size;
         if settled && dropped.is_some() {
             break;
         }
-        render_all = size > 0.12 * (state.blur + 0.3);
+        render_all = size > NEAR * (state.blur + 0.3);
     }
     let (variance, used) = work.band.variance();
     if !settled || used < 24 {
@@ -122,6 +124,44 @@ pub(crate) fn fit<T: Sample>(
     })
 }
 
+impl Workspace {
+    /// Chooses the pixels and the first values.
+    fn begin<T: Sample>(&mut self, plane: &Plane<T>, region: &Region, blur: f64) -> Option<(State, Flats)> {
+        let surround = region.surround;
+        let state = State {
+            outline: region.outline,
+            blur: blur.clamp(BLUR.0, BLUR.1),
+            contrast: surround.contrast,
+            background: [surround.level, surround.slope[0], surround.slope[1]],
+        };
+        self.field.place(&region.outline, state.blur, region.half_band);
+        Some((state, self.band.collect(plane, &self.field, region)?))
+    }
+
+    /// Renders the model at the state and takes it off the pixels; none where it leaves the field.
+    fn residuals(&mut self, state: &State, derivatives: bool) -> Option<()> {
+        if !self.field.holds(&state.outline, state.blur) {
+            return None;
+        }
+        self.field.render(&state.outline, state.blur, derivatives, &self.band.spans);
+        self.band.gather(&self.field, derivatives);
+        self.band.subtract(state.contrast, state.background);
+        Some(())
+    }
+
+    fn normal(&self, state: &State, flats: &Flats) -> Normal {
+        let mut normal = self.band.normal(state.contrast);
+        flats.add_normal(&mut normal);
+        normal
+    }
+
+    fn right(&self, state: &State, flats: &Flats) -> Unknowns {
+        let mut right = self.band.right(state.contrast);
+        flats.add_right(state.contrast, state.background, &mut right);
+        right
+    }
+}
+
 /// Values of the unknowns.
 struct State {
     outline: Outline,
@@ -134,6 +174,24 @@ impl State {
     /// Whether the blur is at an end of its range and the correction would take it out.
     fn blur_leaves(&self, correction: f64) -> bool {
         (self.blur <= BLUR.0 && correction < 0.0) || (self.blur >= BLUR.1 && correction > 0.0)
+    }
+
+    /// Solves and corrects the state; the size of the correction of outline and blur, in pixels, and the normal matrix used.
+    fn step(&mut self, normal: &Normal, right: &Unknowns) -> Option<(f64, Normal)> {
+        let (mut normal, mut right) = (*normal, *right);
+        let mut step = solve(&normal, &right)?;
+        if self.blur_leaves(step[5]) {
+            // at the end of its range the blur is held, or the others would follow a correction that is never made
+            hold_blur(&mut normal, &mut right);
+            step = solve(&normal, &right)?;
+        }
+        let size = step.fixed_rows::<6>(0).amax();
+        if !size.is_finite() {
+            return None;
+        }
+        let limit = 0.8 * (self.blur + 0.3);
+        self.add(&(step * if size > limit { limit / size } else { 1.0 }));
+        self.outline.is_proper().then_some((size, normal))
     }
 
     fn add(&mut self, step: &Unknowns) {

@@ -35,7 +35,7 @@ fn undisturbed(edges: &[EdgePoint]) -> Vec<bool> {
     (0..count).map(|k| edges[k].kept || edges[(k + 1) % count].kept && edges[(k + count - 1) % count].kept).collect()
 }
 
-/// Expected corrections, in pixels, that end the first and the second fit.
+/// Expected corrections, in pixels, that end the approach and the fit.
 const ROUGH: f64 = 2e-3;
 const CONVERGED: f64 = 1e-4;
 
@@ -49,6 +49,9 @@ const SHARP: f64 = 0.9;
 fn half_band(blur: f64) -> f64 {
     3.6 * (blur * blur + 1.0 / 12.0).sqrt() + 0.8
 }
+
+/// Change of an outline, in pixels, up to which its edges are not looked for again.
+const HEAD_ON: f64 = 0.4;
 
 /// What measuring needs besides the outline; scratch is reused.
 pub(crate) struct Measure<'a, T> {
@@ -82,12 +85,12 @@ impl<'a, T: Sample> Measure<'a, T> {
 
     /// Edges, ellipse and surround of a target whose outline is known to a fraction of its size.
     pub fn find(&mut self, start: &Outline, bright: bool) -> Result<Found, Reason> {
-        let small = 2.0 * start.axes().1 < 0.8 * quality::GAP_MINOR;
+        let small = 2.0 * start.semi_axes().1 < 0.8 * quality::GAP_MINOR;
         self.stands_out(start, bright, if small { 3 } else { 7 }, 5)?;
         let mut outline = *start;
-        let mut fitted = None;
+        let mut fitted: Option<EllipseFit> = None;
         for round in 0..2 {
-            let (a, b, _) = outline.axes();
+            let (a, b) = outline.semi_axes();
             if !outline.is_proper() || a > self.plane.width.max(self.plane.height) as f64 {
                 return Err(Reason::NotAnEllipse);
             }
@@ -95,7 +98,11 @@ impl<'a, T: Sample> Measure<'a, T> {
             // most of what is no target shows in a few rays
             let count = edge::ray_count(&outline);
             let count = if round == 0 { count.min(32) } else { count };
-            edge::search(&self.plane, &outline, bright, reach, count, self.threshold(), &mut self.edges);
+            // edges that were all found, and met almost head on, are the same seen from the better outline
+            let again = fitted.is_some_and(|found| found.occluded == 0.0 && outline.differs(start) <= HEAD_ON);
+            if !again {
+                edge::search(&self.plane, &outline, bright, reach, count, self.threshold(), &mut self.edges);
+            }
             let found = ellipse::fit(&mut self.edges, &outline, round == 0).ok_or(Reason::NotAnEllipse)?;
             outline = found.outline;
             if found.rms > 0.05 + 1.3 * quality::expected_scatter(b, self.levels.noise, self.strength()) {
@@ -106,7 +113,7 @@ impl<'a, T: Sample> Measure<'a, T> {
                 if found.occluded > quality::HIDDEN + 0.1 {
                     return Err(Reason::Occluded);
                 }
-                if outline.axes().1 < 0.85 * FLATTEST * outline.axes().0 {
+                if outline.semi_axes().1 < 0.85 * FLATTEST * outline.semi_axes().0 {
                     return Err(Reason::TooFlat);
                 }
                 self.stands_out(&outline, bright, if found.gap <= quality::SMALL_GAP { 2 } else { 7 }, 3)?;
@@ -114,7 +121,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             fitted = Some(found);
         }
         let ellipse = fitted.ok_or(Reason::NotAnEllipse)?;
-        let (a, b, _) = outline.axes();
+        let (a, b) = outline.semi_axes();
         if b < FLATTEST * a {
             return Err(Reason::TooFlat);
         }
@@ -180,7 +187,8 @@ impl<'a, T: Sample> Measure<'a, T> {
 
     /// Median difference over two pixels across the kept edges.
     fn strength(&self) -> f64 {
-        let mut strengths: Vec<f64> = self.edges.iter().filter(|edge| edge.kept).map(|edge| edge.strength).collect();
+        let mut strengths = Vec::with_capacity(self.edges.len());
+        strengths.extend(self.edges.iter().filter(|edge| edge.kept).map(|edge| edge.strength));
         let half = strengths.len() / 2;
         if strengths.is_empty() { 0.0 } else { *strengths.select_nth_unstable_by(half, f64::total_cmp).1 }
     }
@@ -290,8 +298,8 @@ impl<'a, T: Sample> Measure<'a, T> {
 
     /// The fit of the rendered ellipse, checked against what it started from.
     ///
-    /// Which pixels count depends on the outline around which they are chosen. The first fit starts from the edges and finds
-    /// the outline; the second takes its pixels around that outline, so that the way to it leaves no trace in the result.
+    /// Which pixels count depends on the outline around which they are chosen. An approach from the edges finds
+    /// the outline; the fit takes its pixels around that outline, so that the way to it leaves no trace in the result.
     pub fn least_squares(&mut self, found: &Found) -> Result<fit::Fit, Reason> {
         let whole = found.kept.iter().all(|kept| *kept);
         let region = Region {
@@ -302,16 +310,16 @@ impl<'a, T: Sample> Measure<'a, T> {
             whole,
             saturation: self.levels.saturation,
         };
-        let first = fit::fit(&self.plane, &region, found.blur, ROUGH, &mut self.work).ok_or(Reason::NoFit)?;
-        let all = vec![true; edge::ray_count(&first.outline)];
+        let (outline, blur, contrast) =
+            fit::approach(&self.plane, &region, found.blur, ROUGH, &mut self.work).ok_or(Reason::NoFit)?;
+        let all = vec![true; edge::ray_count(&outline)];
         let kept = if whole { &all } else { &found.kept };
-        let reach = if first.blur > BLURRED { first.blur } else { SHARP };
-        let mut surround = surround::measure(&self.plane, &first.outline, reach, kept).ok_or(Reason::NoFit)?;
-        surround.contrast = first.contrast;
-        let last =
-            Region { outline: first.outline, half_band: half_band(first.blur), surround: &surround, kept, ..region };
-        let fit = fit::fit(&self.plane, &last, first.blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
-        let (a, b, _) = fit.outline.axes();
+        let reach = if blur > BLURRED { blur } else { SHARP };
+        let mut surround = surround::measure(&self.plane, &outline, reach, kept).ok_or(Reason::NoFit)?;
+        surround.contrast = contrast;
+        let last = Region { outline, half_band: half_band(blur), surround: &surround, kept, ..region };
+        let fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
+        let (a, b) = fit.outline.semi_axes();
         let moved = (fit.outline.u - region.outline.u).hypot(fit.outline.v - region.outline.v);
         let contrast = if found.bright { fit.contrast } else { -fit.contrast };
         if moved > 1.0 + 0.1 * b || contrast <= 0.0 {

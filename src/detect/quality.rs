@@ -29,7 +29,7 @@ pub(crate) fn expected_scatter(b: f64, noise: f64, contrast: f64) -> f64 {
 
 /// Rms of the edge points relative to that: below 1 for a good outline.
 fn edge_ratio(ellipse: &EllipseFit, noise: f64, contrast: f64) -> f64 {
-    ellipse.rms / expected_scatter(ellipse.outline.axes().1, noise, contrast)
+    ellipse.rms / expected_scatter(ellipse.outline.semi_axes().1, noise, contrast)
 }
 
 /// Longest gap; many small ones count as a larger one.
@@ -39,7 +39,7 @@ fn gap(ellipse: &EllipseFit) -> f64 {
 
 /// Whether the outline is large enough for the gap that it has.
 pub(crate) fn size_allows(ellipse: &EllipseFit) -> bool {
-    gap(ellipse) <= SMALL_GAP || 2.0 * ellipse.outline.axes().1 >= GAP_MINOR
+    gap(ellipse) <= SMALL_GAP || 2.0 * ellipse.outline.semi_axes().1 >= GAP_MINOR
 }
 
 /// Whether the outline alone still allows a target.
@@ -50,7 +50,7 @@ pub(crate) fn outline_allows(ellipse: &EllipseFit, noise: f64, contrast: f64) ->
 
 /// Whether outline and fit together are those of a target; `uneven` is the fit's residual less its mean profile.
 pub(crate) fn is_target(ellipse: &EllipseFit, uneven: f64, noise: f64, contrast: f64) -> bool {
-    let minor = 2.0 * ellipse.outline.axes().1;
+    let minor = 2.0 * ellipse.outline.semi_axes().1;
     let misfit = (uneven * uneven - noise * noise).max(0.0).sqrt() / contrast;
     // large targets show every departure of the printed shape and of the lens; on faint ones noise hides both
     let limit = (0.045 + 0.006 * (minor - 10.0)).clamp(0.045, 0.12) * (contrast / (40.0 * noise)).clamp(0.4, 1.0);

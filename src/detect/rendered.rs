@@ -12,10 +12,19 @@
 //! the blur. Each rim point reaches a few pixels only: K is summed as its difference from column to column, and the rows are
 //! added up in the end. Single precision is enough: its rounding is 1e-6 of the contrast.
 
+use wide::f32x4;
+
 use super::outline::Outline;
 
 /// Smallest and largest blur that is rendered, sigma in pixels.
 pub(crate) const BLUR: (f64, f64) = (0.2, 7.0);
+
+/// Share of its light below which a rim point leaves a row alone; thirty times as much for the derivatives, which only
+/// show the way.
+const FAINT: f32 = 3e-6;
+
+/// Pixels of a row: row and first column in the field, how many.
+pub(crate) type Span = (usize, usize, usize);
 
 /// Number of derivatives: u, v, p, q, r of the outline and the blur s.
 pub(crate) const DERIVATIVES: usize = 6;
@@ -70,20 +79,25 @@ impl Field {
         &self.planes[start..start + self.width]
     }
 
-    /// Renders the shares and, if wanted, the derivatives. The ellipse must lie inside ([`Field::holds`]).
-    pub fn render(&mut self, outline: &Outline, s: f64, derivatives: bool) {
+    /// Renders the shares and, if wanted, the derivatives. The ellipse must lie inside ([`Field::holds`]). Only the spans (row, first column, length) may be read afterwards: the derivatives elsewhere are
+    /// not even cleared, as the middle of a large ellipse would cost more than its rim.
+    pub fn render(&mut self, outline: &Outline, s: f64, derivatives: bool, spans: &[Span]) {
         let planes = if derivatives { 1 + DERIVATIVES } else { 1 };
         let size = self.width * self.height;
         self.planes.resize(self.planes.len().max(planes * size), 0.0);
-        self.planes[..planes * size].fill(0.0);
-        match reach(s) {
-            8 => self.integrate::<8>(outline, s, derivatives),
-            12 => self.integrate::<12>(outline, s, derivatives),
-            16 => self.integrate::<16>(outline, s, derivatives),
-            24 => self.integrate::<24>(outline, s, derivatives),
-            32 => self.integrate::<32>(outline, s, derivatives),
-            48 => self.integrate::<48>(outline, s, derivatives),
-            _ => self.integrate::<64>(outline, s, derivatives),
+        self.planes[..size].fill(0.0);
+        if derivatives {
+            for plane in self.planes[size..].chunks_exact_mut(size).take(DERIVATIVES) {
+                for &(row, column, count) in spans {
+                    let from = row * self.width + column;
+                    plane[from..from + count].fill(0.0);
+                }
+            }
+        }
+        if derivatives {
+            self.sum_up::<true>(outline, s);
+        } else {
+            self.sum_up::<false>(outline, s);
         }
         for row in self.planes[..size].chunks_exact_mut(self.width) {
             let mut sum = 0.0;
@@ -94,43 +108,54 @@ impl Field {
         }
     }
 
-    fn integrate<const N: usize>(&mut self, outline: &Outline, s: f64, derivatives: bool) {
-        // the trapezium rule errs by exp(-2 (π s / h)²): 1e-6 for steps h of 1.2 sigma
-        let count = ((outline.perimeter() / (1.15 * s)).ceil() as usize).max(16);
+    /// Sums along the rim, with the derivatives (D) or without.
+    fn sum_up<const D: bool>(&mut self, outline: &Outline, s: f64) {
+        match reach(s) {
+            8 => self.integrate::<8, 3, D>(outline, s),
+            12 => self.integrate::<12, 4, D>(outline, s),
+            16 => self.integrate::<16, 5, D>(outline, s),
+            24 => self.integrate::<24, 7, D>(outline, s),
+            32 => self.integrate::<32, 9, D>(outline, s),
+            48 => self.integrate::<48, 13, D>(outline, s),
+            _ => self.integrate::<64, 17, D>(outline, s),
+        }
+    }
+
+    // Apart for every size: a function that held them all would be too large for a browser's optimising compiler.
+    #[inline(never)]
+    fn integrate<const N: usize, const B: usize, const D: bool>(&mut self, outline: &Outline, s: f64) {
+        // the trapezium rule errs by 2 exp(-2 (π s / h)²): 2e-6 for steps h of 1.2 sigma
+        let count = ((outline.perimeter() / (1.2 * s)).ceil() as usize).max(16);
         let turn = std::f64::consts::TAU / count as f64;
         let (turn_s, turn_c) = turn.sin_cos();
         let (mut c, mut sn) = (1.0, 0.0);
         let size = self.width * self.height;
+        let (width, inverse) = (s as f32, (1.0 / s) as f32);
         for _ in 0..count {
             let x = outline.u + outline.p * c + outline.r * sn - self.left as f64;
             let y = outline.v + outline.r * c + outline.q * sn - self.top as f64;
             let du = (-outline.p * sn + outline.r * c) * turn;
             let dv = (-outline.r * sn + outline.q * c) * turn;
-            let (across, down) = (Kernel::<N>::at(x, s), Kernel::<N>::at(y, s));
+            let (across, down) = (Kernel::<N>::at::<B>(x, width, inverse), Kernel::<N>::at::<B>(y, width, inverse));
             let start = down.first * self.width + across.first;
-            if derivatives {
-                let weights = [dv, -du, c * dv, -sn * du, sn * dv - c * du].map(|w| w as f32);
-                let blur = [(-s * dv) as f32, (s * du) as f32];
-                for row in 0..N {
-                    let from = start + row * self.width;
-                    let level = down.pixel[row];
-                    let mut product = [0f32; N];
-                    for (p, k) in product.iter_mut().zip(&across.pixel) {
-                        *p = k * level;
-                    }
-                    add::<N>(&mut self.planes[from..], &across.ramp, -(dv as f32) * level);
-                    for (i, &weight) in weights.iter().enumerate() {
-                        add::<N>(&mut self.planes[(i + 1) * size + from..], &product, weight);
-                    }
-                    let plane = &mut self.planes[DERIVATIVES * size + from..];
-                    add::<N>(plane, &across.slope, blur[0] * level);
-                    add::<N>(plane, &across.pixel, blur[1] * down.slope[row]);
+            let weights = [dv, -du, c * dv, -sn * du, sn * dv - c * du].map(|w| w as f32);
+            let blur = [(-s * dv) as f32, (s * du) as f32];
+            for row in 0..N {
+                let level = down.pixel[row];
+                if level < FAINT {
+                    continue;
                 }
-            } else {
-                for row in 0..N {
-                    let from = start + row * self.width;
-                    add::<N>(&mut self.planes[from..], &across.ramp, -(dv as f32) * down.pixel[row]);
+                let from = start + row * self.width;
+                add::<N>(&mut self.planes[from..], &across.ramp, -(dv as f32) * level);
+                if !D || level < 30.0 * FAINT {
+                    continue;
                 }
+                for (i, &weight) in weights.iter().enumerate() {
+                    add::<N>(&mut self.planes[(i + 1) * size + from..], &across.pixel, weight * level);
+                }
+                let plane = &mut self.planes[DERIVATIVES * size + from..];
+                add::<N>(plane, &across.slope, blur[0] * level);
+                add::<N>(plane, &across.pixel, blur[1] * down.slope[row]);
             }
             (c, sn) = (c * turn_c - sn * turn_s, sn * turn_c + c * turn_s);
         }
@@ -140,8 +165,9 @@ impl Field {
 #[inline(always)]
 fn add<const N: usize>(to: &mut [f32], values: &[f32; N], weight: f32) {
     if let Some(to) = to.first_chunk_mut::<N>() {
-        for (t, v) in to.iter_mut().zip(values) {
-            *t += weight * v;
+        let weight = f32x4::splat(weight);
+        for (to, values) in to.as_chunks_mut::<4>().0.iter_mut().zip(values.as_chunks::<4>().0) {
+            *to = (f32x4::new(*to) + weight * f32x4::new(*values)).to_array();
         }
     }
 }
@@ -155,52 +181,54 @@ struct Kernel<const N: usize> {
 }
 
 impl<const N: usize> Kernel<N> {
+    /// B is the number of fours that hold the borders of the pixels, from -1 to N.
     #[inline(always)]
-    fn at(place: f64, s: f64) -> Self {
-        let first = (place - (N as f64 - 1.0) / 2.0).floor().max(0.0);
-        let offset = (first - place) as f32;
-        let (s, inverse) = (s as f32, (1.0 / s) as f32);
-        // at the borders of the pixels, from -1 to N: the antiderivative of Φ, Φ itself, the density
-        let mut antiderivative = [0f32; 80];
-        let mut normal = [0f32; 80];
-        let mut density = [0f32; 80];
-        let padded = (N + 2).next_multiple_of(4);
-        for (i, ((a, n), d)) in
-            antiderivative[..padded].iter_mut().zip(&mut normal[..padded]).zip(&mut density[..padded]).enumerate()
-        {
-            let t = offset + (i as f32 - 1.0);
-            let z = (t * inverse).clamp(-5.5, 5.5);
-            (*n, *d) = normal_distribution(z);
-            *a = t * *n + s * *d;
+    fn at<const B: usize>(place: f64, s: f32, inverse: f32) -> Self {
+        // the conversion makes 0 of what is negative
+        let first = (place - (N as f64 - 1.0) / 2.0) as usize;
+        let offset = (first as f64 - place) as f32;
+        // at the borders: the antiderivative of Φ, Φ itself, the density
+        let (mut antiderivative, mut normal, mut density) = ([[0f32; 4]; B], [[0f32; 4]; B], [[0f32; 4]; B]);
+        for i in 0..B {
+            let t = f32x4::new([-1.0, 0.0, 1.0, 2.0]) + f32x4::splat(offset + 4.0 * i as f32);
+            let z = (t * f32x4::splat(inverse)).fast_max(f32x4::splat(-5.5)).fast_min(f32x4::splat(5.5));
+            let (n, d) = normal_distribution(z);
+            (normal[i], density[i]) = (n.to_array(), d.to_array());
+            antiderivative[i] = (t * n + f32x4::splat(s) * d).to_array();
         }
+        let (antiderivative, normal, density) =
+            (antiderivative.as_flattened(), normal.as_flattened(), density.as_flattened());
         let (mut pixel, mut slope, mut ramp) = ([0f32; N], [0f32; N], [0f32; N]);
         for i in 0..N {
             pixel[i] = normal[i + 2] - normal[i + 1];
             slope[i] = (density[i + 2] - density[i + 1]) * inverse;
             ramp[i] = (antiderivative[i + 2] - antiderivative[i + 1]) - (antiderivative[i + 1] - antiderivative[i]);
         }
-        Self { first: first as usize, pixel, slope, ramp }
+        Self { first, pixel, slope, ramp }
     }
 }
 
 /// Φ(z) to 1e-7 and its density, by products and sums only, so that every machine gives the same bits.
 /// Φ after Abramowitz & Stegun 7.1.26.
 #[inline(always)]
-pub(crate) fn normal_distribution(z: f32) -> (f32, f32) {
+pub(crate) fn normal_distribution(z: f32x4) -> (f32x4, f32x4) {
+    let horner = |t: f32x4, coefficients: &[f32]| {
+        let (last, others) = coefficients.split_last().unwrap_or((&0.0, &[]));
+        others.iter().rev().fold(f32x4::splat(*last), |sum, coefficient| f32x4::splat(*coefficient) + t * sum)
+    };
     // exp(-z²/2) = exp(-z²/64)^32, the small one by its series
-    let x = z * z * (-1.0 / 64.0);
-    let series =
-        1.0 + x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0))))));
+    let x = z * z * f32x4::splat(-1.0 / 64.0);
+    let series = horner(x, &[1.0, 1.0, 0.5, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0]);
     let mut exponential = series * series;
     for _ in 0..4 {
-        exponential *= exponential;
+        exponential = exponential * exponential;
     }
-    let t = 1.0 / (1.0 + 0.327_591_1 * std::f32::consts::FRAC_1_SQRT_2 * z.abs());
-    let tail = t
-        * (0.254_829_592 + t * (-0.284_496_736 + t * (1.421_413_741 + t * (-1.453_152_027 + t * 1.061_405_429))))
-        * (0.5 * exponential);
-    let below = if z < 0.0 { tail } else { 1.0 - tail };
-    (below, exponential * 0.398_942_3)
+    let slope = f32x4::splat(0.327_591_1 * std::f32::consts::FRAC_1_SQRT_2);
+    let t = f32x4::ONE / (f32x4::ONE + slope * z.abs());
+    let coefficients = [0.254_829_592, -0.284_496_736, 1.421_413_741, -1.453_152_027, 1.061_405_429];
+    let tail = t * horner(t, &coefficients) * (f32x4::splat(0.5) * exponential);
+    let below = z.simd_lt(f32x4::ZERO).select(tail, f32x4::ONE - tail);
+    (below, exponential * f32x4::splat(0.398_942_3))
 }
 
 #[cfg(test)]
@@ -214,7 +242,8 @@ mod tests {
         let mut field = Field::default();
         field.place(&Outline::from_axes(20.0, 20.0, 12.0, 12.0, 0.0), 3.0, 2.0);
         assert!(field.holds(outline, s));
-        field.render(outline, s, true);
+        let spans: Vec<Span> = (0..field.height).map(|row| (row, 0, field.width)).collect();
+        field.render(outline, s, true, &spans);
         field
     }
 
@@ -240,7 +269,7 @@ mod tests {
                     let (dx, dy) = (f64::from(i) * 0.05, f64::from(j) * 0.05);
                     // density of box * Gaussian at this offset
                     let k = |t: f64| {
-                        let phi = |z: f64| f64::from(normal_distribution(z as f32).0);
+                        let phi = |z: f64| f64::from(normal_distribution(f32x4::splat(z as f32)).0.to_array()[0]);
                         phi((t + 0.5) / s) - phi((t - 0.5) / s)
                     };
                     let w = k(dx) * k(dy);

@@ -32,28 +32,33 @@ type Spot = [f64; 3];
 
 /// Measures the surround; `hidden` marks rays that count no more. None when too little of it lies in the picture.
 pub(crate) fn measure<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64, kept: &[bool]) -> Option<Surround> {
+    // the pixel of a place, relative to the centre, with its level
+    let [wide, high] = [plane.width, plane.height].map(|size| size as f64);
     let pixel = |x: f64, y: f64| {
-        (x >= 0.0 && y >= 0.0 && x < plane.width as f64 && y < plane.height as f64)
-            .then(|| f64::from(plane.row(y as usize)[x as usize].level()))
+        (x >= 0.0 && y >= 0.0 && x < wide && y < high).then(|| {
+            let (x, y) = (x as usize, y as usize);
+            [x as f64 + 0.5 - outline.u, y as f64 + 0.5 - outline.v, f64::from(plane.row(y)[x].level())]
+        })
     };
-    let (a, b, _) = outline.axes();
+    let (a, b) = outline.semi_axes();
     let start = 3.0 * blur + 0.6;
     let width = (a * b).sqrt() + 6.0;
     let spacing = (width / 24.0).max(1.0);
-    let mut spots: Vec<Spot> = Vec::with_capacity(kept.len() * 8);
+    let mut rims = Vec::with_capacity(kept.len());
+    let counted = rim_points(outline, kept.len()).zip(kept).filter(|(_, kept)| **kept);
+    rims.extend(counted.map(|(rim, _)| [rim.x, rim.y, rim.normal[0], rim.normal[1]]));
+    let mut spots: Vec<Spot> = Vec::with_capacity(2 * rims.len());
     let mut sums = Sums::default();
     let mut found: Option<(Vector3<f64>, f64)> = None;
     let mut outer = start;
-    let mut ring = Vec::with_capacity(2 * kept.len());
+    let mut ring = Vec::with_capacity(rims.len());
     let mut step = 0;
-    while start + f64::from(step) * spacing < width.max(start + 2.0) {
+    let widest = if width > start + 2.0 { width } else { start + 2.0 };
+    while start + f64::from(step) * spacing < widest {
         let distance = start + f64::from(step) * spacing;
         ring.clear();
-        for (rim, _) in rim_points(outline, kept.len()).zip(kept).filter(|(_, kept)| **kept) {
-            let (x, y) = (rim.x + distance * rim.normal[0], rim.y + distance * rim.normal[1]);
-            if let Some(level) = pixel(x, y) {
-                ring.push([x.floor() + 0.5 - outline.u, y.floor() + 0.5 - outline.v, level]);
-            }
+        for [x, y, nx, ny] in &rims {
+            ring.extend(pixel(x + distance * nx, y + distance * ny));
         }
         match &mut found {
             None => {
@@ -90,9 +95,10 @@ pub(crate) fn measure<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64,
     }
     let (coefficients, noise) = if outer > start + 1.5 * spacing { sums.plane()? } else { found? };
     let mut inside = Vec::with_capacity(33);
-    inside.extend(pixel(outline.u, outline.v));
+    inside.extend(pixel(outline.u, outline.v).map(|spot| spot[2]));
     for radius in [0.25, 0.5, 0.7] {
-        inside.extend(rim_points(&outline.scaled(radius), 16).filter_map(|rim| pixel(rim.x, rim.y)));
+        let rims = rim_points(&outline.scaled(radius), 16);
+        inside.extend(rims.filter_map(|rim| pixel(rim.x, rim.y)).map(|spot| spot[2]));
     }
     let middle = inside.len() / 2;
     if inside.is_empty() {
@@ -115,34 +121,47 @@ fn residual(coefficients: &Vector3<f64>, [x, y, level]: &Spot) -> f64 {
     level - coefficients.x - coefficients.y * x - coefficients.z * y
 }
 
-/// Sums of the normal equations of a plane.
+/// Sums of the normal equations of a plane: of 1, x, y, their products, and their products with the level g.
 #[derive(Clone, Copy, Default)]
 struct Sums {
-    normal: Matrix3<f64>,
-    right: Vector3<f64>,
-    square: f64,
-    count: usize,
+    n: f64,
+    x: f64,
+    y: f64,
+    xx: f64,
+    xy: f64,
+    yy: f64,
+    g: f64,
+    gx: f64,
+    gy: f64,
+    gg: f64,
 }
 
 impl Sums {
     fn add(&mut self, spots: &[Spot]) {
-        for [x, y, level] in spots {
-            let row = Vector3::new(1.0, *x, *y);
-            self.normal += row * row.transpose();
-            self.right += row * *level;
-            self.square += level * level;
+        for &[x, y, level] in spots {
+            self.x += x;
+            self.y += y;
+            self.xx += x * x;
+            self.xy += x * y;
+            self.yy += y * y;
+            self.g += level;
+            self.gx += level * x;
+            self.gy += level * y;
+            self.gg += level * level;
         }
-        self.count += spots.len();
+        self.n += spots.len() as f64;
     }
 
     /// Least-squares plane and the standard deviation from it.
     fn plane(&self) -> Option<(Vector3<f64>, f64)> {
-        if self.count < 8 {
+        if self.n < 8.0 {
             return None;
         }
-        let coefficients = self.normal.cholesky()?.solve(&self.right);
-        let square = self.square - coefficients.dot(&self.right);
-        Some((coefficients, (square.max(0.0) / (self.count - 3) as f64).sqrt()))
+        let normal = Matrix3::new(self.n, self.x, self.y, self.x, self.xx, self.xy, self.y, self.xy, self.yy);
+        let right = Vector3::new(self.g, self.gx, self.gy);
+        let coefficients = normal.cholesky()?.solve(&right);
+        let square = self.gg - coefficients.dot(&right);
+        Some((coefficients, if square > 0.0 { (square / (self.n - 3.0)).sqrt() } else { 0.0 }))
     }
 }
 
