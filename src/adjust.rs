@@ -3,7 +3,8 @@
 //! [`adjust`] numbers the document (`network`), chooses an order of the photos (`layout`), iterates (`iteration`) on
 //! reduced normal equations (`normal`: points are eliminated in `eliminate`, kept in `eliminated`) factored in tiles
 //! (`tiles`, `kernel`), brings the result into its datum (`datum`) and computes the statistics (`cofactor`, `result`).
-//! Circular targets of known diameter are freed of their eccentricity (`eccentric`).
+//! Circular targets of known diameter are freed of their eccentricity (`eccentric`). Gross errors are searched in `search`, by
+//! `snooping` or `robust` weights.
 
 mod blocks;
 mod cofactor;
@@ -12,7 +13,9 @@ mod doctor;
 mod eccentric;
 mod eliminate;
 mod eliminated;
+mod given;
 mod gradient;
+mod influence;
 mod iteration;
 mod kernel;
 mod layout;
@@ -20,8 +23,10 @@ mod network;
 mod normal;
 mod parameters;
 mod result;
+mod result_given;
 mod robust;
 mod rows;
+mod search;
 mod session;
 mod snooping;
 mod tiles;
@@ -33,6 +38,7 @@ use crate::adjustment::{AdjustOptions, Adjustment, Advice, Iteration, Terminatio
 use crate::error::Result;
 use crate::project::{Project, Role};
 
+use given::LeftOut;
 use session::{Log, Session};
 
 pub use unmodelled::estimate as unmodelled;
@@ -51,16 +57,16 @@ pub fn adjust(
     project.validate()?;
     let weighted = unmodelled::weighted(project, options.unmodelled)?;
     let project = weighted.as_ref();
-    let mut removed = vec![false; project.observations.len()];
+    let mut left_out = LeftOut::nothing(project);
     let mut log = Log { iterations: Vec::new(), on_iteration };
     let mut record = Vec::new();
     let mut settled = true;
-    let mut session = Session::new(project, &removed)?;
+    let mut session = Session::new(project, &left_out)?;
     let mut termination = session.iterate(options, &mut log)?;
     if options.snooping && termination == Termination::Converged {
-        settled &= session.snoop(options, &mut log, &mut removed, &mut record)?;
-        if removed.contains(&true) {
-            session = session.without(&removed)?;
+        settled &= session.snoop(options, &mut log, &mut left_out, &mut record)?;
+        if !left_out.is_empty() {
+            session = session.without(&left_out)?;
             termination = session.iterate(options, &mut log)?;
         }
     }

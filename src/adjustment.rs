@@ -258,6 +258,23 @@ pub struct GivenObservation {
     /// Redundancy number, w and minimal detectable bias; null without full statistics.
     #[serde(default)]
     pub reliability: Option<Reliability>,
+    /// External reliability: how far the detectable bias, undetected, moves the point that it moves most, in the project's
+    /// unit; null where the redundancy number is 0 and without full statistics.
+    #[serde(default)]
+    pub effect: Option<f64>,
+    /// That point: the control point itself, an end of the distance, a point of the photo, a point the camera sees.
+    #[serde(default)]
+    pub effect_point: Option<String>,
+    /// Factor on the weight from robust weighting; null where it is 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight: Option<f64>,
+    /// Whether it took part; false where data snooping took it out.
+    #[serde(default = "yes")]
+    pub enabled: bool,
+}
+
+fn yes() -> bool {
+    true
 }
 
 /// Kinds of observations besides image coordinates.
@@ -311,10 +328,13 @@ pub enum GrossErrorAction {
 /// One entry of the record that the search for gross errors leaves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GrossError {
-    /// Photo identifier.
+    /// Photo identifier; empty for observations without one.
     pub photo: String,
-    /// Point identifier.
+    /// Point identifier; empty for observations without one.
     pub point: String,
+    /// What was observed, for observations of other kinds than image coordinates.
+    #[serde(default)]
+    pub given: Option<Given>,
     /// What was done.
     pub action: GrossErrorAction,
     /// Test statistic that led to it (Pope's τ, as normalised residual over sigma0), or the robust weight.
@@ -323,6 +343,9 @@ pub struct GrossError {
     pub limit: f64,
     /// Round of the search, from 1.
     pub round: usize,
+    /// Whether it went only because another did: its point was left with this one ray. `statistic` is the other's.
+    #[serde(default)]
+    pub consequence: bool,
 }
 
 /// What a solvable network is weak in, as data; the desk says it in its user's language.

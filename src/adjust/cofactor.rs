@@ -12,6 +12,7 @@
 use nalgebra::{DMatrix, Matrix3, Matrix6, SMatrix};
 
 use super::datum::{FreeDatum, SIMILARITY, at_photo, at_point};
+use super::influence::{Blocks, Carried, Influence, align_ray};
 use super::kernel::TILE;
 use super::layout::Layout;
 use super::network::Network;
@@ -35,8 +36,10 @@ pub struct Cofactors {
     pub points: Vec<Matrix3<f64>>,
     /// Per ray and side: cofactor of the weighted adjusted observation, 1 - r. Empty unless wanted.
     pub rays: Vec<[f64; 2]>,
-    /// Per ray and side: shift of its own point by a unit of weighted observation error. Empty unless wanted.
+    /// Per ray and side: shift of its own point, in the datum, by a unit of weighted observation error. Empty unless wanted.
     pub influence: Vec<[f64; 2]>,
+    /// Shifts by given observations. Empty unless wanted.
+    pub given_influence: Influence,
     /// Per distance: cofactor of the weighted adjusted distance.
     pub bars: Vec<f64>,
     /// Per point and axis before the S-transformation, for given coordinates.
@@ -139,8 +142,10 @@ fn compute<const N: usize>(
     let mut result = Cofactors {
         rays: if full { vec![[0.0; 2]; network.rays.len()] } else { Vec::new() },
         influence: if full { vec![[0.0; 2]; network.rays.len()] } else { Vec::new() },
+        given_influence: if full { Influence::new(network) } else { Influence::default() },
         ..Cofactors::default()
     };
+    let blocks = Blocks { network, layout, state, transformation: transformation.as_ref() };
     reduced_blocks(&mut result, network, layout, state, &inverse, transformation.as_ref());
 
     let mut rows: Vec<Row<N>> = Vec::new();
@@ -153,7 +158,7 @@ fn compute<const N: usize>(
             return None;
         }
         if network_point.kept {
-            let q = kept_point(&mut result, network, layout, &inverse, point, &rows, full);
+            let q = kept_point(&mut result, &blocks, &inverse, point, &rows, full);
             push_point(&mut result, network, layout, state, point, q, transformation.as_ref(), |at, v| v[at]);
             continue;
         }
@@ -192,7 +197,19 @@ fn compute<const N: usize>(
         let mut k = Matrix3::identity();
         z.iter().zip(&t_photos).for_each(|(z, t)| product(z, t, &mut k));
         interiors.iter().zip(&t_interiors).for_each(|((.., u), t)| product(u, t, &mut k));
+        let at_this_point = transformation.as_ref().map(|t| {
+            let own = carried(t, datum, point);
+            let mut v: Carried = [[0.0; 3]; SIMILARITY];
+            for ((v, reduced), own) in v.iter_mut().zip(&t.v).zip(own) {
+                let from_reduced = normal.eliminated.product(network, layout, point, reduced);
+                let direct = forward3(&l, own);
+                *v = backward3(&l, std::array::from_fn(|m| direct[m] - from_reduced[m]));
+            }
+            v
+        });
         if full {
+            let own = (normal.eliminated.own(point), &t_interiors[..]);
+            result.given_influence.eliminated(&blocks, point, &l, &t_photos, own);
             for (n, row) in rows.iter().enumerate() {
                 let interior = interiors.iter().position(|(q, ..)| *q == row.interior);
                 let t_interior = interior.map(|at| &t_interiors[at]);
@@ -210,7 +227,10 @@ fn compute<const N: usize>(
                     });
                     let kb: [f64; 3] = std::array::from_fn(|m| (0..3).map(|j| k[(m, j)] * b[j]).sum::<f64>());
                     result.rays[ray][side] = own + (0..3).map(|m| b[m] * (kb[m] - 2.0 * cross[m])).sum::<f64>();
-                    let shift = backward3(&l, std::array::from_fn(|m| kb[m] - cross[m]));
+                    let mut shift = backward3(&l, std::array::from_fn(|m| kb[m] - cross[m]));
+                    if let (Some(t), Some(v)) = (&transformation, &at_this_point) {
+                        align_ray(t, layout, state, (point, v), (row, side), &mut shift);
+                    }
                     let shift = (0..3).filter(|a| !fixed[*a]).map(|a| shift[a].powi(2)).sum::<f64>();
                     result.influence[ray][side] = shift.sqrt();
                 }
@@ -228,19 +248,13 @@ fn compute<const N: usize>(
             q.row_mut(a).fill(0.0);
             q.column_mut(a).fill(0.0);
         }
-        let at_this_point = transformation.as_ref().map(|t| {
-            let own = carried(t, datum, point);
-            let v = (0..t.defect).map(|j| {
-                let from_reduced = normal.eliminated.product(network, layout, point, &t.v[j]);
-                let direct = forward3(&l, own[j]);
-                backward3(&l, std::array::from_fn(|m| direct[m] - from_reduced[m]))
-            });
-            v.collect::<Vec<_>>()
-        });
+        if full {
+            result.given_influence.own(network, point, |a| q.column(a).into());
+        }
         push_point(&mut result, network, layout, state, point, q, transformation.as_ref(), |_, _| 0.0);
         if let (Some(t), Some(v)) = (&transformation, at_this_point) {
             let rows = at_point(&state.points[point]);
-            let v = SMatrix::<f64, SIMILARITY, 3>::from_fn(|j, a| v.get(j).map_or(0.0, |v| v[a]));
+            let v = SMatrix::<f64, SIMILARITY, 3>::from_fn(|j, a| v[j][a]);
             if let Some(last) = result.points.last_mut() {
                 *last = transformed(&q, &SMatrix::<f64, 3, SIMILARITY>::from_fn(|a, j| rows[a][j]), &v, t);
             }
@@ -257,6 +271,9 @@ fn compute<const N: usize>(
         let at = |k: usize| places[k / 3] + k % 3;
         let sum = (0..36).map(|n| rows[n / 6] * rows[n % 6] * block(&inverse, at(n / 6), at(n % 6)).data[0]);
         result.bars.push(sum.sum());
+    }
+    if full {
+        result.given_influence.distances(&blocks, &inverse);
     }
     Some(result)
 }
@@ -316,13 +333,13 @@ fn reduced_square<const N: usize>(
 /// Cofactor of a kept point, and of its rays.
 fn kept_point<const N: usize>(
     result: &mut Cofactors,
-    network: &Network,
-    layout: &Layout,
+    blocks: &Blocks<'_>,
     inverse: &TileMatrix,
     point: usize,
     rows: &[Row<N>],
     full: bool,
 ) -> Matrix3<f64> {
+    let &Blocks { network, layout, state, transformation } = blocks;
     let place = layout.point[point];
     let own = block(inverse, place, place);
     let mut q = Matrix3::from_fn(|i, j| own.get(i, j));
@@ -332,6 +349,12 @@ fn kept_point<const N: usize>(
         q.column_mut(a).fill(0.0);
     }
     if full {
+        result.given_influence.kept(blocks, inverse, point);
+        result.given_influence.own(network, point, |a| q.column(a).into());
+        let mut v: Carried = [[0.0; 3]; SIMILARITY];
+        for (v, reduced) in v.iter_mut().zip(transformation.iter().flat_map(|t| &t.v)) {
+            v.copy_from_slice(&reduced[place..place + 3]);
+        }
         for (n, row) in rows.iter().enumerate() {
             let ray = network.points[point].rays.start + n;
             let photo = block(inverse, place, layout.photo[row.photo]);
@@ -348,7 +371,11 @@ fn kept_point<const N: usize>(
                 }
                 let own = reduced_square(network, layout, inverse, row, side);
                 result.rays[ray][side] = own + 2.0 * a.dot(&shift) - a.dot(&(q * a));
-                result.influence[ray][side] = shift.norm();
+                let mut shift: [f64; 3] = shift.into();
+                if let Some(t) = transformation {
+                    align_ray(t, layout, state, (point, &v), (row, side), &mut shift);
+                }
+                result.influence[ray][side] = nalgebra::Vector3::from(shift).norm();
             }
         }
     }

@@ -11,6 +11,7 @@ use crate::project::{DatumKind, Project};
 
 use super::datum;
 use super::eliminated::Full;
+use super::given::Key;
 use super::layout::Layout;
 use super::network::Network;
 use super::normal::Normal;
@@ -333,7 +334,8 @@ pub fn advice(project: &Project, network: &Network, state: &State, adjustment: &
         advice.push(Advice::BehindCamera { observations: behind });
     }
     let used: Vec<usize> = network.bars.iter().map(|bar| bar.index).collect();
-    let unused = project.distances.iter().enumerate().filter(|(k, _)| !used.contains(k));
+    let out = |k: &usize| network.left_out.contains(&Key::Distance(*k));
+    let unused = project.distances.iter().enumerate().filter(|(k, _)| !used.contains(k) && !out(k));
     let unused: Vec<_> = unused.map(|(_, d)| (d.from.clone(), d.to.clone())).collect();
     if !unused.is_empty() {
         advice.push(Advice::DistanceUnused { distances: unused });

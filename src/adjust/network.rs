@@ -7,6 +7,7 @@ use crate::camera;
 use crate::error::{Defect, Error, Result};
 use crate::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
 
+use super::given::{Key, LeftOut};
 use super::parameters::{Frame, Pose, State};
 
 /// An image observation that takes part.
@@ -111,6 +112,8 @@ pub struct Network {
     pub datum: DatumKind,
     /// Points that carry the datum, where the document names them.
     pub datum_points: Option<Vec<usize>>,
+    /// Observations of other kinds than image coordinates that were left out.
+    pub left_out: Vec<Key>,
 }
 
 fn interior_of(project: &Project, photo: usize, camera: &Camera) -> Interior {
@@ -118,12 +121,12 @@ fn interior_of(project: &Project, photo: usize, camera: &Camera) -> Interior {
 }
 
 impl Network {
-    /// Numbers a valid document, leaving out the observations marked in `removed`; also returns the initial values.
+    /// Numbers a valid document without the observations in `left_out`; also returns the initial values.
     ///
     /// # Errors
     /// [`Error::Empty`] without observations, [`Error::MissingInitialValues`], [`Error::RankDefect`] for points and
     /// photos with too few rays.
-    pub fn new(project: &Project, removed: &[bool]) -> Result<(Self, State)> {
+    pub fn new(project: &Project, left_out: &LeftOut) -> Result<(Self, State)> {
         let photo_index: HashMap<&str, usize> =
             project.photos.iter().enumerate().map(|(k, p)| (p.id.as_str(), k)).collect();
         let point_index: HashMap<&str, usize> =
@@ -136,7 +139,7 @@ impl Network {
         for (row, o) in project.observations.iter().enumerate() {
             let (photo, point) = (photo_index[o.photo.as_str()], point_index[o.point.as_str()]);
             mentioned[point] = true;
-            if o.enabled && project.photos[photo].enabled && !removed.get(row).copied().unwrap_or(false) {
+            if o.enabled && project.photos[photo].enabled && !left_out.observations[row] {
                 rays_of_point[point].push((photo, row));
                 rays_of_photo[photo] += 1;
             }
@@ -157,7 +160,8 @@ impl Network {
         let given = |point: usize| controlled && project.points[point].role == Role::Control;
         let takes_part: Vec<bool> = {
             let mut part: Vec<bool> = rays_of_point.iter().map(|r| !r.is_empty()).collect();
-            for d in &project.distances {
+            let used = |k: &usize| !left_out.given.contains(&Key::Distance(*k));
+            for (_, d) in project.distances.iter().enumerate().filter(|(k, _)| used(k)) {
                 for end in [&d.from, &d.to] {
                     let end = point_index[end.as_str()];
                     part[end] |= given(end) && project.points[end].xyz.is_some();
@@ -181,7 +185,9 @@ impl Network {
             bars: Vec::new(),
             datum: project.datum.kind,
             datum_points: None,
+            left_out: left_out.given.clone(),
         };
+        let used = |key: Key| !left_out.given.contains(&key);
         let mut state = State::default();
         let mut place_of_photo = vec![usize::MAX; project.photos.len()];
         let mut shared = HashMap::new();
@@ -195,7 +201,9 @@ impl Network {
                 network.interiors.push(InteriorBlock {
                     camera: c,
                     photo: camera.per_photo.then_some(at),
-                    estimated: estimated(camera, &interior_of(project, k, camera)),
+                    estimated: estimated(camera, &interior_of(project, k, camera), |parameter| {
+                        used(Key::Parameter(c, camera.per_photo.then_some(k), parameter))
+                    }),
                 });
                 network.interiors.len() - 1
             };
@@ -206,7 +214,7 @@ impl Network {
             if let (true, Some(sigma)) = (controlled, photo.sigma_position) {
                 let inside = frame.inside(position);
                 prior = std::array::from_fn(|a| match sigma[a] {
-                    Some(s) if s > 0.0 => (inside[a], frame.scale / s),
+                    Some(s) if s > 0.0 && used(Key::Position(k, a)) => (inside[a], frame.scale / s),
                     _ => (0.0, 0.0),
                 });
             }
@@ -221,7 +229,8 @@ impl Network {
             if given(k) {
                 for a in 0..3 {
                     match point.sigma.and_then(|s| s[a]) {
-                        Some(s) if s > 0.0 => prior[a] = (xyz[a], frame.scale / s),
+                        Some(s) if s > 0.0 && used(Key::Control(k, a)) => prior[a] = (xyz[a], frame.scale / s),
+                        Some(s) if s > 0.0 => {}
                         _ => fixed[a] = true,
                     }
                 }
@@ -248,7 +257,7 @@ impl Network {
         }
         for (index, d) in project.distances.iter().enumerate() {
             let (from, to) = (place_of_point[point_index[d.from.as_str()]], place_of_point[point_index[d.to.as_str()]]);
-            if from != usize::MAX && to != usize::MAX {
+            if from != usize::MAX && to != usize::MAX && used(Key::Distance(index)) {
                 network.points[from].kept = true;
                 network.points[to].kept = true;
                 let (length, weight) = (d.length / frame.scale, frame.scale / d.sigma);
@@ -286,7 +295,7 @@ impl Network {
 }
 
 /// What is estimated of a camera, with scales that make every unknown move an image point by about as much.
-fn estimated(camera: &Camera, interior: &Interior) -> Vec<Estimated> {
+fn estimated(camera: &Camera, interior: &Interior, used: impl Fn(Parameter) -> bool) -> Vec<Estimated> {
     let [pitch_x, pitch_y] = camera.pitch();
     let (distance, radius) = match interior {
         Interior::Brown { c, .. } => {
@@ -317,7 +326,7 @@ fn estimated(camera: &Camera, interior: &Interior) -> Vec<Estimated> {
             parameter,
             column,
             scale: scale(parameter),
-            prior: match camera.sigma.get(&parameter) {
+            prior: match camera.sigma.get(&parameter).filter(|_| used(parameter)) {
                 Some(sigma) => (camera.interior.get(parameter).unwrap_or_default(), 1.0 / sigma),
                 None => (0.0, 0.0),
             },

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Matrix6};
 
 use crate::adjustment::{
     AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Adjustment, CheckPoint, CheckStatistics,
-    Correlation, Given, GivenObservation, GlobalTest, Precision,
+    Correlation, GlobalTest, Precision,
 };
 use crate::camera;
 use crate::project::{Camera, Project, Role};
@@ -29,6 +29,8 @@ pub struct Solved<'a> {
     pub cofactors: Option<&'a Cofactors>,
     /// Weights and place of the residuals.
     pub weighting: Weighting<'a>,
+    /// Square roots of robust factors of given observations, contained in the network's weights; empty for none.
+    pub given_factors: &'a [f64],
     /// vᵀPv.
     pub cost: f64,
     /// Datum constraints.
@@ -69,7 +71,7 @@ impl Solved<'_> {
         if self.redundancy > 0 { self.cost / self.redundancy as f64 } else { 1.0 }
     }
 
-    fn frame(&self) -> &Frame {
+    pub(super) fn frame(&self) -> &Frame {
         &self.network.frame
     }
 
@@ -204,7 +206,7 @@ impl Solved<'_> {
     }
 
     /// Coordinates outside; held axes return exactly as given.
-    fn point(&self, k: usize) -> [f64; 3] {
+    pub(super) fn point(&self, k: usize) -> [f64; 3] {
         let block = &self.network.points[k];
         let mut xyz = self.frame().outside(self.state.points[k]);
         if let Some(given) = self.project.points[block.index].xyz {
@@ -274,55 +276,6 @@ impl Solved<'_> {
         self.project.observations.iter().enumerate().map(one).collect()
     }
 
-    fn given(&self) -> Vec<GivenObservation> {
-        let mut list = Vec::new();
-        let full = self.cofactors.filter(|c| !c.rays.is_empty());
-        let scale = self.frame().scale;
-        // `unit` is the size of the scaled unknown's unit in the observation's own unit.
-        let mut add = |what: Given, residual: f64, weight: f64, unit: f64, cofactor: Option<f64>| {
-            let sigma = unit / weight;
-            let reliability = cofactor.map(|q| Reliability::new(residual * weight, q * weight * weight, sigma));
-            list.push(GivenObservation { what, residual: residual * unit, sigma, reliability });
-        };
-        for (k, block) in self.network.points.iter().enumerate() {
-            for axis in (0..3).filter(|a| block.prior[*a].1 > 0.0) {
-                let (given, weight) = block.prior[axis];
-                let what = Given::Control { point: self.project.points[block.index].id.clone(), axis };
-                let q = full.map(|c| c.given_points[k][axis]);
-                add(what, self.state.points[k][axis] - given, weight, scale, q);
-            }
-        }
-        for (k, block) in self.network.photos.iter().enumerate() {
-            for axis in (0..3).filter(|a| block.prior[*a].1 > 0.0) {
-                let (given, weight) = block.prior[axis];
-                let what = Given::Position { photo: self.project.photos[block.index].id.clone(), axis };
-                let q = full.map(|c| c.photos[k][(3 + axis, 3 + axis)]);
-                add(what, self.state.poses[k].centre[axis] - given, weight, scale, q);
-            }
-        }
-        for (k, bar) in self.network.bars.iter().enumerate() {
-            let distance = &self.project.distances[bar.index];
-            let what = Given::Distance { from: distance.from.clone(), to: distance.to.clone() };
-            let (e, _) = super::normal::bar_row(self.network, self.state, bar);
-            let q = full.map(|c| c.bars[k] / (bar.weight * bar.weight));
-            add(what, e / bar.weight, bar.weight, scale, q);
-        }
-        for (k, block) in self.network.interiors.iter().enumerate() {
-            for (n, estimated) in block.estimated.iter().enumerate().filter(|(_, e)| e.prior.1 > 0.0) {
-                let (given, weight) = estimated.prior;
-                let value = self.state.interiors[k].get(estimated.parameter).unwrap_or_default();
-                let what = Given::Parameter {
-                    camera: self.project.cameras[block.camera].id.clone(),
-                    photo: block.photo.map(|p| self.project.photos[self.network.photos[p].index].id.clone()),
-                    parameter: estimated.parameter,
-                };
-                let q = full.map(|c| c.interiors[k][(n, n)] * estimated.scale * estimated.scale);
-                add(what, value - given, weight, 1.0, q);
-            }
-        }
-        list
-    }
-
     fn check_points(&self) -> Vec<CheckPoint> {
         let mut place = vec![None; self.project.points.len()];
         self.network.points.iter().enumerate().for_each(|(k, p)| place[p.index] = Some(k));
@@ -363,6 +316,11 @@ impl Solved<'_> {
     }
 }
 
+/// Distance of two points.
+pub fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
+}
+
 /// Largest distance between two points; for many points that of the extreme ones in thirteen directions.
 fn largest_dimension(points: &[AdjustedPoint]) -> f64 {
     let mut extremes: Vec<[f64; 3]> = points.iter().map(|p| p.xyz).collect();
@@ -374,7 +332,6 @@ fn largest_dimension(points: &[AdjustedPoint]) -> f64 {
             extremes.extend(all.iter().copied().max_by(|a, b| along(a).total_cmp(&along(b))));
         }
     }
-    let distance = |a: &[f64; 3], b: &[f64; 3]| (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2]);
     extremes.iter().flat_map(|a| extremes.iter().map(move |b| distance(a, b))).fold(0.0, f64::max)
 }
 

@@ -8,6 +8,9 @@
 //!
 //! (P. J. Huber 1964; A. E. Beaton, J. W. Tukey 1974; the constants give 95 % efficiency on normal errors). Tukey's
 //! weights start from Huber's solution, since alone they have many.
+//!
+//! Observations of other kinds than image coordinates are often checked by little: a gross error hides in a small residual. Their
+//! t is the error with which all others predict them (see [`prediction`]), which their own weight does not change.
 
 use crate::adjustment::Robust;
 
@@ -33,6 +36,13 @@ pub fn scale(residuals: &[[f64; 2]]) -> f64 {
     (1.4826 * *median).max(f64::MIN_POSITIVE)
 }
 
+/// Standardised error with which all other observations predict one: from its weighted residual e = v/σ under the factor p
+/// on its weight and the prediction's cofactor q in units of σ², the error is e(1 + pq), of variance 1 + q. None where the
+/// redundancy number 1/(1 + q) is below `testable`.
+pub fn prediction(e: f64, p: f64, q: f64, testable: f64) -> Option<f64> {
+    (1.0 / (1.0 + q) > testable).then(|| e * (1.0 + p * q) / (1.0 + q).sqrt())
+}
+
 /// Square roots of the factors for all residuals, and their largest change.
 pub fn reweight(kind: Robust, residuals: &[[f64; 2]], weights: &mut [[f64; 2]]) -> f64 {
     let s = scale(residuals);
@@ -52,6 +62,17 @@ mod tests {
     use super::*;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn a_prediction_does_not_depend_on_the_own_weight() {
+        // One unknown, predicted by the others with cofactor q and off by d: e = d/(1 + pq).
+        let (d, q) = (12.0, 8.0);
+        for p in [1.0, 0.3, 1e-6] {
+            let t = prediction(d / (1.0 + p * q), p, q, 1e-3).expect("determined");
+            assert!((t - d / 3.0).abs() < 1e-9, "{p}: {t}");
+        }
+        assert_eq!(prediction(0.0, 1.0, f64::INFINITY, 1e-3), None);
+    }
 
     #[test]
     fn small_residuals_keep_their_weight_and_large_ones_lose_it() {

@@ -1,11 +1,8 @@
-//! One network on its way to a solution: iteration, gross errors, cofactors.
+//! One network on its way to a solution: iteration, cofactors; the search for gross errors is in [`super::search`].
 
 use nalgebra::DMatrix;
 
-use crate::adjustment::{
-    AdjustOptions, Covariance, GrossError, GrossErrorAction, Iteration, ResidualPlace, Robust, StatisticsChoice,
-    Termination,
-};
+use crate::adjustment::{AdjustOptions, Covariance, Iteration, ResidualPlace, StatisticsChoice, Termination};
 use crate::error::{Error, Place, Result};
 use crate::project::Project;
 
@@ -14,6 +11,7 @@ use super::datum::{self, FreeDatum, at_point};
 use super::doctor;
 use super::eccentric;
 use super::eliminated::Full;
+use super::given::LeftOut;
 use super::gradient;
 use super::iteration::{Outcome, Setting, iterate};
 use super::layout::{Layout, layout};
@@ -21,14 +19,7 @@ use super::network::Network;
 use super::normal::Normal;
 use super::parameters::State;
 use super::result::Solved;
-use super::robust::reweight;
 use super::rows::Weighting;
-use super::snooping::{Decision, VANISHING, consequences, decide};
-
-/// Rounds of a search for gross errors.
-const MOST_ROUNDS: usize = 500;
-/// Robust weights that change less are settled.
-const SETTLED: f64 = 1e-6;
 
 /// Rounds of eccentricity corrections, and their change in standard errors of a measurement that no longer matters.
 const MOST_CORRECTIONS: usize = 4;
@@ -48,7 +39,7 @@ pub struct Log<'a> {
 
 /// The network with its values.
 pub struct Session<'a> {
-    project: &'a Project,
+    pub(super) project: &'a Project,
     /// The network.
     pub network: Network,
     layout: Layout,
@@ -56,24 +47,26 @@ pub struct Session<'a> {
     /// Present values.
     pub state: State,
     datum: Option<FreeDatum>,
-    redundancy: usize,
+    pub(super) redundancy: usize,
     normal: Normal,
     /// Square roots of robust factors, per ray; empty for none.
-    weights: Vec<[f64; 2]>,
+    pub(super) weights: Vec<[f64; 2]>,
+    /// Square roots of robust factors of the other observations, contained in the network's weights; empty for none.
+    pub(super) given_factors: Vec<f64>,
     /// Eccentricity corrections, per ray; empty for none.
-    shift: Vec<[f64; 2]>,
+    pub(super) shift: Vec<[f64; 2]>,
 }
 
 /// What is known at the end.
 pub struct Solution {
     /// vᵀPv.
-    cost: f64,
-    cofactors: Option<Cofactors>,
+    pub(super) cost: f64,
+    pub(super) cofactors: Option<Cofactors>,
     /// Covariance of the points asked for.
     pub covariance: Option<Covariance>,
 }
 
-fn unsound() -> Error {
+pub(super) fn unsound() -> Error {
     Error::Invalid {
         detail: "the iteration ended where a point has no image: improve the initial values".into(),
         at: Place::default(),
@@ -81,22 +74,31 @@ fn unsound() -> Error {
 }
 
 impl<'a> Session<'a> {
-    /// Numbers the document without the observations in `removed`.
+    /// Numbers the document without the observations in `left_out`.
     ///
     /// # Errors
     /// As [`super::adjust`].
-    pub fn new(project: &'a Project, removed: &[bool]) -> Result<Self> {
-        let (mut network, state) = Network::new(project, removed)?;
+    pub fn new(project: &'a Project, left_out: &LeftOut) -> Result<Self> {
+        let (mut network, state) = Network::new(project, left_out)?;
         let layout = layout(&mut network);
         doctor::structure(project, &network, &state)?;
         let datum = datum::free_datum(&network, &state)?;
         let constraints = datum.as_ref().map_or(0, |d| d.defect);
         let (n, u) = (network.observations_count() + constraints, network.unknowns());
         let normal = Normal::new(&network, &layout);
-        let (weights, shift) = (Vec::new(), Vec::new());
-        let initial = state.clone();
-        let mut session =
-            Self { project, network, layout, initial, state, datum, redundancy: 0, normal, weights, shift };
+        let mut session = Self {
+            project,
+            network,
+            layout,
+            initial: state.clone(),
+            state,
+            datum,
+            redundancy: 0,
+            normal,
+            weights: Vec::new(),
+            given_factors: Vec::new(),
+            shift: Vec::new(),
+        };
         match n.checked_sub(u) {
             Some(redundancy) => session.redundancy = redundancy,
             None => return Err(session.rank_defect()),
@@ -155,132 +157,12 @@ impl<'a> Session<'a> {
         Ok(termination)
     }
 
-    fn residuals(&self, options: &AdjustOptions) -> Result<Vec<[f64; 2]>> {
-        let weighting = Weighting { place: options.residuals, robust: &[], shift: &self.shift };
-        gradient::weighted_residuals(&self.network, &self.state, weighting).ok_or_else(unsound)
-    }
-
-    fn gross_error(
-        &self,
-        ray: usize,
-        action: GrossErrorAction,
-        statistic: f64,
-        limit: f64,
-        round: usize,
-    ) -> GrossError {
-        let observation = &self.project.observations[self.network.rays[ray].row];
-        let (photo, point) = (observation.photo.clone(), observation.point.clone());
-        GrossError { photo, point, action, statistic, limit, round }
-    }
-
-    /// Data snooping from a converged state. Marks what is taken out in `removed` (by place in the document) and returns
-    /// whether the search came to an end.
-    ///
-    /// # Errors
-    /// As [`Self::iterate`].
-    pub fn snoop(
-        &mut self,
-        options: &AdjustOptions,
-        log: &mut Log<'_>,
-        removed: &mut [bool],
-        record: &mut Vec<GrossError>,
-    ) -> Result<bool> {
-        let full = AdjustOptions { statistics: StatisticsChoice::Full, covariance_of: Vec::new(), ..options.clone() };
-        let n = self.network.rays.len();
-        let (mut out, mut settled, mut restored) = (vec![false; n], vec![false; n], vec![0; n]);
-        let all = self.redundancy;
-        self.weights = vec![[1.0; 2]; n];
-        let mut ended = false;
-        for round in 1..=MOST_ROUNDS {
-            let solution = self.finish(&full, false)?;
-            let Some(cofactors) = &solution.cofactors else { break };
-            self.redundancy = all.saturating_sub(2 * out.iter().filter(|o| **o).count());
-            let sigma0 = (solution.cost / self.redundancy.max(1) as f64).sqrt();
-            let residuals = self.residuals(options)?;
-            let decision = decide(&self.network, &residuals, &cofactors.rays, &out, &settled, self.redundancy, sigma0);
-            match decision {
-                Decision::Done => {
-                    ended = true;
-                    break;
-                }
-                Decision::Remove { ray, statistic, limit } => {
-                    let Some(together) = consequences(&self.network, &out, ray) else {
-                        settled[ray] = true;
-                        continue;
-                    };
-                    for ray in together {
-                        out[ray] = true;
-                        self.weights[ray] = [VANISHING; 2];
-                        record.push(self.gross_error(ray, GrossErrorAction::Removed, statistic, limit, round));
-                    }
-                }
-                Decision::Restore { ray, statistic, limit } => {
-                    out[ray] = false;
-                    restored[ray] += 1;
-                    // What comes back a second time stays.
-                    settled[ray] = restored[ray] > 1;
-                    self.weights[ray] = [1.0; 2];
-                    record.push(self.gross_error(ray, GrossErrorAction::Restored, statistic, limit, round));
-                }
-            }
-            self.redundancy = all.saturating_sub(2 * out.iter().filter(|o| **o).count());
-            if self.iterate(options, log)? != Termination::Converged {
-                break;
-            }
-        }
-        self.redundancy = all;
-        for (ray, _) in out.iter().enumerate().filter(|(_, out)| **out) {
-            removed[self.network.rays[ray].row] = true;
-        }
-        self.weights = Vec::new();
-        Ok(ended)
-    }
-
-    /// Robust weights from a converged state; returns whether they settled.
-    ///
-    /// # Errors
-    /// As [`Self::iterate`].
-    pub fn reweight(
-        &mut self,
-        kind: Robust,
-        options: &AdjustOptions,
-        log: &mut Log<'_>,
-        record: &mut Vec<GrossError>,
-    ) -> Result<bool> {
-        self.weights = vec![[1.0; 2]; self.network.rays.len()];
-        let mut settled = false;
-        let stages: &[Robust] = if kind == Robust::Tukey { &[Robust::Huber, Robust::Tukey] } else { &[Robust::Huber] };
-        let mut round = 0;
-        'stages: for stage in stages {
-            settled = false;
-            for _ in 0..60 {
-                round += 1;
-                let residuals = self.residuals(options)?;
-                if reweight(*stage, &residuals, &mut self.weights) < SETTLED {
-                    settled = true;
-                    break;
-                }
-                if self.iterate(options, log)? != Termination::Converged {
-                    settled = false;
-                    break 'stages;
-                }
-            }
-        }
-        for (ray, weights) in self.weights.iter().enumerate() {
-            let factor = weights[0].min(weights[1]).powi(2);
-            if factor < 0.5 {
-                record.push(self.gross_error(ray, GrossErrorAction::Downweighted, factor, 0.5, round));
-            }
-        }
-        Ok(settled)
-    }
-
-    /// A new session without the observations in `removed`, from this one's values.
+    /// A new session without the observations in `left_out`, from this one's values.
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn without(&self, removed: &[bool]) -> Result<Self> {
-        let mut session = Self::new(self.project, removed)?;
+    pub fn without(&self, left_out: &LeftOut) -> Result<Self> {
+        let mut session = Self::new(self.project, left_out)?;
         session.state.adopt(&session.network, &self.state, &self.network);
         Ok(session)
     }
@@ -426,6 +308,7 @@ impl<'a> Session<'a> {
             state: &self.state,
             cofactors: solution.cofactors.as_ref(),
             weighting: Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift },
+            given_factors: &self.given_factors,
             cost: solution.cost,
             constraints: self.datum.as_ref().map_or(0, |d| d.defect),
             redundancy: self.redundancy,

@@ -1,35 +1,57 @@
 //! Iterative data snooping: the one worst observation is taken out at a time, and comes back when it fits after all.
 //!
-//! The test statistic is Pope's τ, e/(σ0 √r_i), with σ0 from the adjustment, since the a priori standard errors of real
-//! images are seldom right (A. J. Pope 1976). Observations taken out stay in the equations with a vanishing weight, so
-//! that their prediction error e/(σ0 √(1 + q)) is at hand: they come back when it is below the same limit.
+//! Observations of every kind are tested alike: image coordinates (both of a ray together), control coordinates, observed
+//! projection centres, distances and observed parameters. The test statistic is Pope's τ, e/(σ0 √r_i), with σ0 from the
+//! adjustment, since the a priori standard errors of real images are seldom right (A. J. Pope 1976). Observations taken
+//! out stay in the equations with a vanishing weight, so that their prediction error e/(σ0 √(1 + q)) is at hand: they come
+//! back when it is below the same limit.
 
 use crate::statistics::distribution::critical_tau;
 
+use super::given::{self, Observed};
 use super::network::Network;
 
 /// Square root of the weight of what is taken out.
 pub const VANISHING: f64 = 1e-6;
 
 /// Redundancy numbers below this leave nothing to test.
-const TESTABLE: f64 = 1e-3;
+pub const TESTABLE: f64 = 1e-3;
+
+/// What is tested and taken out as one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Item {
+    /// A ray: two image coordinates.
+    Ray(usize),
+    /// An observation of another kind.
+    Given(Observed),
+}
+
+/// All items of a network, rays first.
+pub fn items(network: &Network) -> Vec<Item> {
+    let rays = (0..network.rays.len()).map(Item::Ray);
+    rays.chain(given::all(network).into_iter().map(Item::Given)).collect()
+}
+
+/// What the tests of an item need: per scalar observation the weighted residual, without the vanishing weight, and the
+/// cofactor of the weighted adjusted observation.
+pub type Tests = [Option<(f64, f64)>; 2];
 
 /// What one round decides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Decision {
-    /// Take this ray out.
+    /// Take this item out.
     Remove {
-        /// The ray.
-        ray: usize,
+        /// Its number.
+        item: usize,
         /// Its statistic.
         statistic: f64,
         /// The limit.
         limit: f64,
     },
-    /// Take this ray back.
+    /// Take this item back.
     Restore {
-        /// The ray.
-        ray: usize,
+        /// Its number.
+        item: usize,
         /// Its statistic.
         statistic: f64,
         /// The limit.
@@ -39,54 +61,53 @@ pub enum Decision {
     Done,
 }
 
-/// The next step, from weighted residuals (`residuals`, without the vanishing weights), cofactors of the weighted adjusted
-/// observations and σ0. Rays in `settled` are not taken out.
-pub fn decide(
-    network: &Network,
-    residuals: &[[f64; 2]],
-    cofactors: &[[f64; 2]],
-    removed: &[bool],
-    settled: &[bool],
-    redundancy: usize,
-    sigma0: f64,
-) -> Decision {
+/// The next step. Items in `settled` are not taken out.
+pub fn decide(tests: &[Tests], removed: &[bool], settled: &[bool], redundancy: usize, sigma0: f64) -> Decision {
     let Some(limit) = critical_tau(redundancy).filter(|_| sigma0 > 0.0) else { return Decision::Done };
     let mut worst = (0, limit);
     let mut best = (0, limit);
-    for ray in 0..network.rays.len() {
-        let largest = |r: &dyn Fn(usize) -> Option<f64>| {
-            (0..2).filter_map(|s| r(s).map(|r| (residuals[ray][s] / (sigma0 * r.sqrt())).abs())).fold(0.0, f64::max)
+    for (item, tests) in tests.iter().enumerate() {
+        let largest = |variance: &dyn Fn(f64) -> Option<f64>| {
+            let one = |(e, q): (f64, f64)| variance(q).map(|r| (e / (sigma0 * r.sqrt())).abs());
+            tests.iter().flatten().filter_map(|test| one(*test)).fold(0.0, f64::max)
         };
-        if removed[ray] {
-            let predicted = largest(&|s| Some(1.0 + cofactors[ray][s] / (VANISHING * VANISHING)));
+        if removed[item] {
+            let predicted = largest(&|q| Some(1.0 + q / (VANISHING * VANISHING)));
             // A little below the limit, so that nothing goes in and out forever.
             if predicted < 0.95 * best.1 {
-                best = (ray, predicted);
+                best = (item, predicted);
             }
-        } else if !settled[ray] {
-            let statistic = largest(&|s| Some(1.0 - cofactors[ray][s]).filter(|r| *r > TESTABLE));
+        } else if !settled[item] {
+            let statistic = largest(&|q| Some(1.0 - q).filter(|r| *r > TESTABLE));
             if statistic > worst.1 {
-                worst = (ray, statistic);
+                worst = (item, statistic);
             }
         }
     }
     if worst.1 > limit {
-        Decision::Remove { ray: worst.0, statistic: worst.1, limit }
+        Decision::Remove { item: worst.0, statistic: worst.1, limit }
     } else if best.1 < limit {
-        Decision::Restore { ray: best.0, statistic: best.1, limit }
+        Decision::Restore { item: best.0, statistic: best.1, limit }
     } else {
         Decision::Done
     }
 }
 
-/// Rays to take out together with `ray`: a point left with a single ray loses that too. None when the photo would be left
-/// with fewer than three points.
-pub fn consequences(network: &Network, removed: &[bool], ray: usize) -> Option<Vec<usize>> {
-    let point = network.points.iter().find(|p| p.rays.contains(&ray))?;
-    let given = (0..3).all(|a| point.fixed[a] || point.prior[a].1 > 0.0);
+/// Items to take out together with `item`, itself first: a point left with a single ray loses that too. None when a photo
+/// would be left with fewer than three points. What no other observation determines has a redundancy number of 0 and is
+/// never asked for.
+pub fn consequences(network: &Network, items: &[Item], removed: &[bool], item: usize) -> Option<Vec<usize>> {
+    // Rays are numbered as in the network.
+    let Item::Ray(ray) = items[item] else { return Some(vec![item]) };
+    let at = network.points.iter().position(|p| p.rays.contains(&ray))?;
+    let point = &network.points[at];
+    let known = |a: usize| {
+        let own = items.iter().position(|item| *item == Item::Given(Observed::Control(at, a)));
+        point.fixed[a] || own.is_some_and(|k| !removed[k])
+    };
     let others: Vec<usize> = point.rays.clone().filter(|r| *r != ray && !removed[*r]).collect();
-    let mut out = vec![ray];
-    if others.len() == 1 && !given {
+    let mut out = vec![item];
+    if others.len() == 1 && !(0..3).all(known) {
         out.extend(others);
     }
     let left = |photo: usize| {

@@ -1,5 +1,8 @@
-//! The results as tables for spreadsheets: points, cameras, photos, observations. Units stand in the headings; an empty
+//! The results as tables for spreadsheets: points, cameras, photos, observations, and where there are any, observations of
+//! other kinds and the record of the search for gross errors. Units stand in the headings; an empty
 //! field is a value that does not exist. Residuals and detectable biases are given in pixels, whatever the camera's unit.
+
+mod given;
 
 use std::collections::HashMap;
 
@@ -22,12 +25,15 @@ pub enum Separator {
 /// # Errors
 /// None today; exports are fallible as a family.
 pub fn write(project: &Project, adjustment: Option<&Adjustment>, separator: Separator) -> Result<Files> {
-    let tables = [
+    let mut tables = vec![
         ("points", points(project, adjustment)),
         ("cameras", cameras(project, adjustment)),
         ("photos", photos(project, adjustment)),
         ("observations", observations(project, adjustment)),
     ];
+    tables.extend(adjustment.filter(|a| !a.given.is_empty()).map(|a| ("given", given::observations(project, a))));
+    let searched = adjustment.filter(|a| !a.gross_errors.is_empty());
+    tables.extend(searched.map(|a| ("gross_errors", given::record(a))));
     let extension = if separator == Separator::Comma { "csv" } else { "tsv" };
     Ok(tables
         .into_iter()
@@ -196,6 +202,7 @@ fn scales(project: &Project) -> HashMap<&str, [f64; 2]> {
 }
 
 fn observations(project: &Project, adjustment: Option<&Adjustment>) -> Table {
+    let effect = ["x", "y"].map(|side| format!("effect_{side} [{}]", project.unit));
     let mut table = Table::new([
         "photo",
         "point",
@@ -212,6 +219,8 @@ fn observations(project: &Project, adjustment: Option<&Adjustment>) -> Table {
         "mdb_x [px]",
         "mdb_y [px]",
         "enabled",
+        &effect[0],
+        &effect[1],
     ]);
     let scale = scales(project);
     // The adjustment keeps the project's order; one of another project gives no residuals.
@@ -239,6 +248,7 @@ fn observations(project: &Project, adjustment: Option<&Adjustment>) -> Table {
         });
         let enabled = found.map_or(observation.enabled, |found| found.enabled);
         row.push((if enabled { "yes" } else { "no" }).to_owned());
+        row.extend(found.map_or([None; 2], |a| [a.effect_x, a.effect_y]).map(value));
         table.rows.push(row);
     }
     table
@@ -333,7 +343,7 @@ mod tests {
         );
         assert!(text("cameras.csv").contains("c,c,mm,12.5,0.125,yes\nc,x0,mm,0,,no\n"));
         assert!(text("photos.csv").contains("1,\"a,b.jpg\",c,0,0,0,,,,0,0,180,,,,1,0,0\n"));
-        assert!(text("observations.csv").ends_with("1,7,1.5,2.25,0.1,0.1,1,2,0.5,,,,,,yes\n"));
+        assert!(text("observations.csv").ends_with("1,7,1.5,2.25,0.1,0.1,1,2,0.5,,,,,,yes,,\n"));
         for table in files.keys() {
             let text = text(table);
             let mut reader = csv::ReaderBuilder::new().from_reader(text.as_bytes());

@@ -192,7 +192,7 @@ export interface AdjustedObservation {
   /** Minimal detectable bias. */
   mdb_x: number | null;
   mdb_y: number | null;
-  /** External reliability: how far a bias of that size moves the point, in the project's unit. */
+  /** External reliability: how far a bias of that size, undetected, moves the point, in the project's unit and datum. */
   effect_x: number | null;
   effect_y: number | null;
   /** Factor on the weight from robust weighting; absent where it is 1. */
@@ -205,21 +205,37 @@ export type GivenObservation = {
   residual: number;
   sigma: number;
   reliability: { redundancy: number; w: number | null; mdb: number | null } | null;
-} & (
+  /** External reliability: how far a bias of that size, undetected, moves the point that it moves most, in the project's unit. */
+  effect: number | null;
+  /** That point: the control point itself, an end of the distance, a point of the photo, a point the camera sees. */
+  effect_point: string | null;
+  /** Factor on the weight from robust weighting; absent where it is 1. */
+  weight?: number;
+  /** False where data snooping took it out; the residual is then beside the adjusted value. */
+  enabled: boolean;
+} & Given;
+
+/** Kinds of observations besides image coordinates; axis 0, 1, 2 for X, Y, Z. */
+export type Given =
   | { kind: "control"; point: string; axis: number }
   | { kind: "position"; photo: string; axis: number }
   | { kind: "distance"; from: string; to: string }
-  | { kind: "parameter"; camera: string; photo: string | null; parameter: Parameter }
-);
+  | { kind: "parameter"; camera: string; photo: string | null; parameter: Parameter };
 
 /** What the search for gross errors did with an observation. */
 export interface GrossError {
+  /** Empty for observations without one. */
   photo: string;
+  /** Empty for observations without one. */
   point: string;
+  /** What was observed; null for image coordinates. */
+  given: Given | null;
   action: "removed" | "restored" | "downweighted";
   statistic: number;
   limit: number;
   round: number;
+  /** Whether it went only because another did: its point was left with this one ray. */
+  consequence: boolean;
 }
 
 /** What a solvable network is weak in. */

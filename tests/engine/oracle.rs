@@ -8,6 +8,7 @@ use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Given, ResidualPlace, Termination};
 use sightline::noise::Noise;
 use sightline::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
+use sightline::statistics::distribution::noncentrality;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -331,6 +332,65 @@ fn compare(project: &Project, options: &AdjustOptions) {
         sum += got;
     }
     close(sum, redundancy as f64, redundancy as f64, "sum of the redundancy numbers");
+    compare_effects(project, &adjustment, &dense, &redundancy_numbers, &|i| {
+        (&q * scaled.row(i).transpose()).component_div(&size)
+    });
+}
+
+/// External reliability: the detectable bias of every observation through Q aᵀ, and how far that moves its points.
+fn compare_effects(
+    project: &Project,
+    adjustment: &Adjustment,
+    dense: &Dense<'_>,
+    redundancy_numbers: &[f64],
+    shifts: &dyn Fn(usize) -> DVector<f64>,
+) {
+    let largest = |row: usize, points: &[&str]| -> Option<(f64, String)> {
+        let r = redundancy_numbers[row];
+        if r <= 1e-9 {
+            return None;
+        }
+        let shifts = shifts(row) * (noncentrality() / r.sqrt());
+        let moved = |id: &&str| {
+            let square = |(k, unknown): (usize, &Unknown)| match unknown {
+                Unknown::Point(point, _) if adjustment.points[*point].id == *id => shifts[k] * shifts[k],
+                _ => 0.0,
+            };
+            (dense.unknowns.iter().enumerate().map(square).sum::<f64>().sqrt(), (*id).to_owned())
+        };
+        points.iter().map(moved).max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    // Beside the a priori size of the bias where it moves nothing.
+    let agree = |got: Option<f64>, expected: Option<f64>, what: &str| {
+        assert_eq!(got.is_some(), expected.is_some(), "{what}");
+        let (got, expected) = (got.unwrap_or_default(), expected.unwrap_or_default());
+        close(got, expected, expected.abs().max(1.0), &format!("effect of {what}"));
+    };
+    let enabled: Vec<_> = adjustment.observations.iter().filter(|o| o.enabled).collect();
+    for (k, o) in enabled.iter().enumerate() {
+        for (side, got) in [o.effect_x, o.effect_y].into_iter().enumerate() {
+            let expected = largest(2 * k + side, &[&o.point]).map(|(shift, _)| shift);
+            agree(got, expected, &format!("{} in {}", o.point, o.photo));
+        }
+    }
+    for (k, given) in adjustment.given.iter().enumerate() {
+        let camera = |photo: &str| &project.photos.iter().find(|p| p.id == photo).expect("known").camera;
+        let seen = |wanted: &dyn Fn(&str) -> bool| -> Vec<&str> {
+            enabled.iter().filter(|o| wanted(&o.photo)).map(|o| o.point.as_str()).collect()
+        };
+        let points = match &given.what {
+            Given::Control { point, .. } => vec![point.as_str()],
+            Given::Distance { from, to } => vec![from.as_str(), to.as_str()],
+            Given::Position { photo, .. } | Given::Parameter { photo: Some(photo), .. } => seen(&|id| id == photo),
+            Given::Parameter { camera: own, photo: None, .. } => seen(&|id| camera(id) == own),
+        };
+        let expected = largest(2 * enabled.len() + k, &points);
+        agree(given.effect, expected.as_ref().map(|e| e.0), &format!("{:?}", given.what));
+        if let (Some((shift, point)), Some(named)) = (expected, &given.effect_point) {
+            let of_named = largest(2 * enabled.len() + k, &[named]).map_or(0.0, |(shift, _)| shift);
+            assert!(*named == point || (shift - of_named) <= 1e-9 * shift.max(1.0), "{named} is not {point}");
+        }
+    }
 }
 
 fn dense_unknowns(adjustment: &Adjustment, n: usize) -> usize {
@@ -392,6 +452,9 @@ fn every_choice_of_cameras_agrees_with_dense_least_squares() {
     let mut own = brown(&[Parameter::C, Parameter::X0]);
     own.per_photo = true;
     run(&Wanted { points: 24, cameras: vec![own.clone()], ..Wanted::default() }, 36..38);
+    let mut own_observed = own.clone();
+    own_observed.sigma = [(Parameter::C, 0.02), (Parameter::Y0, 0.03)].into();
+    run(&Wanted { points: 24, cameras: vec![own_observed], distances: (2, 0.1), ..Wanted::default() }, 42..44);
     run(
         &Wanted { points: 24, cameras: vec![own, opencv(&[Parameter::F])], distances: (1, 0.1), ..Wanted::default() },
         38..40,

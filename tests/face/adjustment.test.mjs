@@ -59,6 +59,26 @@ test('the fast tables say what the engine itself says', () => {
   assert.equal(applied.cameras[0].c, adjustment.cameras[0].c);
 });
 
+test('a gross error in a distance is taken out by name, with its record', () => {
+  const distances = [['p0', 'p7'], ['p3', 'p12'], ['p5', 'p14']].map(([from, to]) => ({ from, to, sigma: 0.01 }));
+  const project = sightline.simulate(network({ distances }));
+  project.distances[1].length += 3;
+  const found = sightline.adjust(project, { snooping: true });
+  const { given, action, statistic, limit, consequence, photo, point } = found.gross_errors[0];
+  assert.deepEqual({ given, action, consequence, photo, point }, { given: { kind: 'distance', from: 'p3', to: 'p12' }, action: 'removed', consequence: false, photo: '', point: '' });
+  assert.ok(statistic > limit);
+  assert.deepEqual(found.given.map(({ from, enabled }) => [from, enabled]), [['p0', true], ['p5', true], ['p3', false]]);
+  assert.ok(Math.abs(found.given[2].residual + 3) < 0.1, `${found.given[2].residual}`);
+  const [first] = found.given;
+  assert.ok(first.effect > 0 && ['p0', 'p7'].includes(first.effect_point), JSON.stringify(first));
+  const files = sightline.exportProject('csv', project, found);
+  const lines = (name) => new TextDecoder().decode(files[name]).trim().split('\n');
+  assert.equal(lines('given.csv').length, 4);
+  assert.match(lines('gross_errors.csv')[1], /^1,removed,distance,,p3,p12,/);
+  const robust = sightline.adjust(project, { robust: 'tukey' });
+  assert.ok(robust.given[1].weight < 0.01 && robust.given[1].enabled, JSON.stringify(robust.given[1]));
+});
+
 test('statistics are left out when they are not wanted', () => {
   const project = sightline.simulate(network());
   const lean = sightline.adjust(project, { statistics: 'none' });

@@ -62,13 +62,20 @@ test('every field that the engine returns is declared, and every declared field 
   const project = sightline.simulate(network());
   const coarse = structuredClone(project);
   coarse.observations[3].u += 20;
+  const measured = structuredClone(project);
+  measured.distances = [['p0', 'p5'], ['p1', 'p6'], ['p2', 'p7']].map(([from, to], k) => {
+    const [a, b] = [from, to].map((id) => measured.points.find((point) => point.id === id).xyz);
+    return { from, to, length: Math.hypot(...a.map((x, i) => x - b[i])) + (k === 1 ? 0.5 : 0), sigma: 0.01 };
+  });
   const adjustments = [
     sightline.adjust(project, { covariance_of: ['p1', 'p2'] }),
     sightline.adjust(project, { statistics: 'none' }),
     sightline.adjust(coarse, { snooping: true }),
     sightline.adjust(coarse, { robust: 'huber' }),
+    ...[{ snooping: true }, { robust: 'huber' }].map((options) => sightline.adjust(measured, options)),
     sightline.adjust({ ...project, datum: { kind: 'control', points: null }, points: project.points.map((point, k) => (k % 2 ? point : { ...point, role: 'control', sigma: [0.01, null, 0.02] })) }),
   ];
+  assert.equal(adjustments[4].gross_errors[0].given.kind, 'distance');
   const literals = [
     literal('network', 'S.Network', network()),
     literal('simulated', 'S.Project', project),

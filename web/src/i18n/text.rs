@@ -316,6 +316,12 @@ texts! {
     gross_action: "action", "처리";
     gross_statistic: "τ or weight", "τ 또는 가중값";
     gross_limit: "limit", "한계";
+    photo_or_kind: "photo or kind", "사진 또는 종류";
+    gross_consequence: "along with it: one ray left", "함께 제거: 광선 하나만 남음";
+    control_coordinate: "control coordinate", "기준점 좌표";
+    projection_centre: "projection centre", "투영중심";
+    distance: "distance", "거리";
+    camera_parameter: "camera parameter", "카메라 매개변수";
     unmodelled_again: "What is not modelled can be told more closely now", "모형화되지 않은 오차를 이제 더 정확히 정할 수 있습니다";
     unmodelled_again_body: "The value was found with other weights; with these the residuals ask for this one.", "앞의 값은 다른 가중값에서 구한 것입니다. 지금 가중값의 잔차로는 이 값이 맞습니다.";
     add_unmodelled(px): "Take {px} px and adjust", "{px} px로 조정";
@@ -413,6 +419,11 @@ texts! {
     worst_observations: "Worst observations", "큰 잔차 관측값";
     baarda: "Baarda's w, α 0.1 %", "Baarda w, α 0.1 %";
     over(limit): "over {limit}", "{limit} 초과";
+    other_observations: "Other observations", "그 밖의 관측값";
+    kind_of_observation: "kind", "종류";
+    detectable: "detectable", "검출 한계";
+    effect: "effect", "영향";
+    effect_on: "on point", "영향받는 점";
 }
 
 // Changes

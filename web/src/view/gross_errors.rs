@@ -1,8 +1,9 @@
 //! What is done about gross errors, and the record of what was done.
 
 use leptos::prelude::*;
-use sightline::adjustment::{AdjustOptions, GrossErrorAction, Robust};
+use sightline::adjustment::{AdjustOptions, Given, GrossErrorAction, Robust};
 
+use super::results::{given_kind, given_name};
 use crate::format;
 use crate::i18n::{Text, text};
 use crate::store::{Desk, Step};
@@ -56,6 +57,29 @@ pub fn GrossErrors() -> impl IntoView {
     }
 }
 
+/// Goes to where the observation can be seen and changed.
+fn follow(desk: Desk, photo: &str, point: &str, given: Option<&Given>) {
+    match given {
+        None => {
+            desk.select_observation(photo, point);
+            desk.go(Step::Identities);
+        }
+        Some(Given::Control { point, .. }) => {
+            desk.select_point(point);
+            desk.go(Step::Control);
+        }
+        Some(Given::Distance { from, .. }) => {
+            desk.select_point(from);
+            desk.go(Step::Control);
+        }
+        Some(Given::Position { photo, .. }) => {
+            desk.select_photo(photo);
+            desk.go(Step::Identities);
+        }
+        Some(Given::Parameter { .. }) => desk.go(Step::Adjust),
+    }
+}
+
 /// What was taken out, taken back or weighted down, and why.
 #[component]
 pub fn GrossErrorRecord() -> impl IntoView {
@@ -73,21 +97,23 @@ pub fn GrossErrorRecord() -> impl IntoView {
             <h2 class="section-head"><span>{text::gross_record}</span><span class="aside">{move || record.with(Vec::len)}</span></h2>
             <table class="table gross-errors">
                 <thead><tr>
-                    <th class="left">{text::id}</th><th class="left">{text::photo}</th><th class="left">{text::gross_action}</th>
+                    <th class="left">{text::id}</th><th class="left">{text::photo_or_kind}</th><th class="left">{text::gross_action}</th>
                     <th>{text::gross_statistic}</th><th>{text::gross_limit}</th><th>{text::gross_round}</th>
                 </tr></thead>
                 <tbody>
                     {move || record.get().into_iter().map(|entry| {
-                        let (photo, point) = (entry.photo.clone(), entry.point.clone());
-                        let show = move |_| {
-                            desk.select_observation(&photo, &point);
-                            desk.go(Step::Identities);
-                        };
+                        let consequence = entry.consequence;
+                        let name = entry.given.as_ref().map_or_else(|| entry.point.clone(), given_name);
+                        let what = entry.given.clone();
+                        let photo = entry.photo.clone();
+                        let show = move |_| follow(desk, &entry.photo, &entry.point, entry.given.as_ref());
                         view! {
                             <tr>
-                                <td class="left id"><button class="link" on:click=show>{entry.point}</button></td>
-                                <td class="left">{entry.photo}</td>
-                                <td class="left">{move || action(entry.action)}</td>
+                                <td class="left id"><button class="link" on:click=show>{name}</button></td>
+                                <td class="left">{move || what.as_ref().map_or_else(|| photo.clone(), |what| given_kind(what).to_owned())}</td>
+                                <td class="left">{move || action(entry.action)}
+                                    {consequence.then(|| view! { <small>" " {text::gross_consequence}</small> })}
+                                </td>
                                 <td>{format::fixed(entry.statistic, 2)}</td>
                                 <td>{format::fixed(entry.limit, 2)}</td>
                                 <td>{entry.round}</td>

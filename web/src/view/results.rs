@@ -1,6 +1,7 @@
 //! Step 6: the result with its statistics. Of a project that changed since, no number is shown.
 
 mod cameras;
+mod given;
 mod tables;
 mod units;
 
@@ -18,6 +19,8 @@ use crate::i18n::text;
 use crate::store::{Desk, Step};
 
 use cameras::Cameras;
+use given::GivenTable;
+pub use given::{given_kind, given_name};
 use tables::{CheckPoints, PhotosTable, PointsTable, Worst, largest_w};
 use units::{rms_px, shown_as, unit_per_pixel};
 
@@ -79,7 +82,7 @@ fn Current() -> impl IntoView {
         <main class="results">
             <section class="a1"><Residuals/></section>
             <section class="a2"><PhotosTable/></section>
-            <section class="b scroll"><Cameras/><CheckPoints/></section>
+            <section class="b scroll"><Cameras/><CheckPoints/><GivenTable/></section>
             <section class="c1"><PointsTable/></section>
             <section class="c2"><Worst/></section>
         </main>

@@ -1,0 +1,186 @@
+//! Observations of other kinds than image coordinates: control coordinates, observed projection centres, distances and
+//! observed parameters of interior orientations, in one list.
+//!
+//! Each has a residual v (adjusted minus given) and a reciprocal standard error p in the frame of the adjustment; all of
+//! them are tested, weighted down and taken out by the same rules as image coordinates.
+
+use crate::adjustment::Given;
+use crate::project::{Parameter, Project};
+
+use super::cofactor::Cofactors;
+use super::network::Network;
+use super::normal::bar_row;
+use super::parameters::State;
+
+/// An observation by its place in the [`Network`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Observed {
+    /// Point and axis.
+    Control(usize, usize),
+    /// Photo and axis.
+    Position(usize, usize),
+    /// Distance.
+    Distance(usize),
+    /// Interior orientation and place among its estimated parameters.
+    Parameter(usize, usize),
+}
+
+/// An observation by its place in the document, which stays when the network is numbered anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Key {
+    /// Point and axis.
+    Control(usize, usize),
+    /// Photo and axis.
+    Position(usize, usize),
+    /// Distance.
+    Distance(usize),
+    /// Camera, photo for an interior orientation per photo, parameter.
+    Parameter(usize, Option<usize>, Parameter),
+}
+
+/// What is left out of a document by the search for gross errors.
+#[derive(Clone, Debug, Default)]
+pub struct LeftOut {
+    /// Per image observation.
+    pub observations: Vec<bool>,
+    /// Observations of other kinds.
+    pub given: Vec<Key>,
+}
+
+impl LeftOut {
+    /// Nothing.
+    pub fn nothing(project: &Project) -> Self {
+        Self { observations: vec![false; project.observations.len()], given: Vec::new() }
+    }
+
+    /// Whether nothing is left out.
+    pub fn is_empty(&self) -> bool {
+        self.given.is_empty() && !self.observations.contains(&true)
+    }
+}
+
+/// All that take part, in the order of the result.
+pub fn all(network: &Network) -> Vec<Observed> {
+    let mut list = Vec::new();
+    for (k, point) in network.points.iter().enumerate() {
+        list.extend((0..3).filter(|a| point.prior[*a].1 > 0.0).map(|a| Observed::Control(k, a)));
+    }
+    for (k, photo) in network.photos.iter().enumerate() {
+        list.extend((0..3).filter(|a| photo.prior[*a].1 > 0.0).map(|a| Observed::Position(k, a)));
+    }
+    list.extend((0..network.bars.len()).map(Observed::Distance));
+    for (k, interior) in network.interiors.iter().enumerate() {
+        let observed = (0..interior.estimated.len()).filter(|n| interior.estimated[*n].prior.1 > 0.0);
+        list.extend(observed.map(|n| Observed::Parameter(k, n)));
+    }
+    list
+}
+
+impl Observed {
+    /// Reciprocal standard error.
+    pub fn weight(self, network: &Network) -> f64 {
+        match self {
+            Self::Control(k, a) => network.points[k].prior[a].1,
+            Self::Position(k, a) => network.photos[k].prior[a].1,
+            Self::Distance(k) => network.bars[k].weight,
+            Self::Parameter(k, n) => network.interiors[k].estimated[n].prior.1,
+        }
+    }
+
+    /// Changes the reciprocal standard error.
+    pub fn set_weight(self, network: &mut Network, weight: f64) {
+        match self {
+            Self::Control(k, a) => network.points[k].prior[a].1 = weight,
+            Self::Position(k, a) => network.photos[k].prior[a].1 = weight,
+            Self::Distance(k) => network.bars[k].weight = weight,
+            Self::Parameter(k, n) => network.interiors[k].estimated[n].prior.1 = weight,
+        }
+    }
+
+    /// Adjusted minus given, in the frame of the adjustment.
+    pub fn residual(self, network: &Network, state: &State) -> f64 {
+        match self {
+            Self::Control(k, a) => state.points[k][a] - network.points[k].prior[a].0,
+            Self::Position(k, a) => state.poses[k].centre[a] - network.photos[k].prior[a].0,
+            Self::Distance(k) => bar_row(network, state, &network.bars[k]).0 / network.bars[k].weight,
+            Self::Parameter(k, n) => {
+                let estimated = &network.interiors[k].estimated[n];
+                state.interiors[k].get(estimated.parameter).unwrap_or_default() - estimated.prior.0
+            }
+        }
+    }
+
+    /// Cofactor of the weighted adjusted observation, 1 - r.
+    pub fn cofactor(self, network: &Network, cofactors: &Cofactors) -> f64 {
+        let squared = self.weight(network).powi(2);
+        match self {
+            Self::Control(k, a) => cofactors.given_points[k][a] * squared,
+            Self::Position(k, a) => cofactors.photos[k][(3 + a, 3 + a)] * squared,
+            Self::Distance(k) => cofactors.bars[k],
+            Self::Parameter(k, n) => {
+                cofactors.interiors[k][(n, n)] * network.interiors[k].estimated[n].scale.powi(2) * squared
+            }
+        }
+    }
+
+    /// Shift, by a unit of weighted observation error, of the point that it moves most, and that point. None where it
+    /// acts on no point.
+    pub fn influence(self, network: &Network, cofactors: &Cofactors) -> Option<(f64, usize)> {
+        let weight = self.weight(network);
+        let influence = &cofactors.given_influence;
+        let (shift, point) = match self {
+            Self::Control(k, a) => {
+                let (shift, point) = influence.points[k][a];
+                (shift * weight, point)
+            }
+            Self::Position(k, a) => {
+                let (shift, point) = influence.photos[k][a];
+                (shift * weight, point)
+            }
+            Self::Distance(k) => influence.bars[k],
+            Self::Parameter(k, n) => {
+                let (shift, point) = influence.interiors[k][n];
+                (shift * weight * network.interiors[k].estimated[n].scale, point)
+            }
+        };
+        (point < network.points.len()).then_some((shift, point))
+    }
+
+    /// Unit of the residual in the observation's own unit.
+    pub fn unit(self, network: &Network) -> f64 {
+        if matches!(self, Self::Parameter(..)) { 1.0 } else { network.frame.scale }
+    }
+
+    /// Place in the document.
+    pub fn key(self, network: &Network) -> Key {
+        match self {
+            Self::Control(k, a) => Key::Control(network.points[k].index, a),
+            Self::Position(k, a) => Key::Position(network.photos[k].index, a),
+            Self::Distance(k) => Key::Distance(network.bars[k].index),
+            Self::Parameter(k, n) => {
+                let block = &network.interiors[k];
+                let photo = block.photo.map(|p| network.photos[p].index);
+                Key::Parameter(block.camera, photo, block.estimated[n].parameter)
+            }
+        }
+    }
+}
+
+impl Key {
+    /// By name.
+    pub fn named(self, project: &Project) -> Given {
+        match self {
+            Self::Control(k, axis) => Given::Control { point: project.points[k].id.clone(), axis },
+            Self::Position(k, axis) => Given::Position { photo: project.photos[k].id.clone(), axis },
+            Self::Distance(k) => {
+                let distance = &project.distances[k];
+                Given::Distance { from: distance.from.clone(), to: distance.to.clone() }
+            }
+            Self::Parameter(camera, photo, parameter) => Given::Parameter {
+                camera: project.cameras[camera].id.clone(),
+                photo: photo.map(|p| project.photos[p].id.clone()),
+                parameter,
+            },
+        }
+    }
+}

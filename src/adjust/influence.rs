@@ -1,0 +1,210 @@
+//! External reliability: how far an error in an observation, undetected, shifts the points (W. Baarda 1968).
+//!
+//! A unit of weighted error in the observation with row a shifts the unknowns by Q aᵀ, in the datum by S Q aᵀ. Of an image
+//! coordinate the shift of its own point is kept; of a control coordinate that of the control point; of a distance, an
+//! observed projection centre or parameter that of the point it moves most: among the ends of the distance, the points
+//! of the photo, the points that the camera sees.
+
+use super::datum::{SIMILARITY, at_point};
+use super::eliminated::Own;
+use super::kernel::TILE;
+use super::layout::Layout;
+use super::network::Network;
+use super::normal::bar_row;
+use super::parameters::State;
+use super::rows::Row;
+use super::tiles::TileMatrix;
+use super::transformation::Transformation;
+use super::triple::backward3;
+
+/// Length of the largest shift so far, and whose it is; `usize::MAX` for nobody's.
+pub type Largest = (f64, usize);
+
+/// Shifts by units of given observations, unweighted except for distances.
+#[derive(Clone, Debug, Default)]
+pub struct Influence {
+    /// Per point and axis of its given coordinates.
+    pub points: Vec<[Largest; 3]>,
+    /// Per photo and axis of its projection centre.
+    pub photos: Vec<[Largest; 3]>,
+    /// Per interior orientation and scaled unknown.
+    pub interiors: Vec<Vec<Largest>>,
+    /// Per distance, by a unit of weighted error.
+    pub bars: Vec<Largest>,
+}
+
+const NOBODY: Largest = (0.0, usize::MAX);
+
+/// (DᵀG)⁻¹DᵀQ at one point: per direction of the datum a vector over its axes.
+pub type Carried = [[f64; 3]; SIMILARITY];
+
+/// What the datum takes off the shift of a point: G at the point times (DᵀG)⁻¹DᵀQ aᵀ.
+fn align(state: &State, point: usize, taken: &[f64; SIMILARITY], shift: &mut [f64; 3]) {
+    for (shift, directions) in shift.iter_mut().zip(at_point(&state.points[point])) {
+        *shift -= directions.iter().zip(taken).map(|(g, t)| g * t).sum::<f64>();
+    }
+}
+
+/// Brings the shift of a point by one image coordinate into the datum; `at_point` is the datum's vector there.
+pub fn align_ray<const N: usize>(
+    t: &Transformation,
+    layout: &Layout,
+    state: &State,
+    (point, at_point): (usize, &Carried),
+    (row, side): (&Row<N>, usize),
+    shift: &mut [f64; 3],
+) {
+    let mut taken = [0.0; SIMILARITY];
+    let (photo, interior) = (layout.photo[row.photo], layout.interior[row.interior]);
+    for ((taken, v), at_point) in taken.iter_mut().zip(&t.v).zip(at_point) {
+        *taken = row.pose[side].iter().zip(&v[photo..]).map(|(g, v)| g * v).sum::<f64>()
+            + row.interior_rows[side].iter().zip(v.get(interior..).unwrap_or(&[])).map(|(c, v)| c * v).sum::<f64>()
+            + row.point[side].iter().zip(at_point).map(|(a, v)| a * v).sum::<f64>();
+    }
+    align(state, point, &taken, shift);
+}
+
+fn length(shift: &[f64; 3], fixed: &[bool; 3]) -> f64 {
+    (0..3).filter(|a| !fixed[*a]).map(|a| shift[a] * shift[a]).sum::<f64>().sqrt()
+}
+
+fn keep(largest: &mut Largest, length: f64, point: usize) {
+    if largest.1 == usize::MAX || length > largest.0 {
+        *largest = (length, point);
+    }
+}
+
+/// What a point's blocks of the cofactor matrix are read from.
+pub struct Blocks<'a> {
+    /// The network.
+    pub network: &'a Network,
+    /// Places.
+    pub layout: &'a Layout,
+    /// Present values.
+    pub state: &'a State,
+    /// The datum, if any.
+    pub transformation: Option<&'a Transformation>,
+}
+
+impl Blocks<'_> {
+    /// Shift of `point` by a unit of the reduced unknown at `place`, from the same without the datum.
+    fn in_datum(&self, point: usize, place: usize, mut shift: [f64; 3]) -> f64 {
+        if let Some(t) = self.transformation {
+            let mut taken = [0.0; SIMILARITY];
+            taken.iter_mut().zip(&t.v).for_each(|(taken, v)| *taken = v[place]);
+            align(self.state, point, &taken, &mut shift);
+        }
+        length(&shift, &self.network.points[point].fixed)
+    }
+
+    /// Photos and interior orientations that see a point and have given values, with their places.
+    fn observed(&self, point: usize) -> (Vec<(usize, usize)>, Vec<usize>) {
+        let network = self.network;
+        let (mut photos, mut interiors) = (Vec::new(), Vec::new());
+        for (n, ray) in network.rays[network.points[point].rays.clone()].iter().enumerate() {
+            let photo = &network.photos[ray.photo];
+            if photo.prior.iter().any(|(_, weight)| *weight > 0.0) {
+                photos.push((n, ray.photo));
+            }
+            let observed = network.interiors[photo.interior].estimated.iter().any(|e| e.prior.1 > 0.0);
+            if observed && !interiors.contains(&photo.interior) {
+                interiors.push(photo.interior);
+            }
+        }
+        (photos, interiors)
+    }
+}
+
+impl Influence {
+    /// Nothing yet.
+    pub fn new(network: &Network) -> Self {
+        Self {
+            points: vec![[NOBODY; 3]; network.points.len()],
+            photos: vec![[NOBODY; 3]; network.photos.len()],
+            interiors: network.interiors.iter().map(|i| vec![NOBODY; i.estimated.len()]).collect(),
+            bars: Vec::new(),
+        }
+    }
+
+    /// Given coordinates of the point itself, from its own cofactors.
+    pub fn own(&mut self, network: &Network, point: usize, column: impl Fn(usize) -> [f64; 3]) {
+        let block = &network.points[point];
+        for a in (0..3).filter(|a| block.prior[*a].1 > 0.0) {
+            self.points[point][a] = (length(&column(a), &block.fixed), point);
+        }
+    }
+
+    /// Photos and interior orientations that see an eliminated point, from T = QZ at its rays and interior orientations:
+    /// Q_pc = -L⁻ᵀTᵀ.
+    pub fn eliminated<const N: usize>(
+        &mut self,
+        blocks: &Blocks<'_>,
+        point: usize,
+        l: &[f64; 6],
+        t_photos: &[[[f64; 6]; 3]],
+        t_interiors: (&[Own], &[[[f64; N]; 3]]),
+    ) {
+        let (photos, interiors) = blocks.observed(point);
+        for (n, photo) in photos {
+            for a in 0..3 {
+                let shift = backward3(l, std::array::from_fn(|m| -t_photos[n][m][3 + a]));
+                let place = blocks.layout.photo[photo] + 3 + a;
+                keep(&mut self.photos[photo][a], blocks.in_datum(point, place, shift), point);
+            }
+        }
+        for (own, t) in t_interiors.0.iter().zip(t_interiors.1).filter(|(own, _)| interiors.contains(&own.interior)) {
+            for n in 0..own.length {
+                let shift = backward3(l, std::array::from_fn(|m| -t[m][n]));
+                let place = blocks.layout.interior[own.interior] + n;
+                keep(&mut self.interiors[own.interior][n], blocks.in_datum(point, place, shift), point);
+            }
+        }
+    }
+
+    /// The same for a point kept in the reduced equations.
+    pub fn kept(&mut self, blocks: &Blocks<'_>, inverse: &TileMatrix, point: usize) {
+        let (photos, interiors) = blocks.observed(point);
+        let place = blocks.layout.point[point];
+        let column = |at: usize| std::array::from_fn(|a| element(inverse, place + a, at));
+        for (_, photo) in photos {
+            for a in 0..3 {
+                let at = blocks.layout.photo[photo] + 3 + a;
+                keep(&mut self.photos[photo][a], blocks.in_datum(point, at, column(at)), point);
+            }
+        }
+        for interior in interiors {
+            for (n, largest) in self.interiors[interior].iter_mut().enumerate() {
+                let at = blocks.layout.interior[interior] + n;
+                keep(largest, blocks.in_datum(point, at, column(at)), point);
+            }
+        }
+    }
+
+    /// Distances move their ends.
+    pub fn distances(&mut self, blocks: &Blocks<'_>, inverse: &TileMatrix) {
+        for bar in &blocks.network.bars {
+            let (_, rows) = bar_row(blocks.network, blocks.state, bar);
+            let places = [blocks.layout.point[bar.from], blocks.layout.point[bar.to]];
+            let at = |k: usize| places[k / 3] + k % 3;
+            let mut taken = [0.0; SIMILARITY];
+            for (taken, v) in taken.iter_mut().zip(blocks.transformation.iter().flat_map(|t| &t.v)) {
+                *taken = (0..6).map(|k| rows[k] * v[at(k)]).sum();
+            }
+            let mut largest = NOBODY;
+            for (end, place) in [bar.from, bar.to].into_iter().zip(places) {
+                let mut shift =
+                    std::array::from_fn(|a| (0..6).map(|k| rows[k] * element(inverse, place + a, at(k))).sum());
+                align(blocks.state, end, &taken, &mut shift);
+                keep(&mut largest, length(&shift, &blocks.network.points[end].fixed), end);
+            }
+            self.bars.push(largest);
+        }
+    }
+}
+
+/// An element of the inverse, of which the lower triangle of tiles is kept.
+fn element(inverse: &TileMatrix, row: usize, column: usize) -> f64 {
+    let crossed = row / TILE < column / TILE;
+    let at = if crossed { inverse.place(column, row) } else { inverse.place(row, column) };
+    inverse.data()[at]
+}

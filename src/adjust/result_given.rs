@@ -1,0 +1,90 @@
+//! Observations of other kinds than image coordinates in the result: residuals, reliability, and what was taken out.
+
+use crate::adjustment::GivenObservation;
+use crate::statistics::reliability::Reliability;
+
+use super::given::{self, Key, Observed};
+use super::network::InteriorBlock;
+use super::result::{Solved, distance};
+use super::snooping::VANISHING;
+
+impl Solved<'_> {
+    /// All given observations; those that were taken out come last.
+    pub fn given(&self) -> Vec<GivenObservation> {
+        let full = self.cofactors.filter(|c| !c.rays.is_empty());
+        let one = |(k, observed): (usize, Observed)| {
+            let unit = observed.unit(self.network);
+            let weight = observed.weight(self.network);
+            let factor = self.given_factors.get(k).copied().unwrap_or(1.0);
+            let residual = observed.residual(self.network, self.state);
+            let mut given = GivenObservation {
+                what: observed.key(self.network).named(self.project),
+                residual: residual * unit,
+                sigma: unit / (weight / factor),
+                reliability: None,
+                effect: None,
+                effect_point: None,
+                weight: Some(factor * factor).filter(|w| *w < 1.0),
+                enabled: true,
+            };
+            let Some(cofactors) = full else { return given };
+            let mut test =
+                Reliability::new(residual * weight, observed.cofactor(self.network, cofactors), unit / weight);
+            if factor <= VANISHING {
+                // An observation without weight is not tested.
+                test = Reliability { redundancy: test.redundancy, ..Reliability::default() };
+            }
+            given.reliability = Some(test);
+            if let (Some(mdb), Some((shift, point))) = (test.mdb, observed.influence(self.network, cofactors)) {
+                given.effect = Some(mdb * weight / unit * shift * self.frame().scale);
+                given.effect_point = Some(self.project.points[self.network.points[point].index].id.clone());
+            }
+            given
+        };
+        let used = given::all(self.network).into_iter().enumerate().map(one);
+        used.chain(self.network.left_out.iter().map(|key| self.left_out(*key))).collect()
+    }
+
+    /// A given observation that takes no part any more, beside the adjusted value.
+    fn left_out(&self, key: Key) -> GivenObservation {
+        let network = self.network;
+        let point = |index: usize| network.points.iter().position(|p| p.index == index).map(|k| self.point(k));
+        let difference = |adjusted: Option<f64>, given: Option<f64>| Some(adjusted? - given?);
+        let (residual, sigma) = match key {
+            Key::Control(k, a) => {
+                let given = &self.project.points[k];
+                (difference(point(k).map(|x| x[a]), given.xyz.map(|x| x[a])), given.sigma.and_then(|s| s[a]))
+            }
+            Key::Position(k, a) => {
+                let given = &self.project.photos[k];
+                let photo = network.photos.iter().position(|p| p.index == k);
+                let adjusted = photo.map(|p| self.frame().outside(self.state.poses[p].centre)[a]);
+                (difference(adjusted, given.position.map(|x| x[a])), given.sigma_position.and_then(|s| s[a]))
+            }
+            Key::Distance(k) => {
+                let given = &self.project.distances[k];
+                let place = |id: &String| self.project.points.iter().position(|p| p.id == *id).and_then(point);
+                let length = place(&given.from).zip(place(&given.to)).map(|(a, b)| distance(&a, &b));
+                (difference(length, Some(given.length)), Some(given.sigma))
+            }
+            Key::Parameter(camera, photo, parameter) => {
+                let own = |block: &InteriorBlock| {
+                    block.camera == camera && block.photo.map(|p| network.photos[p].index) == photo
+                };
+                let given = &self.project.cameras[camera];
+                let adjusted = network.interiors.iter().position(own).map(|k| self.state.interiors[k].get(parameter));
+                (difference(adjusted.flatten(), given.interior.get(parameter)), given.sigma.get(&parameter).copied())
+            }
+        };
+        GivenObservation {
+            what: key.named(self.project),
+            residual: residual.unwrap_or_default(),
+            sigma: sigma.unwrap_or_default(),
+            reliability: None,
+            effect: None,
+            effect_point: None,
+            weight: None,
+            enabled: false,
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! Tables of observations of other kinds than image coordinates, and of the search for gross errors.
+
+use super::{Table, parameter_unit, value};
+use crate::adjustment::{Adjustment, Given, GrossErrorAction};
+use crate::project::Project;
+
+/// What names a given observation: kind, photo, point, to, camera, component.
+fn names(what: Option<&Given>) -> [String; 6] {
+    let [x, y, z] = ["X", "Y", "Z"];
+    let axis = |axis: usize| [x, y, z].get(axis).copied().unwrap_or_default();
+    let [kind, photo, point, to, camera, component] = match what {
+        None => ["image", "", "", "", "", ""],
+        Some(Given::Control { point, axis: a }) => ["control", "", point, "", "", axis(*a)],
+        Some(Given::Position { photo, axis: a }) => ["position", photo, "", "", "", axis(*a)],
+        Some(Given::Distance { from, to }) => ["distance", "", from, to, "", ""],
+        Some(Given::Parameter { camera, photo, parameter }) => {
+            ["parameter", photo.as_deref().unwrap_or_default(), "", "", camera, parameter.name()]
+        }
+    };
+    [kind, photo, point, to, camera, component].map(str::to_owned)
+}
+
+/// Observations of other kinds with their statistics, each in its own unit.
+pub fn observations(project: &Project, adjustment: &Adjustment) -> Table {
+    let effect = format!("effect [{}]", project.unit);
+    let mut table = Table::new([
+        "kind",
+        "photo",
+        "point",
+        "to",
+        "camera",
+        "component",
+        "unit",
+        "residual",
+        "sigma",
+        "r",
+        "w",
+        "mdb",
+        "effect_point",
+        &effect,
+        "weight",
+        "enabled",
+    ]);
+    for given in &adjustment.given {
+        let unit = match &given.what {
+            Given::Parameter { camera, parameter, .. } => {
+                let camera = project.cameras.iter().find(|c| c.id == *camera);
+                camera.map(|camera| parameter_unit(camera, *parameter)).unwrap_or_default()
+            }
+            _ => project.unit.clone(),
+        };
+        let test = given.reliability.unwrap_or_default();
+        let mut row: Vec<String> = names(Some(&given.what)).into();
+        row.push(unit);
+        row.extend(
+            [Some(given.residual), Some(given.sigma), given.reliability.map(|r| r.redundancy), test.w, test.mdb]
+                .map(value),
+        );
+        row.push(given.effect_point.clone().unwrap_or_default());
+        row.extend([value(given.effect), value(Some(given.weight.unwrap_or(1.0)))]);
+        row.push((if given.enabled { "yes" } else { "no" }).to_owned());
+        table.rows.push(row);
+    }
+    table
+}
+
+/// What was taken out, taken back or weighted down, and why.
+pub fn record(adjustment: &Adjustment) -> Table {
+    let mut table = Table::new([
+        "round",
+        "action",
+        "kind",
+        "photo",
+        "point",
+        "to",
+        "camera",
+        "component",
+        "statistic",
+        "limit",
+        "consequence",
+    ]);
+    for entry in &adjustment.gross_errors {
+        let action = match entry.action {
+            GrossErrorAction::Removed => "removed",
+            GrossErrorAction::Restored => "restored",
+            GrossErrorAction::Downweighted => "downweighted",
+        };
+        let mut names = names(entry.given.as_ref());
+        if entry.given.is_none() {
+            (names[1], names[2]) = (entry.photo.clone(), entry.point.clone());
+        }
+        let mut row = vec![entry.round.to_string(), action.to_owned()];
+        row.extend(names);
+        row.extend([entry.statistic, entry.limit].map(|number| value(Some(number))));
+        row.push((if entry.consequence { "yes" } else { "no" }).to_owned());
+        table.rows.push(row);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::adjustment::{GivenObservation, GrossError};
+    use crate::statistics::reliability::Reliability;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn every_kind_has_its_row() {
+        let what = Given::Distance { from: "a".into(), to: "b,c".into() };
+        let given = GivenObservation {
+            what: what.clone(),
+            residual: -0.25,
+            sigma: 0.5,
+            reliability: Some(Reliability { redundancy: 0.5, w: Some(-1.5), mdb: None }),
+            effect: Some(2.0),
+            effect_point: Some("a".into()),
+            weight: None,
+            enabled: true,
+        };
+        let entry = GrossError {
+            photo: String::new(),
+            point: String::new(),
+            given: Some(what),
+            action: GrossErrorAction::Removed,
+            statistic: 7.5,
+            limit: 3.25,
+            round: 2,
+            consequence: false,
+        };
+        let image = GrossError { photo: "p".into(), point: "q".into(), given: None, ..entry.clone() };
+        let adjustment = Adjustment { given: vec![given], gross_errors: vec![entry, image], ..Adjustment::default() };
+        let files =
+            super::super::write(&Project::default(), Some(&adjustment), super::super::Separator::Comma).unwrap();
+        let text = |name: &str| String::from_utf8(files[name].clone()).unwrap();
+        assert!(text("given.csv").ends_with("distance,,a,\"b,c\",,,mm,-0.25,0.5,0.5,-1.5,,a,2,1,yes\n"));
+        assert!(
+            text("gross_errors.csv")
+                .ends_with("2,removed,distance,,a,\"b,c\",,,7.5,3.25,no\n2,removed,image,p,q,,,,7.5,3.25,no\n")
+        );
+    }
+}

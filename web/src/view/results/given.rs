@@ -1,0 +1,114 @@
+//! Observations of other kinds than image coordinates: control, projection centres, distances, camera parameters.
+
+use leptos::prelude::*;
+use sightline::adjustment::{Given, GivenObservation};
+
+use super::read;
+use crate::format;
+use crate::i18n::text;
+use crate::store::Desk;
+use crate::view::adjust::{parameter_name, parameter_unit};
+use crate::view::advice::CRITICAL_W;
+use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
+
+/// What was observed, by name: a point or photo with its axis, the ends of a distance, a parameter of a camera.
+pub fn given_name(what: &Given) -> String {
+    let axis = |axis: usize| ["X", "Y", "Z"].get(axis).copied().unwrap_or_default();
+    match what {
+        Given::Control { point: id, axis: a } | Given::Position { photo: id, axis: a } => format!("{id} {}", axis(*a)),
+        Given::Distance { from, to } => format!("{from} – {to}"),
+        Given::Parameter { camera, photo, parameter } => {
+            let photo = photo.as_ref().map(|photo| format!(" · {photo}")).unwrap_or_default();
+            format!("{camera}{photo} {}", parameter_name(*parameter))
+        }
+    }
+}
+
+/// The kind in words.
+pub fn given_kind(what: &Given) -> &'static str {
+    match what {
+        Given::Control { .. } => text::control_coordinate(),
+        Given::Position { .. } => text::projection_centre(),
+        Given::Distance { .. } => text::distance(),
+        Given::Parameter { .. } => text::camera_parameter(),
+    }
+}
+
+#[component]
+pub(super) fn GivenTable() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let sorting = RwSignal::new(Some(Sorting { column: 6, descending: true }));
+    let columns = Signal::derive(move || {
+        let unit = desk.document.with(|d| d.project.unit.clone());
+        vec![
+            Column::words(text::id),
+            Column::words(text::kind_of_observation),
+            Column::words(text::unit),
+            Column::number(|| "v"),
+            Column::number(|| "σ"),
+            Column::number(|| "r"),
+            Column::number(|| "w"),
+            Column::number(text::detectable),
+            Column::number(text::effect).unit(unit),
+            Column::words(text::effect_on),
+        ]
+    });
+    let rows = Memo::new(move |_| {
+        read(desk, |a, project| {
+            let row = |(k, given): (usize, &GivenObservation)| {
+                let unit = match &given.what {
+                    Given::Parameter { camera, parameter, .. } => {
+                        let camera = project.cameras.iter().find(|c| c.id == *camera);
+                        camera.map(|camera| parameter_unit(camera, *parameter)).unwrap_or_default()
+                    }
+                    _ => project.unit.clone(),
+                };
+                let decimals = format::decimals_for(given.sigma);
+                let test = given.reliability.unwrap_or_default();
+                let over = test.w.is_some_and(|w| w.abs() > CRITICAL_W);
+                let mut size = Cell::number(test.w, 2).class(if over { "bad" } else { "" });
+                size.order = test.w.map(f64::abs);
+                let effect = given.effect.map_or(3, format::decimals_for);
+                Row {
+                    key: k.to_string(),
+                    cells: vec![
+                        Cell::id(&given_name(&given.what)),
+                        Cell::words(given_kind(&given.what)),
+                        Cell::words(unit),
+                        Cell::number(Some(given.residual), decimals),
+                        Cell::number(Some(given.sigma), decimals),
+                        Cell::number(given.reliability.map(|r| r.redundancy), 2),
+                        size,
+                        Cell::number(test.mdb, decimals),
+                        Cell::number(given.effect, effect),
+                        Cell::words(given.effect_point.clone().unwrap_or_default()),
+                    ],
+                    off: !given.enabled,
+                }
+            };
+            a.given.iter().enumerate().map(row).collect::<Vec<_>>()
+        })
+    });
+    let chosen = RwSignal::new(None::<String>);
+    let choose = Callback::new(move |key: String| {
+        let point = key.parse().ok().and_then(|k: usize| {
+            read(desk, |a, _| match a.given.get(k).map(|given| &given.what) {
+                Some(Given::Control { point, .. }) => Some(point.clone()),
+                _ => None,
+            })
+        });
+        if let Some(point) = point {
+            desk.select_point(&point);
+        }
+        chosen.set(Some(key));
+    });
+    view! {
+        <Show when=move || rows.with(|rows| !rows.is_empty())>
+            <h2 class="section-head">
+                <span>{text::other_observations} " " <span class="id">{move || rows.with(Vec::len)}</span></span>
+                <CopyButton columns rows/>
+            </h2>
+            <NumberTable label=text::other_observations columns rows chosen on_choose=choose sorting class="given"/>
+        </Show>
+    }
+}
