@@ -4,6 +4,7 @@ mod aerial;
 mod behaviour;
 mod damage;
 mod data;
+mod dense;
 mod document;
 mod exchange;
 mod experiments;
