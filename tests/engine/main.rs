@@ -18,5 +18,6 @@ mod painter;
 mod panel;
 mod photos;
 mod published;
+mod reports;
 mod sharp;
 mod targets;

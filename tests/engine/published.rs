@@ -9,14 +9,14 @@ use sightline::project::{Camera, DatumKind, Interior, Observation, Parameter, Ph
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-const HEIGHT_MM: f64 = 5.43764;
+pub const HEIGHT_MM: f64 = 5.43764;
 
 fn solve(project: &Project) -> Adjustment {
     adjust(project, &AdjustOptions::default(), &mut |_| true).expect("solvable")
 }
 
 /// The calibration project with the sheet's four control points fixed, free of what the published runs estimate.
-fn camcal(file: &str, free: &[Parameter]) -> Option<Project> {
+pub fn camcal(file: &str, free: &[Parameter]) -> Option<Project> {
     let mut project = photomodeler::parse(&data::text(&format!("camcal/{file}"))?).expect("a valid export");
     let pitch = HEIGHT_MM / 1704.0;
     project.cameras.truncate(1);
@@ -36,7 +36,7 @@ fn camcal(file: &str, free: &[Parameter]) -> Option<Project> {
     Some(project)
 }
 
-const DISTORTED: [Parameter; 8] = [
+pub const DISTORTED: [Parameter; 8] = [
     Parameter::C,
     Parameter::X0,
     Parameter::Y0,
