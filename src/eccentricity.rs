@@ -59,8 +59,8 @@ fn image_centre(circle: &Circle) -> Option<[f64; 2]> {
     let q = Matrix3::identity() * (h * h) - (n * p.transpose() + p * n.transpose()) * h
         + n * n.transpose() * (p.norm_squared() - r * r);
     let det = q[(0, 0)] * q[(1, 1)] - q[(0, 1)] * q[(0, 1)];
-    // seen edge-on there is no ellipse
-    if det <= 1e-14 * p.norm_squared().powi(4) {
+    // seen edge-on there is no ellipse; Q is of the square of a length
+    if det <= 1e-14 * p.norm_squared().powi(2) {
         return None;
     }
     Some([(q[(1, 1)] * q[(0, 2)] - q[(0, 1)] * q[(1, 2)]) / det, (q[(0, 0)] * q[(1, 2)] - q[(0, 1)] * q[(0, 2)]) / det])
@@ -156,6 +156,18 @@ mod tests {
     fn camera() -> Camera {
         let (x0, y0, k1, k2, k3, p1, p2, b1, b2) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         Camera::new("c", 4000, 3000, Interior::Brown { c: Some(3000.0), x0, y0, k1, k2, k3, p1, p2, b1, b2 })
+    }
+
+    #[test]
+    fn the_unit_of_length_does_not_matter() {
+        let circle =
+            Circle { centre: Vector3::new(0.3, -0.2, -1.5), normal: Vector3::new(0.7, 0.1, 0.6), diameter: 0.02 };
+        let expected = ideal(&circle).expect("seen");
+        for unit in [1e-3, 1e3, 1e6] {
+            let scaled = Circle { centre: circle.centre * unit, diameter: circle.diameter * unit, ..circle };
+            let got = ideal(&scaled).expect("seen");
+            assert!((0..2).all(|k| (got[k] - expected[k]).abs() < 1e-12), "{unit}: {got:?} {expected:?}");
+        }
     }
 
     #[test]

@@ -90,7 +90,12 @@ pub fn orient(project: &Project) -> Result<Oriented> {
     notes.extend(note::of_photos(project, &block));
     notes.extend(note::of_points(project, &block));
     notes.extend(note::of_observations(project, &block));
-    Ok(Oriented { project: filled(project, &block), notes })
+    let mut project = filled(project, &block);
+    if frame == Some(Frame::Own) {
+        // Directions given in another system mean nothing in this one.
+        project.points.iter_mut().for_each(|point| point.normal = None);
+    }
+    Ok(Oriented { project, notes })
 }
 
 /// Photos with measurements.

@@ -154,6 +154,10 @@ pub struct Point {
     /// Diameter of the circular target in the object's unit.
     #[serde(default)]
     pub diameter: Option<f64>,
+    /// Normal of the circular target's plane in the object system, of any length and either sign; null: that of the surface
+    /// which its neighbours show. Used where there is a diameter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal: Option<[f64; 3]>,
 }
 
 /// A priori standard error of an image observation in pixels.

@@ -1,9 +1,21 @@
 //! Eccentricity of circular targets: how far the centre of the ellipse that was measured lies from the image of the
 //! circle's centre ([`crate::eccentricity`]), for targets whose diameter the document gives.
 //!
-//! The circle's normal is that of the surface it lies on: the plane through the point and its nearest neighbours. Where
-//! these do not lie in one plane the normal is unknown and nothing is corrected. The corrections depend so weakly on the
-//! unknowns that they are held during an iteration and computed again after it.
+//! The circle's normal is given with the point, or is that of the surface it lies on: the plane through the point and its
+//! nearest neighbours. The corrections depend so weakly on the unknowns that they are held during an iteration and
+//! computed again after it.
+//!
+//! A plane through n points that lie off it by the rms deviation s (n - 3 degrees of freedom), with rms extents a and b along
+//! its axes, has a normal that is uncertain by
+//!
+//! ```text
+//! σ² = s²/n · (1/a² + 1/b²)
+//! ```
+//!
+//! An eccentricity is e = E sin 2α with the angle α between ray and normal, E = c r²/(2Z²) at distance Z; an error of the
+//! normal by σ changes it by up to 2Eσ. A surface is believed where that is at most a tenth of E, σ ≤ 1/20: what it leaves
+//! is then small beside what it takes away, and points scattered in space, with s as large as a and b, are far from it. Else
+//! nothing is corrected.
 
 use nalgebra::{DMatrix, Vector3};
 
@@ -15,10 +27,8 @@ use super::parameters::State;
 
 /// Neighbours that span the surface.
 const NEIGHBOURS: usize = 6;
-/// Deviation from the plane, as a part of the neighbourhood's larger extent, up to which it is one.
-const FLAT: f64 = 0.02;
-/// Smaller extent of a neighbourhood, as a part of the larger, below which it is a line.
-const WIDE: f64 = 0.1;
+/// Part of the largest eccentricity that the uncertainty of a surface's normal may leave, see above.
+const LEFT: f64 = 0.1;
 
 /// Corrections in the units of the residuals, per ray, to be taken off the measurements; empty where no target has a
 /// diameter.
@@ -37,7 +47,8 @@ pub fn shifts(project: &Project, network: &Network, state: &State) -> Vec<[f64; 
     let mut shifts = vec![[0.0; 2]; network.rays.len()];
     let sorted = Sorted::new(&state.points);
     for (k, block) in network.points.iter().enumerate() {
-        let Some(normal) = diameter(k).and_then(|_| sorted.normal(k)) else { continue };
+        let given = project.points[block.index].normal.and_then(|n| Vector3::from(n).try_normalize(0.0));
+        let Some(normal) = diameter(k).and_then(|_| given.or_else(|| sorted.normal(k))) else { continue };
         let diameter = diameter(k).unwrap_or_default() / network.frame.scale;
         for ray in block.rays.clone() {
             let photo = network.rays[ray].photo;
@@ -104,22 +115,31 @@ impl<'a> Sorted<'a> {
         found.into_iter().map(|(_, other)| other).collect()
     }
 
-    /// Normal of the plane through a point and its neighbours; none where they do not lie in one.
+    /// Normal of the surface at a point; none where its neighbours do not show it well enough.
     fn normal(&self, k: usize) -> Option<Vector3<f64>> {
+        self.plane(k).filter(|(_, sigma)| 2.0 * sigma <= LEFT).map(|(normal, _)| normal)
+    }
+
+    /// Normal of the plane through a point and its neighbours, and its standard error in radians.
+    fn plane(&self, k: usize) -> Option<(Vector3<f64>, f64)> {
         let mut around = self.neighbours(k);
-        if around.len() < 3 {
+        around.push(k);
+        if around.len() < 4 {
             return None;
         }
-        around.push(k);
         let at = |k: usize| Vector3::from(self.points[k]);
         let mean = around.iter().map(|k| at(*k)).sum::<Vector3<f64>>() / around.len() as f64;
         let centred = DMatrix::from_fn(3, around.len(), |a, n| at(around[n])[a] - mean[a]);
         let eigen = nalgebra::SymmetricEigen::try_new(&centred * centred.transpose(), 1e-15, 200)?;
         let mut order = [0, 1, 2];
         order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-        let [most, middle, least] = order.map(|a| eigen.eigenvalues[a].max(0.0).sqrt());
+        // Sums of squares along the axes: n a², n b², (n - 3) s².
+        let [most, middle, least] = order.map(|a| eigen.eigenvalues[a].max(0.0));
+        // Rounding alone leaves this of a plane.
+        let least = least.max(1e-24 * most) / (around.len() - 3) as f64;
         let normal = eigen.eigenvectors.column(order[2]);
-        (middle > WIDE * most && least <= FLAT * most).then(|| Vector3::new(normal[0], normal[1], normal[2]))
+        let squared = least / middle + least / most;
+        Some((Vector3::new(normal[0], normal[1], normal[2]), squared.sqrt())).filter(|(_, sigma)| sigma.is_finite())
     }
 }
 
@@ -138,17 +158,27 @@ mod tests {
 
     const DIAMETER: f64 = 30.0;
 
-    /// Circles of 30 mm on a plate of 1 m, seen from 1.2 m: centres of the ellipses through their projected rims.
-    fn plate() -> Project {
+    /// Circles of 30 mm, seen from 1.2 m: centres of the ellipses through their projected rims. On a plate of 1 m, or
+    /// scattered above it, each turned another way.
+    fn circles(scattered: bool) -> Project {
         let mut project = Project { unit: "mm".into(), ..Project::default() };
         let mut camera = Camera::new("c", 4000, 3000, Interior::brown(20.0));
         camera.pixel_pitch = Some([0.005; 2]);
         camera.free = vec![Parameter::C, Parameter::X0, Parameter::Y0];
         let turn = object_to_camera([0.3, -0.2, 0.1]).transpose();
         for k in 0..25 {
-            let xyz = turn * Vector3::new(f64::from(k % 5 - 2) * 200.0, f64::from(k / 5 - 2) * 200.0, 0.0);
-            let diameter = Some(DIAMETER);
-            project.points.push(Point { id: k.to_string(), xyz: Some(xyz.into()), diameter, ..Point::default() });
+            let height = if scattered { f64::from(k * k % 23) * 20.0 } else { 0.0 };
+            let xyz = turn * Vector3::new(f64::from(k % 5 - 2) * 200.0, f64::from(k / 5 - 2) * 200.0, height);
+            let tilt = if scattered { 0.5 } else { 0.0 };
+            let azimuth = f64::from(k) * 2.4;
+            let normal = turn * Vector3::new(tilt * azimuth.cos(), tilt * azimuth.sin(), 1.0) * 3.0;
+            project.points.push(Point {
+                id: k.to_string(),
+                xyz: Some(xyz.into()),
+                diameter: Some(DIAMETER),
+                normal: Some(normal.into()),
+                ..Point::default()
+            });
         }
         for k in 0..8 {
             let azimuth = f64::from(k) * 0.785;
@@ -162,7 +192,9 @@ mod tests {
             let id = format!("p{k}");
             for point in &project.points {
                 let circle = m * (Vector3::from(point.xyz.expect("given")) - centre);
-                let (e1, e2) = (m * turn * Vector3::x(), m * turn * Vector3::y());
+                let normal = m * Vector3::from(point.normal.expect("given")).normalize();
+                let e1 = normal.cross(&Vector3::x()).normalize();
+                let e2 = normal.cross(&e1);
                 let rim: Vec<[f64; 3]> = (0..24)
                     .map(|k| {
                         let (s, c) = (f64::from(k) * std::f64::consts::TAU / 24.0).sin_cos();
@@ -196,22 +228,96 @@ mod tests {
         project
     }
 
+    /// The same network measured at the images of the centres plus the eccentricity of the closed form, without diameters:
+    /// what uncorrected centres must leave in sigma0.
+    fn predicted_sigma0(project: &Project) -> f64 {
+        let mut predicted = project.clone();
+        for observation in &mut predicted.observations {
+            let photo = project.photos.iter().find(|p| p.id == observation.photo).expect("known");
+            let point = project.points.iter().find(|p| p.id == observation.point).expect("known");
+            let m = object_to_camera(photo.rotation.expect("known"));
+            let [centre, normal] = [
+                m * (Vector3::from(point.xyz.expect("given")) - Vector3::from(photo.position.expect("known"))),
+                m * Vector3::from(point.normal.expect("given")),
+            ];
+            let camera = &project.cameras[0];
+            let [du, dv] = pixels(camera, &Circle { centre, normal, diameter: DIAMETER }).expect("seen");
+            let [u, v] = pixel_from_camera_point(camera, centre).expect("in front");
+            (observation.u, observation.v) = (u + du, v + dv);
+        }
+        predicted.points.iter_mut().for_each(|point| point.diameter = None);
+        solve(&predicted).sigma0.expect("redundant")
+    }
+
     fn solve(project: &Project) -> Adjustment {
         adjust(project, &AdjustOptions::default(), &mut |_| true).expect("solvable")
     }
 
-    #[test]
-    fn projected_circles_give_back_their_centres() {
-        let project = plate();
-        let adjustment = solve(&project);
-        let sigma0 = adjustment.sigma0.expect("redundant");
-        assert!(sigma0 < 1e-3, "{sigma0}");
-        let camera = adjustment.cameras[0].camera.interior;
-        assert!((camera.get(Parameter::C).expect("c") - 20.0).abs() < 1e-5, "{camera:?}");
+    /// With their diameters the circles give back c; without, they leave what the closed form predicts.
+    fn is_freed(project: &Project) {
+        let predicted = predicted_sigma0(project);
         let mut plain = project.clone();
         plain.points.iter_mut().for_each(|point| point.diameter = None);
         let uncorrected = solve(&plain).sigma0.expect("redundant");
-        assert!(uncorrected > 0.1, "{uncorrected} without diameters, {sigma0} with");
+        assert!((uncorrected / predicted - 1.0).abs() < 1e-6, "{uncorrected} is not {predicted}");
+        let adjustment = solve(project);
+        let sigma0 = adjustment.sigma0.expect("redundant");
+        assert!(sigma0 < 1e-3 * predicted, "{sigma0} is left of {predicted}");
+        let camera = adjustment.cameras[0].camera.interior;
+        assert!((camera.get(Parameter::C).expect("c") - 20.0).abs() < 1e-6, "{camera:?}");
+    }
+
+    #[test]
+    fn projected_circles_give_back_their_centres() {
+        let mut project = circles(false);
+        is_freed(&project);
+        // The neighbours show the plate without being told.
+        let told = solve(&project);
+        project.points.iter_mut().for_each(|point| point.normal = None);
+        let shown = solve(&project);
+        assert!(
+            (told.sigma0.expect("r") - shown.sigma0.expect("r")).abs() < 1e-6,
+            "{:?} {:?}",
+            told.sigma0,
+            shown.sigma0
+        );
+    }
+
+    #[test]
+    fn targets_that_face_anywhere_are_freed_by_their_own_normals() {
+        let mut project = circles(true);
+        is_freed(&project);
+        // Scattered points show no surface: nothing is corrected, and what is left is predicted.
+        let predicted = predicted_sigma0(&project);
+        project.points.iter_mut().for_each(|point| point.normal = None);
+        let left = solve(&project).sigma0.expect("redundant");
+        assert!((left / predicted - 1.0).abs() < 1e-6, "{left} {predicted}");
+    }
+
+    /// Scatter of the normals of noisy planes against their stated standard errors.
+    #[test]
+    fn normals_of_surfaces_scatter_as_stated() {
+        let mut noise = crate::noise::Noise::new(7, 0);
+        for (along, across, off) in [(1.0, 1.0, 0.01), (1.0, 0.4, 0.005), (3.0, 1.0, 0.02)] {
+            let (mut squares, mut stated) = (0.0, 0.0);
+            for _ in 0..4000 {
+                let place = |k: u32| [along * f64::from(k % 4), across * f64::from(k * 3 % 7)];
+                let points: Vec<[f64; 3]> = (0..7).map(place).map(|[x, y]| [x, y, off * noise.normal()]).collect();
+                let (normal, sigma) = Sorted::new(&points).plane(3).expect("seven points");
+                squares += normal.x * normal.x + normal.y * normal.y;
+                stated += sigma * sigma;
+            }
+            // Both sums have about 4000 × 2 degrees of freedom or more: a ratio within 1 ± 4 √(2/8000 · 2).
+            let ratio = squares / stated;
+            assert!((ratio - 1.0).abs() < 0.1, "{along} {across} {off}: {ratio}");
+        }
+        // A cloud without a surface is hardly ever taken for one.
+        let believed = (0..2000).filter(|_| {
+            let points: Vec<[f64; 3]> = (0..7).map(|_| [(); 3].map(|()| noise.normal())).collect();
+            Sorted::new(&points).normal(3).is_some()
+        });
+        let believed = believed.count();
+        assert!(believed < 10, "{believed} of 2000");
     }
 
     #[test]

@@ -25,7 +25,7 @@ pub fn parse(text: &str) -> Result<Vec<Point>> {
             }
         }
         let sigma = sigma.iter().any(Option::is_some).then_some(sigma);
-        points.push(Point { id, role: Role::Control, xyz: Some(xyz), sigma, diameter: None });
+        points.push(Point { id, role: Role::Control, xyz: Some(xyz), sigma, diameter: None, normal: None });
     }
     if points.is_empty() { Err(Error::Empty { what: "points".into() }) } else { Ok(points) }
 }

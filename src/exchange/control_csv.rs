@@ -205,7 +205,11 @@ fn row(line: &Line, columns: &Columns, decimal: Decimal) -> std::result::Result<
     };
     let label = Some(text(Field::Label)).filter(|label| !label.is_empty()).map(str::to_owned);
     let sigma = sigma.iter().any(Option::is_some).then_some(sigma);
-    Ok(ControlRow { line: line.number, label, point: Point { id, role, xyz: Some(xyz), sigma, diameter: None } })
+    Ok(ControlRow {
+        line: line.number,
+        label,
+        point: Point { id, role, xyz: Some(xyz), sigma, diameter: None, normal: None },
+    })
 }
 
 fn number(word: &str, decimal: Decimal) -> std::result::Result<f64, String> {

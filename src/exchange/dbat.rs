@@ -204,7 +204,14 @@ impl Script<'_> {
                     }
                     let xyz = [row.number(x, "x")?, row.number(y, "y")?, row.number(z, "z")?];
                     let sigma = sigma.iter().any(Option::is_some).then_some(sigma);
-                    Ok(Point { id: row.text(id, "id")?.to_owned(), role, xyz: Some(xyz), sigma, diameter: None })
+                    Ok(Point {
+                        id: row.text(id, "id")?.to_owned(),
+                        role,
+                        xyz: Some(xyz),
+                        sigma,
+                        diameter: None,
+                        normal: None,
+                    })
                 };
                 all.push(point().map_err(|error| error.in_file(&table.file))?);
             }

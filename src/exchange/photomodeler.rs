@@ -144,7 +144,7 @@ fn points(rows: &[text::Row<'_>], role: Role) -> Result<Vec<Point>> {
         }
         // The sigmas of object points are results, not something given.
         let sigma = (role == Role::Control && sigma.iter().any(Option::is_some)).then_some(sigma);
-        Ok(Point { id: row.text(0, "id")?.to_owned(), role, xyz: Some(xyz), sigma, diameter: None })
+        Ok(Point { id: row.text(0, "id")?.to_owned(), role, xyz: Some(xyz), sigma, diameter: None, normal: None })
     };
     rows.iter().map(point).collect()
 }

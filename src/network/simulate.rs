@@ -171,6 +171,7 @@ fn points(network: &Network) -> Vec<Point> {
         sigma: point.sigma,
         // Projected centres have no eccentricity that a diameter could explain.
         diameter: point.diameter.filter(|_| rendered),
+        normal: None,
     };
     network.points.iter().map(point).collect()
 }

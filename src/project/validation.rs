@@ -52,6 +52,13 @@ impl Project {
             if point.diameter.is_some_and(|d| !(d > 0.0 && d < LARGEST)) {
                 return invalid("a target's diameter is greater than 0".into(), at().with_field("diameter"));
             }
+            finite(point.normal.iter().flatten(), || at().with_field("normal"))?;
+            if point.normal.is_some_and(|normal| normal.iter().all(|n| n.abs() < 1e-100)) {
+                return invalid(
+                    "a target's normal is a direction: not all of it is 0".into(),
+                    at().with_field("normal"),
+                );
+            }
         }
         self.validate_observations(&photos, &points)?;
         self.validate_distances(&points)?;
@@ -233,7 +240,7 @@ mod tests {
     fn a_sound_document_passes_and_every_fault_is_placed() {
         project().validate().expect("sound");
         type Fault = fn(&mut Project);
-        let faults: [(Fault, &str, &str); 13] = [
+        let faults: [(Fault, &str, &str); 15] = [
             (|p| p.version = 2, "invalid", "format"),
             (|p| p.points[1].id = "1".into(), "duplicate", "1"),
             (|p| p.photos[0].camera = "none".into(), "unknown", "a"),
@@ -246,6 +253,8 @@ mod tests {
             (|p| p.cameras[0].interior = Interior::brown(-3.0), "invalid", "c"),
             (|p| p.distances[0].sigma = 0.0, "invalid", "distances[0]"),
             (|p| p.distances[0].to = "1".into(), "invalid", "1"),
+            (|p| p.points[0].normal = Some([0.0; 3]), "invalid", "normal"),
+            (|p| p.points[0].normal = Some([0.0, f64::INFINITY, 0.0]), "invalid", "normal"),
             (|p| p.datum.points = Some(vec!["7".into()]), "unknown", "datum.points"),
         ];
         for (k, (fault, code, place)) in faults.into_iter().enumerate() {

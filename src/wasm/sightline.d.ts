@@ -75,6 +75,11 @@ export interface Point {
   sigma?: [number | null, number | null, number | null] | null;
   /** Diameter of the circular target in the object's unit. */
   diameter?: number | null;
+  /**
+   * Normal of the target's plane in the object system, of any length and either sign; null: that of the surface which its
+   * neighbours show. Used where there is a diameter.
+   */
+  normal?: [number, number, number] | null;
 }
 
 /** A point measured in a photo, in pixels. */

@@ -48,6 +48,7 @@ const TWO_SIGMAS: u32 = 2;
 /// Bits of a point's flags, above its role.
 const COORDINATES: u32 = 4;
 const SIGMAS: u32 = 8;
+const NORMAL: u32 = 16;
 
 /// Observations of a project from its rows.
 pub fn observations(rows: &JsValue) -> Result<Vec<Observation>> {
@@ -77,8 +78,9 @@ pub fn points(rows: &JsValue) -> Result<Vec<Point>> {
         sigma: (flags & SIGMAS != 0)
             .then(|| [n[3], n[4], n[5]].map(|sigma| Some(sigma).filter(|sigma| !sigma.is_nan()))),
         diameter: Some(n[6]).filter(|diameter| !diameter.is_nan()),
+        normal: (flags & NORMAL != 0).then(|| [n[7], n[8], n[9]]),
     };
-    Ok(columns.names().into_iter().zip(numbers.chunks_exact(7)).zip(flags).map(row).collect())
+    Ok(columns.names().into_iter().zip(numbers.chunks_exact(10)).zip(flags).map(row).collect())
 }
 
 /// Rows of a project's observations.
@@ -100,11 +102,12 @@ pub fn observation_rows(observations: &[Observation]) -> Array {
 /// Rows of a project's points.
 pub fn point_rows(points: &[Point]) -> Array {
     let names: Array = points.iter().map(|point| JsString::from(point.id.as_str())).collect();
-    let (mut numbers, mut flags) = (Vec::with_capacity(7 * points.len()), Vec::with_capacity(points.len()));
-    for Point { id: _, role, xyz, sigma, diameter } in points {
+    let (mut numbers, mut flags) = (Vec::with_capacity(10 * points.len()), Vec::with_capacity(points.len()));
+    for Point { id: _, role, xyz, sigma, diameter, normal } in points {
         numbers.extend(xyz.unwrap_or([f64::NAN; 3]));
         numbers.extend(sigma.unwrap_or_default().map(|sigma| sigma.unwrap_or(f64::NAN)));
         numbers.push(diameter.unwrap_or(f64::NAN));
+        numbers.extend(normal.unwrap_or([f64::NAN; 3]));
         let role = match role {
             Role::Tie => 0,
             Role::Control => 1,
@@ -112,7 +115,8 @@ pub fn point_rows(points: &[Point]) -> Array {
         };
         let coordinates = if xyz.is_some() { COORDINATES } else { 0 };
         let sigmas = if sigma.is_some() { SIGMAS } else { 0 };
-        flags.push(role | coordinates | sigmas);
+        let normal = if normal.is_some() { NORMAL } else { 0 };
+        flags.push(role | coordinates | sigmas | normal);
     }
     write_points(&columns(&numbers), &Uint32Array::from(flags.as_slice()), &names)
 }

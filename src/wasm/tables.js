@@ -74,31 +74,35 @@ export function readObservations(rows) {
 
 const ROLES = ['tie', 'control', 'check'];
 
-/** Columns x, y, z, sx, sy, sz, diameter; id, flags (0, 1, 2: role, 4: coordinates, 8: sigmas). */
+/** Columns x, y, z, sx, sy, sz, diameter, normal; id, flags (0, 1, 2: role, 4: coordinates, 8: sigmas, 16: normal). */
 export function readPoints(rows) {
   const list = [];
-  const numbers = new Float64Array(7 * rows.length).fill(NaN);
+  const numbers = new Float64Array(10 * rows.length).fill(NaN);
   const places = new Uint32Array(rows.length);
   for (let row = 0; row < rows.length; row++) {
     const source = rows[row];
     if (!isRow(source)) return { row, field: '', expected: 'an object' };
-    const { id, role, xyz, sigma, diameter } = source;
+    const { id, role, xyz, sigma, diameter, normal } = source;
     if (typeof id === 'string') list.push(id);
     else if (isNumber(id)) list.push(String(id));
     else return { row, field: 'id', expected: 'a point id' };
     let flags = role === undefined ? 0 : ROLES.indexOf(role);
     if (flags < 0) return { row, field: 'role', expected: 'tie, control or check' };
     if (xyz !== null && xyz !== undefined) {
-      if (!three(xyz, numbers, 7 * row, false)) return { row, field: 'xyz', expected: 'three finite numbers or null' };
+      if (!three(xyz, numbers, 10 * row, false)) return { row, field: 'xyz', expected: 'three finite numbers or null' };
       flags |= 4;
     }
     if (sigma !== null && sigma !== undefined) {
-      if (!three(sigma, numbers, 7 * row + 3, true)) return { row, field: 'sigma', expected: 'three values, numbers or null, or null' };
+      if (!three(sigma, numbers, 10 * row + 3, true)) return { row, field: 'sigma', expected: 'three values, numbers or null, or null' };
       flags |= 8;
     }
     if (diameter !== null && diameter !== undefined) {
       if (!isNumber(diameter)) return { row, field: 'diameter', expected: 'a number or null' };
-      numbers[7 * row + 6] = diameter;
+      numbers[10 * row + 6] = diameter;
+    }
+    if (normal !== null && normal !== undefined) {
+      if (!three(normal, numbers, 10 * row + 7, false)) return { row, field: 'normal', expected: 'three finite numbers or null' };
+      flags |= 16;
     }
     places[row] = flags;
   }
@@ -129,7 +133,7 @@ export function writeObservations(numbers, places, names) {
 export function writePoints(numbers, places, names) {
   const rows = new Array(places.length);
   for (let row = 0; row < rows.length; row++) {
-    const n = 7 * row;
+    const n = 10 * row;
     const flags = places[row];
     rows[row] = {
       id: names[row],
@@ -138,6 +142,7 @@ export function writePoints(numbers, places, names) {
       sigma: flags & 8 ? [orNull(numbers[n + 3]), orNull(numbers[n + 4]), orNull(numbers[n + 5])] : null,
       diameter: orNull(numbers[n + 6]),
     };
+    if (flags & 16) rows[row].normal = [numbers[n + 7], numbers[n + 8], numbers[n + 9]];
   }
   return rows;
 }

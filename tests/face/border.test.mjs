@@ -19,6 +19,8 @@ test('a document crosses in both directions unchanged, by the fast tables and as
   assert.equal(read.observations[1].enabled, false);
   assert.deepEqual(read.points[0].sigma, [0.1, null, 0]);
   assert.equal(read.points[2].xyz, null);
+  assert.deepEqual(read.points[1].normal, [0, 0.6, -0.8]);
+  assert.ok(!('normal' in read.points[0]));
 });
 
 test('documents from nowhere are refused with a place', () => {
@@ -37,6 +39,7 @@ test('documents from nowhere are refused with a place', () => {
     [(p) => (p.points = 'none'), 'points'],
     [(p) => (p.points[1].role = 'boss'), 'points[1].role'],
     [(p) => (p.points[1].xyz = [0, NaN, 0]), 'points[1].xyz'],
+    [(p) => (p.points[1].normal = [0, 1]), 'points[1].normal'],
     [(p) => (p.points[0] = null), 'points[0]'],
     [(p) => (p.observations[2].u = '7'), 'observations[2].u'],
     [(p) => (p.observations[2].v = Infinity), 'observations[2].v'],

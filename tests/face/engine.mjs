@@ -43,7 +43,7 @@ export const document = () => ({
   ],
   points: [
     { id: 1001, role: 'control', xyz: [0, 0, 0], sigma: [0.1, null, 0] },
-    { id: 'x', role: 'check', xyz: [1, 0, 0.5], sigma: null, diameter: 0.02 },
+    { id: 'x', role: 'check', xyz: [1, 0, 0.5], sigma: null, diameter: 0.02, normal: [0, 0.6, -0.8] },
     { id: 'y', role: 'tie', xyz: null },
   ],
   observations: [

@@ -2,7 +2,7 @@
 //! words, and the values between them are carried over. A sentence that is not listed stays as the engine wrote it.
 
 /// English as the engine writes it, and Korean; `{}` stands for a value, in the same order in both unless numbered.
-const SENTENCES: [(&str, &str); 71] = [
+const SENTENCES: [(&str, &str); 72] = [
     // The document
     (
         "this is format \"{}\" version {}; \"sightline\" version 1 is read here",
@@ -25,6 +25,7 @@ const SENTENCES: [(&str, &str); 71] = [
         "사진별 내부표정은 카메라와 같은 모델이어야 합니다",
     ),
     ("a target's diameter is greater than 0", "표적 지름은 0보다 커야 합니다"),
+    ("a target's normal is a direction: not all of it is 0", "표적의 법선은 방향이므로 세 성분이 모두 0일 수 없습니다"),
     (
         "the standard error of an image observation is greater than 0 pixels",
         "영상 관측값의 표준오차는 0화소보다 커야 합니다",

@@ -52,7 +52,8 @@ impl Desk {
                 match project.points.iter_mut().find(|p| p.id == point.id) {
                     Some(known) => {
                         let diameter = point.diameter.or(known.diameter);
-                        *known = Point { role, diameter, ..point };
+                        let normal = point.normal.or(known.normal);
+                        *known = Point { role, diameter, normal, ..point };
                     }
                     None => project.points.push(Point { role, ..point }),
                 }
