@@ -21,3 +21,4 @@ mod published;
 mod reports;
 mod sharp;
 mod targets;
+mod tree;

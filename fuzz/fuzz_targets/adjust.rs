@@ -1,0 +1,129 @@
+//! Any JSON as a project, any choice of options: adjusting must end in a result or an error, no number of it NaN or infinite.
+//!
+//! The first byte chooses the options, the rest is the document. What is no JSON becomes a small sound network, whose tree
+//! is then damaged place by place: bytes changed at random would hardly ever be a document again.
+//!
+//! On a stable compiler, in this folder:
+//!
+//! ```sh
+//! RUSTC_BOOTSTRAP=1 RUSTFLAGS="--cfg fuzzing -Cdebug-assertions -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
+//!   -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table" \
+//!   cargo build --release --target x86_64-unknown-linux-gnu --bin adjust
+//! target/x86_64-unknown-linux-gnu/release/adjust corpus/adjust -max_len=60000 -timeout=20 -max_total_time=400
+//! ```
+#![no_main]
+
+#[path = "../../tests/engine/tree.rs"]
+mod tree;
+
+use libfuzzer_sys::{fuzz_mutator, fuzz_target};
+use sightline::adjust::{adjust, apply};
+use sightline::adjustment::{AdjustOptions, ResidualPlace, Robust, StatisticsChoice};
+use sightline::network::{self, Network, NetworkPoint, Station};
+use sightline::project::{Camera, DatumKind, Distance, Interior, Parameter, Project, Role};
+
+/// Iterations of one document before it counts as endless: every round of data snooping has some.
+const MOST_ITERATIONS: usize = 20_000;
+
+fn options(choice: u8) -> AdjustOptions {
+    AdjustOptions {
+        statistics: if choice & 128 == 0 { StatisticsChoice::Full } else { StatisticsChoice::Precision },
+        robust: [None, Some(Robust::Huber), Some(Robust::Tukey), None][usize::from(choice & 3)],
+        snooping: choice & 4 != 0,
+        residuals: if choice & 8 == 0 { ResidualPlace::Corrected } else { ResidualPlace::Measured },
+        unmodelled: if choice & 16 == 0 { 0.0 } else { 0.05 },
+        covariance_of: if choice & 32 == 0 { Vec::new() } else { vec!["p1".into(), "p4".into()] },
+        ..AdjustOptions::default()
+    }
+}
+
+/// Five photos around twelve points, with observations of every kind.
+fn seed_document(seed: u32) -> Project {
+    let station = |k: u32| {
+        let turn = f64::from(k) * 1.3;
+        let position = [900.0 * turn.cos(), 900.0 * turn.sin(), 800.0 + 50.0 * f64::from(k)];
+        let camera = if seed & 1 == 1 && k % 2 == 1 { "other" } else { "c" };
+        Station::aimed(format!("f{k}"), camera, position, [0.0; 3], turn)
+    };
+    let point = |k: u32| NetworkPoint {
+        id: format!("p{k}"),
+        xyz: [200.0 * (f64::from(k) * 2.4).cos(), 200.0 * (f64::from(k) * 2.4).sin(), 20.0 * f64::from(k * 5 % 7)],
+        ..NetworkPoint::default()
+    };
+    let brown = Camera { pixel_pitch: Some([0.005; 2]), ..Camera::new("c", 2000, 1500, Interior::brown(9.0)) };
+    let opencv = Interior::Opencv {
+        fx: Some(1800.0),
+        fy: Some(1805.0),
+        cx: 1000.0,
+        cy: 750.0,
+        k1: 0.01,
+        k2: 0.0,
+        p1: 0.0,
+        p2: 0.0,
+        k3: 0.0,
+    };
+    let network = Network {
+        cameras: vec![brown, Camera::new("other", 2000, 1500, opencv)],
+        stations: (0..5).map(station).collect(),
+        points: (0..12).map(point).collect(),
+        ..Network::default()
+    };
+    let mut project = network::simulate(&network).expect("a sound network");
+    project.cameras[0].free = vec![Parameter::C, Parameter::K1];
+    project.cameras[0].sigma = [(Parameter::X0, 0.01)].into();
+    project.cameras[0].per_photo = seed & 2 == 2;
+    project.datum.kind = [DatumKind::Free, DatumKind::Minimal, DatumKind::Control][seed as usize / 4 % 3];
+    for point in &mut project.points[..4] {
+        (point.role, point.sigma) = (Role::Control, Some([Some(0.1), Some(0.1), None]));
+        point.diameter = Some(10.0);
+    }
+    project.photos[1].sigma_position = Some([Some(1.0), None, Some(1.0)]);
+    let distance = |from: &str, to: &str| Distance { from: from.into(), to: to.into(), length: 200.0, sigma: 50.0 };
+    project.distances = vec![distance("p5", "p6"), distance("p7", "p8")];
+    project
+}
+
+fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
+    let mut state = u64::from(seed) | 1 << 40;
+    let mut below = |n: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % n.max(1)
+    };
+    let (head, text) = data[..size].split_at(size.min(1));
+    let mut choice = head.first().copied().unwrap_or(0);
+    let mut document = match serde_json::from_slice(text) {
+        Ok(document) => document,
+        Err(_) => serde_json::to_value(seed_document(seed)).expect("a document"),
+    };
+    if below(4) == 0 {
+        choice = below(256) as u8;
+    }
+    for _ in 0..1 + below(4) {
+        tree::damage(&mut document, &mut below);
+    }
+    let text = serde_json::to_vec(&document).unwrap_or_default();
+    if text.len() + 1 > max_size.min(data.len()) {
+        return libfuzzer_sys::fuzzer_mutate(data, size, max_size);
+    }
+    data[0] = choice;
+    data[1..=text.len()].copy_from_slice(&text);
+    text.len() + 1
+});
+
+fuzz_target!(|data: &[u8]| {
+    let Some((choice, text)) = data.split_first() else { return };
+    let Ok(project) = serde_json::from_slice::<Project>(text) else { return };
+    let mut iterations = 0;
+    let adjusted = adjust(&project, &options(*choice), &mut |_| {
+        iterations += 1;
+        assert!(iterations < MOST_ITERATIONS, "endless");
+        true
+    });
+    match adjusted {
+        Ok(adjustment) => {
+            assert!(tree::is_finite(&format!("{adjustment:?}")));
+            assert!(tree::is_finite(&format!("{:?}", apply(&project, &adjustment))));
+        }
+        Err(error) => assert!(tree::is_finite(&format!("{error:?}"))),
+    }
+});
