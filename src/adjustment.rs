@@ -267,17 +267,20 @@ pub enum Advice {
     },
     /// Observations that are hardly checked by others: redundancy numbers below 0.1.
     LowRedundancy {
-        /// Photo and point of each.
+        /// Photo and point of each image observation.
         observations: Vec<(String, String)>,
+        /// Observations of other kinds.
+        #[serde(default)]
+        given: Vec<Given>,
     },
     /// Points with two rays: a gross error along the epipolar line stays unseen.
     TwoRays {
         /// The points.
         points: Vec<String>,
     },
-    /// Points whose rays meet under less than 5°.
+    /// Points whose rays meet under less than 5°, or as much short of 180°.
     NarrowIntersection {
-        /// Point and largest angle between its rays in radians.
+        /// Point and largest acute angle between its rays in radians.
         points: Vec<(String, f64)>,
     },
     /// Points behind the camera that is said to see them.

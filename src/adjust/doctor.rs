@@ -5,11 +5,13 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::{SMatrix, SVector};
+
 use crate::adjustment::{Adjustment, Advice, ResidualPlace};
 use crate::error::{Defect, Error, Result};
 use crate::project::{DatumKind, Project};
 
-use super::datum;
+use super::datum::{self, Direction, SIMILARITY};
 use super::eliminated::Full;
 use super::given::Key;
 use super::layout::Layout;
@@ -260,8 +262,60 @@ fn null_space(
     for vector in &mut found {
         vector.reduced.iter_mut().zip(&diagonal.reduced).for_each(|(x, d)| *x *= d.sqrt());
         vector.points.iter_mut().zip(&diagonal.points).for_each(|(x, d)| (0..3).for_each(|k| x[k] *= d[k].sqrt()));
+        if !pins.is_empty() {
+            sparsest(vector, layout, state, &diagonal, pins.len());
+        }
     }
     Some(found)
+}
+
+/// Adds the similarity to a vector of the null space that leaves as many photos and points as possible where they are. Pins may lie
+/// on the very photo that is loose, and then everything else moves. The sum of the blocks' lengths is made smallest by
+/// iterated weights (E. Weiszfeld 1937); the vector and the similarity's directions are scaled by √diagonal.
+fn sparsest(vector: &mut Full, layout: &Layout, state: &State, diagonal: &Full, defect: usize) {
+    let turned = |row: Direction, d: f64| SVector::<f64, SIMILARITY>::from(row) * d.sqrt();
+    let mut blocks: Vec<Vec<(f64, SVector<f64, SIMILARITY>)>> = Vec::new();
+    for (pose, &at) in state.poses.iter().zip(&layout.photo) {
+        let rows = datum::at_photo(&pose.m, &pose.centre);
+        let row = |k: usize| (vector.reduced[at + k], turned(rows[k], diagonal.reduced[at + k]));
+        blocks.push((0..6).map(row).collect());
+    }
+    for (point, x) in state.points.iter().enumerate() {
+        let rows = datum::at_point(x);
+        let row = |a: usize| (vector.at_point(layout, point, a), turned(rows[a], diagonal.at_point(layout, point, a)));
+        blocks.push((0..3).map(row).collect());
+    }
+    for row in blocks.iter_mut().flatten() {
+        row.1.rows_mut(defect, SIMILARITY - defect).fill(0.0);
+    }
+    let moved = |block: &[(f64, SVector<f64, SIMILARITY>)], s: &SVector<f64, SIMILARITY>| {
+        block.iter().map(|(x, g)| (x + g.dot(s)).powi(2)).sum::<f64>().sqrt()
+    };
+    let mut similarity = SVector::<f64, SIMILARITY>::zeros();
+    for _ in 0..100 {
+        let lengths: Vec<f64> = blocks.iter().map(|block| moved(block, &similarity)).collect();
+        let least = 1e-9 * lengths.iter().fold(f64::MIN_POSITIVE, |m, l| m.max(*l));
+        let mut normal = SMatrix::<f64, SIMILARITY, SIMILARITY>::identity() * 1e-12;
+        let mut right = SVector::<f64, SIMILARITY>::zeros();
+        for (block, length) in blocks.iter().zip(&lengths) {
+            let weight = 1.0 / length.max(least);
+            for (x, g) in block {
+                normal += g * g.transpose() * weight;
+                right -= g * (x * weight);
+            }
+        }
+        let Some(next) = normal.cholesky().map(|c| c.solve(&right)) else { return };
+        similarity = next;
+    }
+    if !similarity.iter().all(|s| s.is_finite()) {
+        return;
+    }
+    for (block, &at) in blocks.iter().zip(&layout.photo) {
+        (0..6).for_each(|k| vector.reduced[at + k] += block[k].1.dot(&similarity));
+    }
+    for (point, block) in blocks[layout.photo.len()..].iter().enumerate() {
+        (0..3).for_each(|a| vector.add_at_point(layout, point, a, block[a].1.dot(&similarity)));
+    }
 }
 
 /// What a solved network is weak in.
@@ -301,8 +355,11 @@ pub fn advice(project: &Project, network: &Network, state: &State, adjustment: &
         .iter()
         .filter(|o| o.enabled && [o.rx, o.ry].into_iter().flatten().any(|r| r < LOW_REDUNDANCY));
     let weak: Vec<_> = weak.map(|o| (o.photo.clone(), o.point.clone())).collect();
-    if !weak.is_empty() {
-        advice.push(Advice::LowRedundancy { observations: weak });
+    let given = adjustment.given.iter();
+    let given = given.filter(|g| g.enabled && g.reliability.is_some_and(|r| r.redundancy < LOW_REDUNDANCY));
+    let given: Vec<_> = given.map(|g| g.what.clone()).collect();
+    if !(weak.is_empty() && given.is_empty()) {
+        advice.push(Advice::LowRedundancy { observations: weak, given });
     }
     let (mut two, mut narrow, mut behind) = (Vec::new(), Vec::new(), Vec::new());
     for (k, block) in network.points.iter().enumerate() {
@@ -314,9 +371,10 @@ pub fn advice(project: &Project, network: &Network, state: &State, adjustment: &
         }
         let x = &state.points[k];
         let directions: Vec<[f64; 3]> = rays.iter().map(|ray| direction(&state.poses[ray.photo].centre, x)).collect();
-        let smallest =
-            directions.iter().enumerate().flat_map(|(n, a)| directions[..n].iter().map(move |b| cosine(a, b)));
-        let angle = smallest.fold(1.0, f64::min).clamp(-1.0, 1.0).acos();
+        // Rays from opposite sides meet as badly as parallel ones.
+        let cosines =
+            directions.iter().enumerate().flat_map(|(n, a)| directions[..n].iter().map(move |b| cosine(a, b).abs()));
+        let angle = cosines.fold(1.0, f64::min).acos();
         if rays.len() >= 2 && !given && angle < NARROW_INTERSECTION {
             narrow.push((id(), angle));
         }

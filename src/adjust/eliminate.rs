@@ -122,7 +122,10 @@ fn eliminate<const N: usize>(
             n[diagonal] += damping[a];
         }
     }
-    let l = factor3(n);
+    let (l, lost) = factor3(n);
+    if lost {
+        normal.eliminated.lost.push(point);
+    }
     let h = forward3(&l, g);
     normal.eliminated.factors[point] = PointFactor { l, h, damping };
 

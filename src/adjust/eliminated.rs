@@ -25,6 +25,8 @@ pub struct Eliminated {
     pub factors: Vec<PointFactor>,
     /// Per ray; unused for rays of kept points.
     pub z: Vec<[[f64; 6]; 3]>,
+    /// Points that their rays do not determine, as far as the numbers can tell.
+    pub lost: Vec<usize>,
     own: Vec<Own>,
     own_of: Vec<Range<usize>>,
     u: Vec<f64>,
@@ -49,6 +51,7 @@ impl Eliminated {
         Self {
             factors: vec![PointFactor::default(); network.points.len()],
             z: vec![[[0.0; 6]; 3]; network.rays.len()],
+            lost: Vec::new(),
             own,
             own_of,
             u: vec![0.0; at],

@@ -92,6 +92,7 @@ impl Normal {
         self.matrix.clear();
         self.rhs.fill(0.0);
         self.reference.fill(0.0);
+        self.eliminated.lost.clear();
         self.cost = 0.0;
         self.behind = 0;
         self.lambda = lambda;
@@ -191,9 +192,11 @@ impl Normal {
         }
     }
 
-    /// Factors the matrix; returns the indices of pivots lost to rounding.
+    /// Factors the matrix; returns the indices of pivots lost to rounding, those of eliminated points behind all others.
     pub fn factor(&mut self) -> Vec<usize> {
-        self.matrix.factor(&self.reference, 1e-12)
+        let mut lost = self.matrix.factor(&self.reference, 1e-12);
+        lost.extend(self.eliminated.lost.iter().map(|point| self.rhs.len() + point));
+        lost
     }
 
     /// The step of factored equations.

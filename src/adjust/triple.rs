@@ -11,16 +11,23 @@ pub struct PointFactor {
     pub damping: [f64; 3],
 }
 
-/// Cholesky factor of a symmetric 3 × 3 matrix (xx, xy, xz, yy, yz, zz), reciprocal diagonal; a pivot lost to rounding is
-/// replaced by its diagonal.
-pub fn factor3(n: [f64; 6]) -> [f64; 6] {
-    let pivot = |value: f64, diagonal: f64| if value > 1e-14 * diagonal { value } else { diagonal.max(1e-300) };
+/// A pivot that is at most this part of its diagonal is lost to rounding, as in the reduced equations.
+const LOST: f64 = 1e-12;
+
+/// Cholesky factor of a symmetric 3 × 3 matrix (xx, xy, xz, yy, yz, zz), reciprocal diagonal, and whether a pivot is lost to
+/// rounding; one without any digit is replaced by its diagonal.
+pub fn factor3(n: [f64; 6]) -> ([f64; 6], bool) {
+    let mut lost = false;
+    let mut pivot = |value: f64, diagonal: f64| {
+        lost |= value.is_nan() || value <= LOST * diagonal;
+        if value > 1e-14 * diagonal { value } else { diagonal.max(1e-300) }
+    };
     let d1 = 1.0 / pivot(n[0], n[0]).sqrt();
     let (l21, l31) = (n[1] * d1, n[2] * d1);
     let d2 = 1.0 / pivot(n[3] - l21 * l21, n[3]).sqrt();
     let l32 = (n[4] - l31 * l21) * d2;
     let d3 = 1.0 / pivot(n[5] - l31 * l31 - l32 * l32, n[5]).sqrt();
-    [d1, l21, l31, d2, l32, d3]
+    ([d1, l21, l31, d2, l32, d3], lost)
 }
 
 /// L⁻¹x.

@@ -246,7 +246,7 @@ export interface GrossError {
 /** What a solvable network is weak in. */
 export type Advice =
   | { kind: "high_correlation"; camera: string; photo: string | null; first: string; second: string; correlation: number }
-  | { kind: "low_redundancy"; observations: [string, string][] }
+  | { kind: "low_redundancy"; observations: [string, string][]; given: Given[] }
   | { kind: "two_rays"; points: string[] }
   | { kind: "narrow_intersection"; points: [string, number][] }
   | { kind: "behind_camera"; observations: [string, string][] }

@@ -4,8 +4,7 @@
 use crate::networks::{Uniform, Wanted, brown, exact, noisy};
 use nalgebra::{Matrix3, Vector3};
 use sightline::adjust::{adjust, apply};
-use sightline::adjustment::{AdjustOptions, Adjustment, Advice, StatisticsChoice, Termination};
-use sightline::error::{Defect, Error};
+use sightline::adjustment::{AdjustOptions, Adjustment, StatisticsChoice, Termination};
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Observation, Parameter, Project, Role, Sigma};
 use sightline::rotation;
@@ -114,52 +113,6 @@ fn chosen_covariances_hold_the_points_own_blocks() {
             }
         }
     }
-}
-
-#[test]
-fn the_doctor_names_what_is_wrong() {
-    let named = |project: &Project| match adjust(project, &AdjustOptions::default(), &mut |_| true) {
-        Err(Error::RankDefect { defects }) => defects,
-        other => panic!("{:?}", other.map(|a| a.sigma0)),
-    };
-    let whole = noisy(&exact(&Wanted::default(), 17), &mut Noise::new(17, 0));
-    // Two halves of the object, each seen by half of the photos.
-    let mut halves = whole.clone();
-    let half = |id: &str| id[1..].parse::<usize>().expect("a number") % 2;
-    halves.observations.retain(|o| half(&o.photo) == half(&o.point));
-    let defects = named(&halves);
-    assert!(matches!(&defects[..], [Defect::NotTied { groups }] if groups.len() == 2), "{defects:?}");
-    // A photo with two points.
-    let mut lost = whole.clone();
-    lost.observations.retain(|o| o.photo != "f2" || o.point == "p0" || o.point == "p1");
-    assert_eq!(named(&lost), [Defect::PhotoUndetermined { photos: vec!["f2".into()] }]);
-    // Two photos, a plane object: nothing tells the principal distance from the depth.
-    let mut plane = exact(&Wanted { photos: 6, ..Wanted::default() }, 17);
-    plane.cameras[0].free = vec![Parameter::C, Parameter::X0, Parameter::Y0];
-    let camera = plane.cameras[0].clone();
-    for photo in &mut plane.photos {
-        let [x, y, _] = photo.position.expect("known");
-        (photo.position, photo.rotation) = (Some([x / 3.0, y / 3.0, 1500.0]), Some([0.0, 0.0, 0.0]));
-    }
-    for point in &mut plane.points {
-        point.xyz = point.xyz.map(|[x, y, _]| [x, y, 0.0]);
-    }
-    for o in &mut plane.observations {
-        let photo = plane.photos.iter().find(|p| p.id == o.photo).expect("known");
-        let point = plane.points.iter().find(|p| p.id == o.point).expect("known");
-        let d = Vector3::from(point.xyz.expect("known")) - Vector3::from(photo.position.expect("known"));
-        [o.u, o.v] = sightline::camera::pixel_from_camera_point(&camera, d).expect("in front");
-    }
-    let defects = named(&plane);
-    assert!(
-        matches!(&defects[..], [Defect::ParameterUndetermined { parameters, .. }] if parameters.contains(&"c".to_string())),
-        "{defects:?}"
-    );
-    // Two rays and nearly parallel ones are solvable, and told.
-    let mut weak = whole;
-    weak.observations.retain(|o| o.point != "p4" || o.photo == "f0" || o.photo == "f3");
-    let advice = run(&weak).advice;
-    assert!(advice.contains(&Advice::TwoRays { points: vec!["p4".into()] }), "{advice:?}");
 }
 
 #[test]

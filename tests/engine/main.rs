@@ -5,6 +5,7 @@ mod behaviour;
 mod damage;
 mod data;
 mod dense;
+mod doctor;
 mod document;
 mod exchange;
 mod experiments;

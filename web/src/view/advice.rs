@@ -8,6 +8,7 @@ use sightline::project::{DatumKind, Parameter, Role};
 
 use super::adjust::parameter_name;
 use super::icon::{Glyph, Icon};
+use super::results::{given_kind, given_name};
 use crate::format;
 use crate::i18n::text;
 use crate::store::{Desk, Step};
@@ -245,9 +246,13 @@ fn network_item(advice: &sightline::adjustment::Advice) -> Item {
             let title = text::correlated(correlated_name(first), correlated_name(second));
             (title, text::correlated_body(camera), format::fixed(*correlation, 2), Target::None)
         }
-        Advice::LowRedundancy { observations } => {
-            let title = text::low_redundancy(observations.len());
-            (title, text::low_redundancy_body(pairs(observations)), "r < 0.1".to_owned(), observation(observations))
+        Advice::LowRedundancy { observations, given } => {
+            let title = text::low_redundancy(observations.len() + given.len());
+            // What is given by hand first: there a wrong number is easiest to look up.
+            let names = given.iter().map(|what| format!("{} {}", given_kind(what), given_name(what)));
+            let names: Vec<String> = names.chain(observations.iter().map(|(a, b)| format!("{a} – {b}"))).collect();
+            let body = text::low_redundancy_body(listed(names.iter().map(String::as_str)));
+            (title, body, "r < 0.1".to_owned(), observation(observations))
         }
         Advice::TwoRays { points } => (
             text::two_rays(listed(points.iter().map(String::as_str))),
