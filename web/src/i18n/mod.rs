@@ -6,6 +6,7 @@ mod details;
 pub mod errors;
 pub mod experiments;
 pub mod text;
+mod weights;
 
 use leptos::prelude::*;
 
