@@ -28,7 +28,7 @@ mod scan;
 mod search;
 mod surround;
 
-use crate::detection::{Codes, DetectOptions, Detection, MethodResult, Polarity, Target};
+use crate::detection::{Codes, DetectOptions, Detection, MethodResult, Polarity, Reason, Rejected, Target};
 use crate::error::{Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
 use census::Census;
@@ -129,6 +129,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     }
     let mut detection = census.finish();
     read_codes(&plane, &mut detection, options.codes);
+    drop_ring_parts(&mut detection);
     let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);
     Detection { width: size(plane.width), height: size(plane.height), ..detection }
 }
@@ -159,8 +160,31 @@ fn read_codes<T: Sample>(plane: &Plane<T>, detection: &mut Detection, codes: Cod
     }
 }
 
+/// Takes out what lies in the ring of a code that was read.
+fn drop_ring_parts(detection: &mut Detection) {
+    let coded = detection.targets.iter().filter(|target| target.code.is_some());
+    let dots: Vec<Outline> = coded.map(outline_of).collect();
+    let in_ring = |target: &Target| {
+        let part = |dot: &Outline| {
+            let [c, s] = dot.normalised(target.u, target.v);
+            (code::RING.0 - 0.2..code::RING.1 + 0.2).contains(&c.hypot(s))
+        };
+        target.code.is_none() && dots.iter().any(part)
+    };
+    let (parts, targets) = std::mem::take(&mut detection.targets).into_iter().partition(in_ring);
+    detection.targets = targets;
+    for Target { u, v, major, .. } in parts {
+        *detection.rejected.entry(Reason::CodeRing).or_default() += 1;
+        detection.rejected_blobs.push(Rejected { u, v, diameter: major, reason: Reason::CodeRing });
+    }
+}
+
+fn outline_of(target: &Target) -> Outline {
+    Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle)
+}
+
 fn read_code<T: Sample>(plane: &Plane<T>, target: &Target, family: &Family) -> Reading {
-    let dot = Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle);
+    let dot = outline_of(target);
     let middle = f64::from(plane.sample(target.u as f32, target.v as f32));
     let sign = if target.polarity == Polarity::Bright { 1.0 } else { -1.0 };
     code::read(plane, &dot, DotLevels { dot: middle, background: middle - sign * target.contrast }, family)

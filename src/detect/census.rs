@@ -2,7 +2,7 @@
 //!
 //! The levels of the search and the two picture sizes meet the same target again; parts of an outline lead to the same
 //! ellipse; specks lie inside of targets. Everything decided is entered into a grid of cells, and a candidate is compared
-//! with its neighbours only.
+//! with its neighbours only. Of concentric outlines the inner one is the target, the outer one is what it is printed on.
 
 use super::blob::NoBlob;
 use super::outline::Outline;
@@ -18,6 +18,13 @@ struct Entry {
     outline: Outline,
     bright: bool,
     accepted: bool,
+}
+
+/// Whether one outline lies around another, about the same centre.
+fn encloses(outer: &Outline, inner: &Outline) -> bool {
+    let distance = (outer.u - inner.u).hypot(outer.v - inner.v);
+    let (inner, outer) = (inner.semi_axes().0, outer.semi_axes().1);
+    distance < 0.1 * inner && inner < 0.9 * outer
 }
 
 /// Targets and decided places.
@@ -43,7 +50,9 @@ impl Census {
         !self.near(outline).any(|entry| {
             let [c, s] = entry.outline.normalised(outline.u, outline.v);
             if entry.accepted {
-                c * c + s * s < 0.81 && outline.semi_axes().0 < 1.2 * entry.outline.semi_axes().0 + 1.5
+                !(entry.bright != candidate.bright && encloses(&entry.outline, outline))
+                    && c * c + s * s < 0.81
+                    && outline.semi_axes().0 < 1.2 * entry.outline.semi_axes().0 + 1.5
             } else {
                 let size = entry.outline.semi_axes().0;
                 entry.bright == candidate.bright
@@ -63,10 +72,21 @@ impl Census {
                 && entry.bright == bright
                 && (entry.outline.u - outline.u).hypot(entry.outline.v - outline.v) < 0.5 * outline.semi_axes().1
         });
-        if !again {
-            self.enter(Entry { outline, bright, accepted: true });
-            self.targets.push(target);
+        if again {
+            return;
         }
+        let other = |entry: &&Entry| entry.accepted && entry.bright != bright;
+        if self.near(&outline).filter(other).any(|entry| encloses(&outline, &entry.outline)) {
+            return self.reject(&Candidate { outline, bright }, Reason::NotAnEllipse);
+        }
+        let grounds: Vec<Outline> = self.near(&outline).filter(other).map(|entry| entry.outline).collect();
+        for ground in grounds.iter().filter(|ground| encloses(ground, &outline)) {
+            self.targets.retain(|target| (target.u, target.v) != (ground.u, ground.v));
+            self.cells.iter_mut().for_each(|cell| cell.retain(|entry| entry.outline != *ground));
+            self.reject(&Candidate { outline: *ground, bright: !bright }, Reason::NotAnEllipse);
+        }
+        self.enter(Entry { outline, bright, accepted: true });
+        self.targets.push(target);
     }
 
     /// Enters a candidate that is no target.

@@ -15,6 +15,8 @@ use crate::ring_code::{smallest_rotation, valid_codes};
 
 /// Directions in which the ring is sampled: a multiple of 12, 14, 16 and 20.
 const DIRECTIONS: usize = 1680 / 4;
+/// Inner and outer radius of the ring, in radii of the dot.
+pub(crate) const RING: (f64, f64) = (2.0, 3.0);
 /// Smallest margin that is safe.
 const SAFE: f64 = 0.3;
 
