@@ -9,6 +9,7 @@
 mod blocks;
 mod cofactor;
 mod datum;
+mod dense_inverse;
 mod doctor;
 mod eccentric;
 mod eliminate;

@@ -12,16 +12,12 @@ fn pair(from: &[f64], k: usize) -> f64x2 {
     f64x2::new([from[k], from[k + 1]])
 }
 
-/// to[k], to[k + 1] += sum.
+/// to[k], to[k + 1] ± = sum, minus if `SUBTRACT`.
 #[inline(always)]
-fn add_pair(to: &mut [f64], k: usize, sum: f64x2) {
-    let sum = pair(to, k) + sum;
-    to[k..k + 2].copy_from_slice(&sum.to_array());
-}
-
-#[inline(always)]
-fn signed<const SUBTRACT: bool>(x: f64) -> f64x2 {
-    f64x2::splat(if SUBTRACT { -x } else { x })
+fn add_pair<const SUBTRACT: bool>(to: &mut [f64], k: usize, sum: f64x2) {
+    let before = pair(to, k);
+    let after = if SUBTRACT { before - sum } else { before + sum };
+    to[k..k + 2].copy_from_slice(&after.to_array());
 }
 
 /// data[column·TILE + row] ± = Σ_m a[m][row]·b[m][column], from the block's first number on; minus if `SUBTRACT`. The
@@ -38,13 +34,13 @@ pub fn add_product<const SUBTRACT: bool, const M: usize, const R: usize, const C
     let data = &mut data[..(C - 1) * TILE + R];
     for column in 0..C {
         let to = &mut data[column * TILE..column * TILE + R];
-        let factor: [f64x2; M] = std::array::from_fn(|m| signed::<SUBTRACT>(b[m][column]));
+        let factor: [f64x2; M] = std::array::from_fn(|m| f64x2::splat(b[m][column]));
         for row in (0..R).step_by(2) {
             let mut sum = pair(&a[0], row) * factor[0];
             for m in 1..M {
                 sum += pair(&a[m], row) * factor[m];
             }
-            add_pair(to, row, sum);
+            add_pair::<SUBTRACT>(to, row, sum);
         }
     }
 }
@@ -58,13 +54,13 @@ pub fn add_square<const SUBTRACT: bool, const M: usize, const C: usize>(data: &m
     let data = &mut data[..(C - 1) * TILE + C];
     for column in 0..C {
         let to = &mut data[column * TILE..column * TILE + C];
-        let factor: [f64x2; M] = std::array::from_fn(|m| signed::<SUBTRACT>(a[m][column]));
+        let factor: [f64x2; M] = std::array::from_fn(|m| f64x2::splat(a[m][column]));
         for row in (column / 2 * 2..C).step_by(2) {
             let mut sum = pair(&a[0], row) * factor[0];
             for m in 1..M {
                 sum += pair(&a[m], row) * factor[m];
             }
-            add_pair(to, row, sum);
+            add_pair::<SUBTRACT>(to, row, sum);
         }
     }
 }
@@ -77,11 +73,11 @@ pub fn add_rows<const SUBTRACT: bool, const M: usize, const C: usize>(
     a: &[[f64; C]; M],
 ) {
     for k in (0..C).step_by(2) {
-        let mut sum = pair(to, k);
-        for m in 0..M {
-            sum += pair(&a[m], k) * signed::<SUBTRACT>(factor[m]);
+        let mut sum = pair(&a[0], k) * f64x2::splat(factor[0]);
+        for m in 1..M {
+            sum += pair(&a[m], k) * f64x2::splat(factor[m]);
         }
-        to[k..k + 2].copy_from_slice(&sum.to_array());
+        add_pair::<SUBTRACT>(to, k, sum);
     }
 }
 

@@ -12,6 +12,7 @@
 use nalgebra::{DMatrix, Matrix3, Matrix6, SMatrix};
 
 use super::datum::{FreeDatum, SIMILARITY, at_photo, at_point};
+use super::dense_inverse::DenseInverse;
 use super::influence::{Blocks, Carried, Influence, align_ray};
 use super::kernel::TILE;
 use super::layout::Layout;
@@ -60,19 +61,19 @@ pub fn cofactors(
 }
 
 /// A block of the inverse: numbers of the first index side by side, or of the second.
-struct Block<'a> {
+pub(super) struct Block<'a> {
     data: &'a [f64],
     turned: bool,
 }
 
 impl Block<'_> {
     #[inline(always)]
-    fn get(&self, i: usize, j: usize) -> f64 {
+    pub fn get(&self, i: usize, j: usize) -> f64 {
         if self.turned { self.data[i * TILE + j] } else { self.data[j * TILE + i] }
     }
 }
 
-fn block(q: &TileMatrix, row: usize, column: usize) -> Block<'_> {
+pub(super) fn block(q: &TileMatrix, row: usize, column: usize) -> Block<'_> {
     let turned = row < column;
     let at = if turned { q.place(column, row) } else { q.place(row, column) };
     Block { data: &q.data()[at..], turned }
@@ -135,6 +136,7 @@ fn compute<const N: usize>(
 ) -> Option<Cofactors> {
     let models = models(state)?;
     let inverse = normal.matrix.inverse();
+    let dense = DenseInverse::<N>::of(&inverse, network, layout);
     let transformation = match datum {
         Some(datum) => Some(transformation(normal, network, layout, state, datum)?),
         None => None,
@@ -149,7 +151,7 @@ fn compute<const N: usize>(
     reduced_blocks(&mut result, network, layout, state, &inverse, transformation.as_ref());
 
     let mut rows: Vec<Row<N>> = Vec::new();
-    let mut places: Vec<usize> = Vec::new();
+    let (mut photos, mut places): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
     let mut interiors: Vec<(usize, usize, [[f64; N]; 3])> = Vec::new();
     let mut t_photos: Vec<[[f64; 6]; 3]> = Vec::new();
     let mut behind = 0;
@@ -164,8 +166,10 @@ fn compute<const N: usize>(
         }
         let l = normal.eliminated.factors[point].l;
         let z = &normal.eliminated.z[network_point.rays.clone()];
+        photos.clear();
+        photos.extend(network.rays[network_point.rays.clone()].iter().map(|ray| ray.photo));
         places.clear();
-        places.extend(network.rays[network_point.rays.clone()].iter().map(|ray| layout.photo[ray.photo]));
+        places.extend(photos.iter().map(|photo| layout.photo[*photo]));
         interiors.clear();
         interiors.extend(normal.eliminated.own(point).iter().map(|own| {
             let mut u = [[0.0; N]; 3];
@@ -174,18 +178,28 @@ fn compute<const N: usize>(
         }));
         t_photos.clear();
         t_photos.resize(z.len(), [[0.0; 6]; 3]);
-        for i in 0..z.len() {
-            for k in 0..i {
-                let data = &inverse.data()[inverse.place(places[i], places[k])..];
-                let (before, after) = t_photos.split_at_mut(i);
-                multiply_pair(data, &z[i], &z[k], &mut after[0], &mut before[k]);
+        if let Some(dense) = &dense {
+            for (photo, t) in photos.iter().zip(&mut t_photos) {
+                *t = dense.among_photos(*photo, &photos, z);
             }
-            multiply(&inverse, (places[i], 6), (places[i], 6), &z[i], &mut t_photos[i]);
+        } else {
+            for i in 0..z.len() {
+                for k in 0..i {
+                    let data = &inverse.data()[inverse.place(places[i], places[k])..];
+                    let (before, after) = t_photos.split_at_mut(i);
+                    multiply_pair(data, &z[i], &z[k], &mut after[0], &mut before[k]);
+                }
+                multiply(&inverse, (places[i], 6), (places[i], 6), &z[i], &mut t_photos[i]);
+            }
         }
         let mut t_interiors = vec![[[0.0; N]; 3]; interiors.len()];
         for ((q, at, u), t) in interiors.iter().zip(&mut t_interiors) {
             let length = network.interiors[*q].estimated.len();
             for (i, place) in places.iter().enumerate() {
+                if let Some(dense) = &dense {
+                    dense.with_interior((photos[i], *q), (&z[i], u), &mut t_photos[i], t);
+                    continue;
+                }
                 multiply(&inverse, (*at, length), (*place, 6), &z[i], t);
                 multiply(&inverse, (*place, 6), (*at, length), u, &mut t_photos[i]);
             }
@@ -218,7 +232,10 @@ fn compute<const N: usize>(
                 for side in 0..2 {
                     let (g, c) = (&row.pose[side], &row.interior_rows[side]);
                     let b = forward3(&l, row.point[side]);
-                    let own = reduced_square(network, layout, &inverse, row, side);
+                    let own = match &dense {
+                        Some(dense) => dense.square((row.photo, row.interior), g, c),
+                        None => reduced_square(network, layout, &inverse, row, side),
+                    };
                     // L⁻¹ Q_p,row = K b - TᵀG
                     let cross: [f64; 3] = std::array::from_fn(|m| {
                         let photo: f64 = t_photos[n][m].iter().zip(g).map(|(t, g)| t * g).sum();
@@ -303,7 +320,6 @@ fn push_point(
 }
 
 /// Cofactor of the photo and interior part of a row.
-#[inline(always)]
 fn reduced_square<const N: usize>(
     network: &Network,
     layout: &Layout,

@@ -43,7 +43,7 @@ pub fn accumulate<const N: usize>(
     weighting: Weighting<'_>,
 ) -> bool {
     let mut rows: Vec<Row<N>> = Vec::new();
-    let mut b = Vec::new();
+    let (mut b, mut columns) = (Vec::new(), Vec::new());
     let mut behind = 0;
     for point in 0..network.points.len() {
         if !linearise(network, state, models, weighting, point, &mut rows, &mut behind) {
@@ -55,7 +55,7 @@ pub fn accumulate<const N: usize>(
         if block.kept {
             keep(normal, network, layout, layout.point[point], n, g, &rows);
         } else {
-            eliminate(normal, network, layout, point, n, g, &rows, &mut b);
+            eliminate(normal, network, layout, point, n, g, &rows, &mut b, &mut columns);
         }
     }
     normal.behind = behind;
@@ -110,6 +110,7 @@ fn eliminate<const N: usize>(
     g: [f64; 3],
     rows: &[Row<N>],
     b: &mut Vec<[[f64; 3]; 2]>,
+    columns: &mut Vec<(u32, u32)>,
 ) {
     let block = &network.points[point];
     let mut damping = [0.0; 3];
@@ -145,6 +146,8 @@ fn eliminate<const N: usize>(
         }
         b.push(b_row);
     }
+    columns.clear();
+    columns.extend(rows.iter().map(|row| TileMatrix::column(layout.photo[row.photo])));
     for (i, row) in rows.iter().enumerate() {
         let place = layout.photo[row.photo];
         let interior = layout.interior[row.interior];
@@ -165,10 +168,10 @@ fn eliminate<const N: usize>(
         let line = matrix.line(place);
         // Rays are sorted by place, so that the later one of a pair is the row.
         for k in 0..i {
-            let at = line.place(matrix, layout.photo[rows[k].photo]);
+            let at = line.at(matrix, columns[k]);
             add_product::<true, 3, 6, 6>(&mut matrix.data_mut()[at..], &z[i], &z[k]);
         }
-        let at = line.place(matrix, place);
+        let at = line.at(matrix, columns[i]);
         let own = &mut matrix.data_mut()[at..];
         add_square::<false, 2, 6>(own, &row.pose);
         add_square::<true, 3, 6>(own, &z[i]);

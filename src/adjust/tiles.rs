@@ -77,10 +77,10 @@ pub struct Line {
 }
 
 impl Line {
-    /// As [`TileMatrix::place`] of this row and a column not after it.
+    /// As [`TileMatrix::place`] of this row and a column ([`TileMatrix::column`]) not after it.
     #[inline]
-    pub fn place(self, matrix: &TileMatrix, column: usize) -> usize {
-        matrix.pattern.slot[self.first + column / TILE] as usize * AREA + column % TILE * TILE + self.row
+    pub fn at(self, matrix: &TileMatrix, (tile, place): (u32, u32)) -> usize {
+        matrix.pattern.slot[self.first + tile as usize] as usize * AREA + place as usize + self.row
     }
 }
 
@@ -111,6 +111,17 @@ impl TileMatrix {
     #[inline]
     pub fn place(&self, row: usize, column: usize) -> usize {
         self.pattern.slot(row / TILE, column / TILE) * AREA + column % TILE * TILE + row % TILE
+    }
+
+    /// Whether no tile of the lower triangle is absent.
+    pub fn is_full(&self) -> bool {
+        self.pattern.count == self.pattern.side * (self.pattern.side + 1) / 2
+    }
+
+    /// The tile and the place in it of a column, for [`Line::at`].
+    #[inline]
+    pub fn column(column: usize) -> (u32, u32) {
+        ((column / TILE) as u32, (column % TILE * TILE) as u32)
     }
 
     /// A row, for the places of several numbers in it.

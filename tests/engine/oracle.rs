@@ -256,3 +256,15 @@ fn every_choice_of_cameras_agrees_with_dense_least_squares() {
     );
     run(&Wanted { cameras: vec![brown(&[])], ..Wanted::default() }, 40..42);
 }
+
+/// Photos around the object that share points with their neighbours alone: most tiles of the reduced equations are absent.
+#[test]
+fn a_chain_of_photos_agrees_with_dense_least_squares() {
+    let wanted = Wanted { photos: 40, points: 60, ..Wanted::default() };
+    for datum in [DatumKind::Free, DatumKind::Minimal] {
+        let mut project = noisy(&exact(&Wanted { datum, ..wanted.clone() }, 50), &mut Noise::new(50, 3));
+        let number = |id: &str| id[1..].parse::<f64>().expect("numbered");
+        project.observations.retain(|o| (number(&o.photo) / 40.0 - number(&o.point) / 60.0).abs() < 0.15);
+        compare(&project, &AdjustOptions::default());
+    }
+}
