@@ -3,7 +3,7 @@
 //! T = Q·Z of a point needs every block of Q among its photos. In the tiles of [`super::tiles`] a block above the diagonal is
 //! the transpose of one below it, and neither stays in registers. Where the inverse is full and not too large, all blocks
 //! of six by six are laid out once, both triangles, and a product of a block by three columns keeps its nine sums in
-//! registers.
+//! registers. None of them is inlined: within a large function the sums would leave their registers.
 
 use wide::f64x2;
 
@@ -64,7 +64,6 @@ impl<const N: usize> DenseInverse<N> {
     }
 
     /// Rows of T for photo `i`: Σ_k Q_ik·z_k over `photos` with their z.
-    // Not inlined: in a larger function the sums would leave their registers.
     #[inline(never)]
     pub fn among_photos(&self, i: usize, photos: &[usize], z: &[[[f64; 6]; 3]]) -> [[f64; 6]; 3] {
         let row = &self.pairs[i * self.photos..(i + 1) * self.photos];
@@ -89,6 +88,7 @@ impl<const N: usize> DenseInverse<N> {
     }
 
     /// rowᵀ·Q·row of a row with the parts g of a photo and c of an interior orientation.
+    #[inline(never)]
     pub fn square(&self, (photo, interior): (usize, usize), g: &[f64; 6], c: &[f64; N]) -> f64 {
         let block = &self.pairs[photo * self.photos + photo];
         let cross = &self.cross[interior * self.photos + photo];
@@ -112,6 +112,7 @@ impl<const N: usize> DenseInverse<N> {
     }
 
     /// Adds what an interior orientation and a photo give each other: Q_pq·u to the photo's rows, Q_qp·z to the interior's.
+    #[inline(never)]
     pub fn with_interior(
         &self,
         (photo, interior): (usize, usize),

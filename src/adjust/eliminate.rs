@@ -9,7 +9,7 @@ use super::network::Network;
 use super::normal::Normal;
 use super::parameters::State;
 use super::rows::{Row, Weighting, linearise, point_equations};
-use super::tiles::TileMatrix;
+use super::tiles::{Line, TileMatrix};
 use super::triple::{PointFactor, factor3, forward3};
 
 /// [`add_product`] for a block that may have fewer rows and columns than the arrays, and may belong above the diagonal.
@@ -167,10 +167,7 @@ fn eliminate<const N: usize>(
         }
         let line = matrix.line(place);
         // Rays are sorted by place, so that the later one of a pair is the row.
-        for k in 0..i {
-            let at = line.at(matrix, columns[k]);
-            add_product::<true, 3, 6, 6>(&mut matrix.data_mut()[at..], &z[i], &z[k]);
-        }
+        subtract_pairs(matrix, line, &columns[..i], &z[..=i]);
         let at = line.at(matrix, columns[i]);
         let own = &mut matrix.data_mut()[at..];
         add_square::<false, 2, 6>(own, &row.pose);
@@ -201,6 +198,17 @@ fn eliminate<const N: usize>(
             add_square::<true, 3, N>(&mut matrix.data_mut()[at..], &u);
         }
         _ => mixed_interiors(normal, network, layout, point, rows, b),
+    }
+}
+
+/// -z_i·z_kᵀ for the last z and every one before it, whose columns are given. This is where the time goes; not inlined, or
+/// z_i would not stay in registers.
+#[inline(never)]
+fn subtract_pairs(matrix: &mut TileMatrix, line: Line, columns: &[(u32, u32)], z: &[[[f64; 6]; 3]]) {
+    let Some((last, before)) = z.split_last() else { return };
+    for (column, z) in columns.iter().zip(before) {
+        let at = line.at(matrix, *column);
+        add_product::<true, 3, 6, 6>(&mut matrix.data_mut()[at..], last, z);
     }
 }
 

@@ -86,6 +86,7 @@ pub fn points(rows: &JsValue) -> Result<Vec<Point>> {
 /// Rows of a project's observations.
 pub fn observation_rows(observations: &[Observation]) -> Array {
     let mut names = Names::default();
+    let (mut last_photo, mut last_point) = (Repeated::default(), Repeated::default());
     let (mut numbers, mut places) =
         (Vec::with_capacity(4 * observations.len()), Vec::with_capacity(3 * observations.len()));
     // Rows are taken apart by name everywhere below, so that the compiler misses a new field before a reader does.
@@ -94,7 +95,7 @@ pub fn observation_rows(observations: &[Observation]) -> Array {
         numbers.extend([*u, *v, su, sv]);
         let two = if matches!(sigma, Sigma::Two(_)) { TWO_SIGMAS } else { 0 };
         let flags = two | if *enabled { ENABLED } else { 0 };
-        places.extend([names.number(photo), names.number(point), flags]);
+        places.extend([last_photo.number(&mut names, photo), last_point.number(&mut names, point), flags]);
     }
     write_observations(&columns(&numbers), &Uint32Array::from(places.as_slice()), &names.list)
 }
@@ -124,6 +125,7 @@ pub fn point_rows(points: &[Point]) -> Array {
 /// Rows of adjusted observations.
 pub fn adjusted_observation_rows(observations: &[AdjustedObservation]) -> Array {
     let mut names = Names::default();
+    let (mut last_photo, mut last_point) = (Repeated::default(), Repeated::default());
     let (mut numbers, mut places) =
         (Vec::with_capacity(11 * observations.len()), Vec::with_capacity(3 * observations.len()));
     for AdjustedObservation {
@@ -147,7 +149,11 @@ pub fn adjusted_observation_rows(observations: &[AdjustedObservation]) -> Array 
         numbers.extend(
             [rx, ry, wx, wy, mdb_x, mdb_y, effect_x, effect_y, weight].map(|number| number.unwrap_or(f64::NAN)),
         );
-        places.extend([names.number(photo), names.number(point), u32::from(*enabled)]);
+        places.extend([
+            last_photo.number(&mut names, photo),
+            last_point.number(&mut names, point),
+            u32::from(*enabled),
+        ]);
     }
     write_adjusted_observations(&columns(&numbers), &Uint32Array::from(places.as_slice()), &names.list)
 }
@@ -195,6 +201,23 @@ struct Names<'a> {
 impl<'a> Names<'a> {
     fn number(&mut self, name: &'a str) -> u32 {
         *self.numbers.entry(name).or_insert_with(|| self.list.push(&JsString::from(name)) - 1)
+    }
+}
+
+/// The identifier of the row before, with its number: rows of one photo or point often follow each other.
+#[derive(Default)]
+struct Repeated<'a>(Option<(&'a str, u32)>);
+
+impl<'a> Repeated<'a> {
+    fn number(&mut self, names: &mut Names<'a>, name: &'a str) -> u32 {
+        match self.0 {
+            Some((last, number)) if last == name => number,
+            _ => {
+                let number = names.number(name);
+                self.0 = Some((name, number));
+                number
+            }
+        }
     }
 }
 
