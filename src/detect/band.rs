@@ -182,11 +182,25 @@ impl Band {
         }
     }
 
-    /// Takes out pixels whose residual exceeds `limit`; the number taken.
-    pub fn drop_outliers(&mut self, limit: f64) -> usize {
+    /// Takes out pixels whose residual exceeds `limit`; the number taken. What disturbs them is blurred too: pixels within
+    /// `reach` of them that depart in the same direction, by a third of that, go with them.
+    pub fn drop_outliers(&mut self, limit: f64, reach: f64) -> usize {
+        let limit = limit as f32;
+        let far: Vec<[f32; 3]> = (0..self.residual.len())
+            .filter(|&i| self.residual[i].abs() > limit)
+            .map(|i| [self.x[i], self.y[i], self.residual[i].signum()])
+            .collect();
+        if far.is_empty() {
+            return 0;
+        }
+        let square = (reach * reach) as f32;
         let mut dropped = 0;
         for i in 0..self.residual.len() {
-            if f64::from(self.residual[i].abs()) > limit {
+            let [x, y, residual] = [self.x[i], self.y[i], self.residual[i]];
+            let close = |&[fx, fy, sign]: &[f32; 3]| {
+                residual * sign > limit / 3.0 && (fx - x).powi(2) + (fy - y).powi(2) < square
+            };
+            if residual.abs() > limit || residual.abs() > limit / 3.0 && far.iter().any(close) {
                 dropped += 1;
                 self.whole = false;
                 for column in

@@ -88,6 +88,16 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
     Ok(outline)
 }
 
+/// Narrowest run between two wide parts of a chain: at most two thirds of the widest run above and of that below.
+pub(crate) fn neck(chain: &[Chord]) -> Option<usize> {
+    let length = |chord: &Chord| chord.x1 - chord.x0;
+    let inner = 3..chain.len().checked_sub(3)?;
+    let neck = inner.min_by(|&a, &b| length(&chain[a]).total_cmp(&length(&chain[b])))?;
+    let widest = |part: &[Chord]| part.iter().map(length).fold(0.0, f32::max);
+    let least = widest(&chain[..neck]).min(widest(&chain[neck + 1..]));
+    (1.5 * length(&chain[neck]) < least).then_some(neck)
+}
+
 /// Ellipse through the ends of four or more whole runs, and the rms distance of the ends from it.
 ///
 /// With t the height above the centroid's, m = m0 + m1 t are the middles and h² = c0 + c1 t + c2 t² the squared half lengths.

@@ -15,6 +15,12 @@ use crate::image::{Plane, Sample};
 
 /// Corrections below this share of the blur (and of the pixel) leave the design matrix as it is.
 const NEAR: f64 = 0.12;
+/// Corrections that shrink less than to this share renew it: where most of the profile is clipped, contrast and blur nearly
+/// stand for each other.
+const SLOW: f64 = 0.35;
+/// Largest contrast of a clipped target, in units of what the scale shows of it. Its centre hardly depends on it: the
+/// image of an ellipse is symmetric about its centre, and so is everything that contrast, blur and axes do to it.
+const OVEREXPOSED: f64 = 16.0;
 
 /// What the fit gives.
 #[derive(Clone, Copy, Debug)]
@@ -52,14 +58,18 @@ pub(crate) fn approach<T: Sample>(
 ) -> Option<(Outline, f64, f64)> {
     let (mut state, flats) = work.begin(plane, region, blur)?;
     let (mut normal, mut render_all, mut last) = (Normal::zeros(), true, f64::INFINITY);
-    for _ in 0..12 {
+    for round in 0.. {
+        state.may_go_on(round)?;
         work.residuals(&state, render_all)?;
         if render_all {
             normal = work.normal(&state, &flats);
         }
-        let size = state.step(&normal, &work.right(&state, &flats))?.0;
-        render_all = size > NEAR * (state.blur + 0.3);
-        if !render_all && size * (size / last).min(1.0) < converged && last.is_finite() {
+        let (size, used) = state.step(&normal, &work.right(&state, &flats))?;
+        normal = used;
+        let slow = size > SLOW * last;
+        let near = size <= NEAR * (state.blur + 0.3);
+        render_all = !near || slow;
+        if near && size * (size / last).min(1.0) < converged && last.is_finite() {
             return Some((state.outline, state.blur, state.contrast));
         }
         last = size;
@@ -76,21 +86,25 @@ pub(crate) fn fit<T: Sample>(
     converged: f64,
     work: &mut Workspace,
 ) -> Option<Fit> {
-    let surround = region.surround;
     let (mut state, flats) = work.begin(plane, region, blur)?;
     let mut normal = Normal::zeros();
-    let (mut render_all, mut dropped, mut settled) = (true, None, false);
+    let (mut render_all, mut near, mut disturbed, mut dropped) = (true, true, true, 0);
     let (mut anew, mut last) = (true, f64::INFINITY);
-    for _ in 0..12 {
+    let (mut limit, mut rounds) = (f64::INFINITY, 0);
+    for round in 0.. {
+        state.may_go_on(round)?;
         work.residuals(&state, render_all)?;
-        if !render_all && dropped.is_none() {
-            // now near the end: what the model cannot explain is not the target
-            // (an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel)
-            let sharp = if state.blur <= BLUR.0 { 0.1 * state.contrast.abs() } else { 0.0 };
-            let limit = (5.0 * work.band.robust_deviation().max(surround.noise).max(0.5)).max(sharp);
-            let count = work.band.drop_outliers(limit);
+        if near && disturbed {
+            // the first limit is wide, as disturbances widen the scatter; one that followed the residuals in every round
+            // would eat up what a lens does to an edge
+            if rounds < 2 {
+                limit = work.outlier_limit(&state, region);
+            }
+            rounds += 1;
+            let count = work.band.drop_outliers(limit, 2.0 * state.blur + 1.0);
             anew = count > 0;
-            dropped = Some(count);
+            disturbed = count > 0 && region.whole;
+            dropped += count;
         }
         if render_all || anew {
             anew = false;
@@ -100,15 +114,18 @@ pub(crate) fn fit<T: Sample>(
         let (size, used) = state.step(&normal, &right)?;
         normal = used;
         // corrections shrink by about the same factor each time: the next one would be this small
-        settled = size * (size / last).min(1.0) < converged;
+        let settled = size * (size / last).min(1.0) < converged;
+        let slow = size > SLOW * last;
         last = size;
-        if settled && dropped.is_some() {
+        if settled && !disturbed {
             break;
         }
-        render_all = size > NEAR * (state.blur + 0.3);
+        near = size <= NEAR * (state.blur + 0.3);
+        render_all = !near || slow;
     }
     let (variance, used) = work.band.variance();
-    if !settled || used < 24 {
+    // at the largest contrast nothing is left of the rim's profile but a step, and its sigma would promise too much
+    if used < 24 || state.contrast.abs() > (0.97 * state.brightest).max(2.0 * state.shown) {
         return None;
     }
     let cofactors = invert(&normal)?;
@@ -119,7 +136,7 @@ pub(crate) fn fit<T: Sample>(
         contrast: state.contrast,
         rms: variance.sqrt(),
         uneven: work.band.unevenness(),
-        disturbed: dropped.unwrap_or(0) as f64 / used as f64,
+        disturbed: dropped as f64 / used as f64,
         covariance,
     })
 }
@@ -128,7 +145,10 @@ impl Workspace {
     /// Chooses the pixels and the first values.
     fn begin<T: Sample>(&mut self, plane: &Plane<T>, region: &Region, blur: f64) -> Option<(State, Flats)> {
         let surround = region.surround;
+        let shown = if surround.contrast > 0.0 { region.saturation - surround.level } else { surround.level };
         let state = State {
+            shown,
+            brightest: (OVEREXPOSED * shown).max(surround.contrast.abs()),
             outline: region.outline,
             blur: blur.clamp(BLUR.0, BLUR.1),
             contrast: surround.contrast,
@@ -147,6 +167,14 @@ impl Workspace {
         self.band.gather(&self.field, derivatives);
         self.band.subtract(state.contrast, state.background);
         Some(())
+    }
+
+    /// Residual beyond which, near the end, a pixel is not the target's.
+    fn outlier_limit(&self, state: &State, region: &Region) -> f64 {
+        // an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel
+        let sharp = if state.blur <= BLUR.0 { 0.1 * state.contrast.abs() } else { 0.0 };
+        let noise = self.band.robust_deviation().max(region.surround.noise).max(0.5);
+        (5.0 * noise).max(sharp)
     }
 
     fn normal(&self, state: &State, flats: &Flats) -> Normal {
@@ -168,6 +196,9 @@ struct State {
     blur: f64,
     contrast: f64,
     background: [f64; 3],
+    /// Contrast that the scale has room for, and the largest that is believed.
+    shown: f64,
+    brightest: f64,
 }
 
 impl State {
@@ -176,13 +207,22 @@ impl State {
         (self.blur <= BLUR.0 && correction < 0.0) || (self.blur >= BLUR.1 && correction > 0.0)
     }
 
+    /// None when there were rounds enough; what is clipped has a longer way to its contrast.
+    fn may_go_on(&self, round: u32) -> Option<()> {
+        (round < if self.contrast.abs() > self.shown { 40 } else { 12 }).then_some(())
+    }
+
     /// Solves and corrects the state; the size of the correction of outline and blur, in pixels, and the normal matrix used.
     fn step(&mut self, normal: &Normal, right: &Unknowns) -> Option<(f64, Normal)> {
         let (mut normal, mut right) = (*normal, *right);
         let mut step = solve(&normal, &right)?;
         if self.blur_leaves(step[5]) {
             // at the end of its range the blur is held, or the others would follow a correction that is never made
-            hold_blur(&mut normal, &mut right);
+            hold(5, &mut normal, &mut right);
+            step = solve(&normal, &right)?;
+        }
+        if self.contrast.abs() >= self.brightest && step[6] * self.contrast > 0.0 {
+            hold(6, &mut normal, &mut right);
             step = solve(&normal, &right)?;
         }
         let size = step.fixed_rows::<6>(0).amax();
@@ -190,7 +230,9 @@ impl State {
             return None;
         }
         let limit = 0.8 * (self.blur + 0.3);
-        self.add(&(step * if size > limit { limit / size } else { 1.0 }));
+        let whole = (limit / size).min(0.6 * self.contrast.abs() / step[6].abs()).min(1.0);
+        self.add(&(step * if whole > 0.0 { whole } else { 1.0 }));
+        self.contrast = self.contrast.clamp(-self.brightest, self.brightest);
         self.outline.is_proper().then_some((size, normal))
     }
 
@@ -204,13 +246,13 @@ impl State {
     }
 }
 
-/// Takes the blur out of the unknowns.
-fn hold_blur(normal: &mut Normal, right: &mut Unknowns) {
+/// Takes one out of the unknowns.
+fn hold(which: usize, normal: &mut Normal, right: &mut Unknowns) {
     for i in 0..normal.nrows() {
-        (normal[(5, i)], normal[(i, 5)]) = (0.0, 0.0);
+        (normal[(which, i)], normal[(i, which)]) = (0.0, 0.0);
     }
-    normal[(5, 5)] = 1.0;
-    right[5] = 0.0;
+    normal[(which, which)] = 1.0;
+    right[which] = 0.0;
 }
 
 /// Scales the normal equations to a unit diagonal, with a trace of damping for what the pixels do not determine (the

@@ -14,7 +14,7 @@ use crate::image::{Plane, Sample};
 /// Directions that are looked at.
 pub(crate) const DIRECTIONS: u32 = 16;
 /// Distance of the outer pixel from the rim: beyond the blur of a sharp photograph.
-const OUTSIDE: f64 = 2.5;
+pub(crate) const OUTSIDE: f64 = 2.5;
 
 /// What was seen.
 #[derive(Clone, Copy, Debug)]
@@ -104,6 +104,18 @@ const NETWORK: [(usize, usize); 63] = {
     assert!(count == 63);
     network
 };
+
+/// Median difference between the inside and what lies `outside` pixels beyond the rim; positive for bright targets.
+pub(crate) fn contrast<T: Sample>(plane: &Plane<T>, outline: &Outline, outside: f64) -> f64 {
+    let mut steps = [0f32; DIRECTIONS as usize];
+    for (rim, step) in around(outline).zip(&mut steps) {
+        let [nx, ny] = rim.normal;
+        let [dx, dy] = [rim.x - outline.u, rim.y - outline.v];
+        *step = plane.nearest(outline.u + 0.2 * dx, outline.v + 0.2 * dy)
+            - plane.nearest(rim.x + outside * nx, rim.y + outside * ny);
+    }
+    f64::from(*steps.select_nth_unstable_by(DIRECTIONS as usize / 2, f32::total_cmp).1)
+}
 
 /// Rim points in the directions. The sides were found by the search; above and below is where what is no blob shows.
 fn around(outline: &Outline) -> impl Iterator<Item = RimPoint> + use<> {

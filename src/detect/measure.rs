@@ -39,6 +39,11 @@ fn undisturbed(edges: &[EdgePoint]) -> Vec<bool> {
 const ROUGH: f64 = 2e-3;
 const CONVERGED: f64 = 1e-4;
 
+/// Largest share of a whole outline that chance may hide.
+const WHOLE: f64 = 0.05;
+/// Largest share of the rim's pixels that the fit may leave out.
+const DISTURBED: f64 = 0.12;
+
 /// Share of clipped pixels that explains why a target has no fit.
 const CLIPPED: f64 = 0.5;
 /// Blur from which on the surround begins further out, and what is assumed below it.
@@ -89,6 +94,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         self.stands_out(start, bright, if small { 3 } else { 7 }, 5)?;
         let mut outline = *start;
         let mut fitted: Option<EllipseFit> = None;
+        let mut focus = SHARP;
         for round in 0..2 {
             let (a, b) = outline.semi_axes();
             if !outline.is_proper() || a > self.plane.width.max(self.plane.height) as f64 {
@@ -101,11 +107,20 @@ impl<'a, T: Sample> Measure<'a, T> {
             // edges that were all found, and met almost head on, are the same seen from the better outline
             let again = fitted.is_some_and(|found| found.occluded == 0.0 && outline.differs(start) <= HEAD_ON);
             if !again {
-                edge::search(&self.plane, &outline, bright, reach, count, self.threshold(), &mut self.edges);
+                self.search(&outline, bright, reach, count, focus);
+            }
+            if round == 0 {
+                focus = self.focus(&outline, bright);
+                if focus > BLURRED {
+                    self.search(&outline, bright, reach, count, focus);
+                }
             }
             let found = ellipse::fit(&mut self.edges, &outline, round == 0).ok_or(Reason::NotAnEllipse)?;
             outline = found.outline;
-            if found.rms > 0.05 + 1.3 * quality::expected_scatter(b, self.levels.noise, self.strength()) {
+            // out of focus, two pixels see but 0.8 / s of the contrast
+            let contrast = self.strength() * if focus > BLURRED { 1.25 * focus } else { 1.0 };
+            let scatter = quality::expected_scatter(b, self.levels.noise, contrast, focus);
+            if found.rms > 0.05 + 1.3 * scatter {
                 return Err(Reason::NotAnEllipse);
             }
             if round == 0 {
@@ -146,7 +161,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             return Err(Reason::NotAnEllipse);
         }
         let kept = undisturbed(&self.edges);
-        let rough = surround::measure(&self.plane, &outline, SHARP, &kept).ok_or(Reason::AtBorder)?;
+        let rough = surround::measure(&self.plane, &outline, focus.max(SHARP), &kept).ok_or(Reason::AtBorder)?;
         let blur = self.blur(rough.contrast.abs());
         let surround = if blur > BLURRED {
             surround::measure(&self.plane, &outline, blur, &kept).ok_or(Reason::AtBorder)?
@@ -157,6 +172,9 @@ impl<'a, T: Sample> Measure<'a, T> {
         if signed < (4.0 * surround.noise.min(4.0 * self.levels.noise + 2.0)).max(self.threshold()) {
             return Err(Reason::LowContrast);
         }
+        if !quality::has_shape(&ellipse, self.noise(&surround), signed) {
+            return Err(Reason::LowContrast);
+        }
         let levels = DotLevels { dot: surround.level + surround.contrast, background: surround.level };
         let faint = signed < quality::FAINT * self.noise(&surround);
         if faint && look::stroke(&self.plane, &outline, levels) > STROKE
@@ -164,7 +182,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         {
             return Err(Reason::NotAnEllipse);
         }
-        if surround.uneven > UNEVEN || !quality::outline_allows(&ellipse, self.noise(&surround), signed) {
+        if surround.uneven > UNEVEN || !quality::outline_allows(&ellipse, self.noise(&surround), signed, focus) {
             return Err(Reason::NotAnEllipse);
         }
         Ok(Found { ellipse, surround, kept, blur: self.blur(signed), bright })
@@ -183,6 +201,31 @@ impl<'a, T: Sample> Measure<'a, T> {
             }
             _ => Err(Reason::NotAnEllipse),
         }
+    }
+
+    /// Edges on `count` rays, of a target of about this blur.
+    fn search(&mut self, outline: &Outline, bright: bool, reach: f64, count: usize, focus: f64) {
+        let threshold = self.threshold();
+        let (plane, edges) = (&self.plane, &mut self.edges);
+        if focus > BLURRED {
+            let (wide, reach) = (focus.round() as usize, reach.max(1.5 * focus));
+            edge::search_wide(plane, outline, bright, reach, count, wide, threshold, edges);
+        } else {
+            edge::search(plane, outline, bright, reach, count, threshold, edges);
+        }
+    }
+
+    /// Rough blur of a target whose edges were searched; the contrast is looked up where the blur ends.
+    fn focus(&self, outline: &Outline, bright: bool) -> f64 {
+        let mut blur = SHARP;
+        for _ in 0..4 {
+            let contrast = look::contrast(&self.plane, outline, (2.0 * blur).max(look::OUTSIDE));
+            blur = self.blur(if bright { contrast } else { -contrast });
+            if blur <= BLURRED {
+                break;
+            }
+        }
+        blur
     }
 
     /// Median difference over two pixels across the kept edges.
@@ -318,7 +361,15 @@ impl<'a, T: Sample> Measure<'a, T> {
         let mut surround = surround::measure(&self.plane, &outline, reach, kept).ok_or(Reason::NoFit)?;
         surround.contrast = contrast;
         let last = Region { outline, half_band: half_band(blur), surround: &surround, kept, ..region };
-        let fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
+        let mut fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
+        let b = fit.outline.semi_axes().1;
+        let gap = b - 2.0 * fit.blur;
+        if !self.explains(found, &fit) && gap > 1.0 && found.ellipse.occluded < WHOLE {
+            // a code ring, perhaps, as near as the rim is to the centre: only the gap is the target's ground
+            let narrow = Surround { outer: gap.min(surround.outer), ..surround };
+            let last = Region { surround: &narrow, ..last };
+            fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
+        }
         let (a, b) = fit.outline.semi_axes();
         let moved = (fit.outline.u - region.outline.u).hypot(fit.outline.v - region.outline.v);
         let contrast = if found.bright { fit.contrast } else { -fit.contrast };
@@ -331,17 +382,15 @@ impl<'a, T: Sample> Measure<'a, T> {
         if 2.0 * a < 0.95 * self.options.min_diameter {
             return Err(Reason::TooSmall);
         }
-        if fit.disturbed > 0.12 {
-            return Err(Reason::NotAnEllipse);
-        }
-        // two grey levels and a blur must describe the rim, whatever the lens adds
-        if fit.rms > 1.5 * self.noise(&found.surround) + 0.1 * contrast {
-            return Err(Reason::NotAnEllipse);
-        }
-        if !quality::is_target(&found.ellipse, fit.uneven, self.noise(&found.surround), contrast) {
-            return Err(Reason::NotAnEllipse);
-        }
-        Ok(fit)
+        if self.explains(found, &fit) { Ok(fit) } else { Err(Reason::NotAnEllipse) }
+    }
+
+    /// Whether two grey levels and a blur describe the rim, whatever the lens adds.
+    fn explains(&self, found: &Found, fit: &fit::Fit) -> bool {
+        let (noise, contrast) = (self.noise(&found.surround), fit.contrast.abs());
+        fit.disturbed <= DISTURBED
+            && fit.rms <= 1.5 * noise + 0.1 * contrast
+            && quality::is_target(&found.ellipse, fit.uneven, noise, contrast, fit.blur)
     }
 
     /// Share of the pixels inside the outline that are at the end of the scale.

@@ -11,7 +11,7 @@ use super::component::{self, Chord, Linker};
 use super::noise::Levels;
 use super::outline::Outline;
 use super::scan;
-use crate::detection::{DetectOptions, PolarityChoice};
+use crate::detection::{DetectOptions, PolarityChoice, Reason};
 use crate::image::{Plane, Sample};
 
 /// A rough outline with its polarity.
@@ -122,7 +122,15 @@ impl Blobs {
     fn judge(&mut self, chain: &[Chord], bright: bool, limits: &Limits) {
         match blob::test(chain, limits) {
             Ok(outline) => self.candidates.push(Candidate { outline, bright }),
-            Err(no) => self.rejected.push(no),
+            Err(no) => {
+                // two targets, one above the other, that touch: each may still be one
+                if let Some(neck) = blob::neck(chain).filter(|_| no.reason == Reason::NotAnEllipse) {
+                    let parts = [&chain[..neck], &chain[neck + 1..]];
+                    let outlines = parts.into_iter().filter_map(|part| blob::test(part, limits).ok());
+                    self.candidates.extend(outlines.map(|outline| Candidate { outline, bright }));
+                }
+                self.rejected.push(no);
+            }
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod aerial;
 mod behaviour;
+mod codes;
 mod damage;
 mod data;
 mod dense;
@@ -20,6 +21,7 @@ mod panel;
 mod photos;
 mod published;
 mod reports;
+mod scenes;
 mod sharp;
 mod targets;
 mod tree;
