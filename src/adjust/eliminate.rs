@@ -101,6 +101,7 @@ fn add_own<const C: usize>(normal: &mut Normal, place: usize, length: usize, row
 }
 
 #[allow(clippy::too_many_arguments)] // the state of one elimination; a struct would only rename it
+#[inline(never)]
 fn eliminate<const N: usize>(
     normal: &mut Normal,
     network: &Network,

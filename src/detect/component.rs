@@ -19,6 +19,7 @@ pub(crate) struct Chord {
 }
 
 /// Runs of one polarity between edges of a row; the border of the picture ends a run too.
+#[inline(never)]
 pub(crate) fn runs(edges: &[Edge], bright: bool, width: usize, y: f32, out: &mut Vec<Chord>) {
     out.clear();
     let mut push = |x0: f32, x1: f32, cut| {
@@ -78,6 +79,7 @@ impl Linker {
     }
 
     /// Takes the runs of the next row; finished chains go to `finish`.
+    #[inline(never)]
     pub fn row(&mut self, runs: &[Chord], finish: &mut impl FnMut(&[Chord])) {
         self.meets.clear();
         self.meets.resize(runs.len(), (0, 0));

@@ -42,6 +42,7 @@ pub(crate) fn rim_points(outline: &Outline, count: usize) -> impl Iterator<Item 
 }
 
 /// Looks for the edge on `count` rays, up to `reach` pixels inside and outside of the outline.
+#[inline(never)]
 pub(crate) fn search<T: Sample>(
     plane: &Plane<T>,
     outline: &Outline,

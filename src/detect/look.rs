@@ -30,6 +30,7 @@ pub(crate) struct Look {
 }
 
 /// Looks at a blob; none as soon as more than `missing` directions have no step above the threshold.
+#[inline(never)]
 pub(crate) fn look<T: Sample>(
     plane: &Plane<T>,
     outline: &Outline,

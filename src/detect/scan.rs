@@ -22,6 +22,7 @@ pub(crate) struct Edge {
 }
 
 /// Finds the edges of a row, from left to right.
+#[inline(never)]
 pub(crate) fn edges<T: Sample>(row: &[T], threshold: T, found: &mut Vec<Edge>) {
     found.clear();
     let Some(shifted) = row.get(BASE..) else { return };
@@ -43,6 +44,7 @@ pub(crate) fn edges<T: Sample>(row: &[T], threshold: T, found: &mut Vec<Edge>) {
 }
 
 /// Adds the places of a block, given as bits, to the open edge, or closes it and opens the next.
+#[inline(never)]
 fn extend<T: Sample>(row: &[T], from: usize, mut bits: u32, open: &mut Option<Open>, found: &mut Vec<Edge>) {
     while bits != 0 {
         let x = from + bits.trailing_zeros() as usize;
