@@ -48,6 +48,8 @@ const DISTURBED: f64 = 0.12;
 const CLIPPED: f64 = 0.5;
 /// Blur from which on the surround begins further out, and what is assumed below it.
 const BLURRED: f64 = 1.2;
+/// Blur from which on no place of an edge is the steepest within the noise, so that its edges are searched between means.
+const DEFOCUSED: f64 = 2.0;
 const SHARP: f64 = 0.9;
 
 /// Half the width of the band of pixels that the rim's blur reaches.
@@ -111,14 +113,14 @@ impl<'a, T: Sample> Measure<'a, T> {
             }
             if round == 0 {
                 focus = self.focus(&outline, bright);
-                if focus > BLURRED {
+                if focus > DEFOCUSED {
                     self.search(&outline, bright, reach, count, focus);
                 }
             }
             let found = ellipse::fit(&mut self.edges, &outline, round == 0).ok_or(Reason::NotAnEllipse)?;
             outline = found.outline;
             // out of focus, two pixels see but 0.8 / s of the contrast
-            let contrast = self.strength() * if focus > BLURRED { 1.25 * focus } else { 1.0 };
+            let contrast = self.strength() * if focus > DEFOCUSED { 1.25 * focus } else { 1.0 };
             let scatter = quality::expected_scatter(b, self.levels.noise, contrast, focus);
             if found.rms > 0.05 + 1.3 * scatter {
                 return Err(Reason::NotAnEllipse);
@@ -207,7 +209,7 @@ impl<'a, T: Sample> Measure<'a, T> {
     fn search(&mut self, outline: &Outline, bright: bool, reach: f64, count: usize, focus: f64) {
         let threshold = self.threshold();
         let (plane, edges) = (&self.plane, &mut self.edges);
-        if focus > BLURRED {
+        if focus > DEFOCUSED {
             let (wide, reach) = (focus.round() as usize, reach.max(1.5 * focus));
             edge::search_wide(plane, outline, bright, reach, count, wide, threshold, edges);
         } else {
@@ -221,8 +223,8 @@ impl<'a, T: Sample> Measure<'a, T> {
         for _ in 0..4 {
             let contrast = look::contrast(&self.plane, outline, (2.0 * blur).max(look::OUTSIDE));
             blur = self.blur(if bright { contrast } else { -contrast });
-            if blur <= BLURRED {
-                break;
+            if blur <= DEFOCUSED {
+                return SHARP;
             }
         }
         blur
