@@ -17,15 +17,21 @@ export async function open({ width = 1440, height = 900, ...options } = {}) {
   const executablePath = program.includes('/') ? program : which(program);
   const profile = mkdtempSync(join(tmpdir(), 'sightline-'));
   const context = await chromium.launchPersistentContext(profile, { executablePath, headless: true, args: FLAGS, viewport: { width, height }, acceptDownloads: true, ...options });
-  const errors = [];
-  const page = context.pages()[0] ?? (await context.newPage());
-  page.on('pageerror', (error) => errors.push(String(error)));
-  page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
-  await page.goto(url);
   const close = async () => {
     await context.close();
     rmSync(profile, { recursive: true, force: true });
   };
+  const errors = [];
+  const page = context.pages()[0] ?? (await context.newPage());
+  page.on('pageerror', (error) => errors.push(String(error)));
+  page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
+  try {
+    await page.goto(url);
+  } catch (error) {
+    // A browser left open would keep the whole run from ending.
+    await close();
+    throw error;
+  }
   return { page, context, errors, url, close };
 }
 

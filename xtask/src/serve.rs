@@ -1,17 +1,15 @@
 //! A server of one folder on loopback, for the page while it is built and tested.
 
-use std::fs;
-use std::io::Cursor;
-use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
+use std::net::{Ipv4Addr, TcpListener};
+use std::path::{Path, PathBuf};
 
-use tiny_http::{Header, Method, Request, Response, Server};
+use axum::Router;
+use axum::http::{HeaderValue, header};
+use tower_http::services::ServeDir;
+use tower_http::set_header::SetResponseHeaderLayer;
 
 use crate::process::root;
 use crate::{Outcome, build};
-
-/// Requests answered at the same time: a browser opens up to six connections and keeps them.
-const THREADS: usize = 8;
 
 /// `serve [--port N]`.
 pub fn command(arguments: &[String]) -> Outcome {
@@ -23,127 +21,86 @@ pub fn command(arguments: &[String]) -> Outcome {
         _ => return Err("serve [--port N]".into()),
     };
     build::dist()?;
-    let server = match port {
+    let listener = match port {
         Some(port) => listen(port)?,
         None => (8080..8100).find_map(|port| listen(port).ok()).map_or_else(|| listen(0), Ok)?,
     };
-    println!("{} (Ctrl-C stops)", address(&server));
-    answer(server, &root().join("dist"));
-    Ok(())
+    println!("{} (Ctrl-C stops)", address(&listener)?);
+    answer(listener, &root().join("dist"))
 }
 
 /// Serves a folder in the background until the process ends; its address.
 pub fn background(folder: PathBuf) -> Outcome<String> {
-    let server = listen(0)?;
-    let address = address(&server);
-    std::thread::spawn(move || answer(server, &folder));
+    let listener = listen(0)?;
+    let address = address(&listener)?;
+    std::thread::spawn(move || answer(listener, &folder));
     Ok(address)
 }
 
-fn listen(port: u16) -> Outcome<Arc<Server>> {
-    Server::http(("127.0.0.1", port)).map(Arc::new).map_err(|error| format!("port {port}: {error}"))
+fn listen(port: u16) -> Outcome<TcpListener> {
+    TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| format!("port {port}: {error}"))
 }
 
-fn address(server: &Server) -> String {
-    format!("http://{}/", server.server_addr())
+fn address(listener: &TcpListener) -> Outcome<String> {
+    listener.local_addr().map(|address| format!("http://{address}/")).map_err(|error| error.to_string())
 }
 
-fn answer(server: Arc<Server>, folder: &Path) {
-    std::thread::scope(|scope| {
-        for _ in 0..THREADS {
-            scope.spawn(|| {
-                while let Ok(request) = server.recv() {
-                    // A browser that goes away in the middle of an answer is no concern of the server.
-                    let _ = respond(request, folder);
-                }
-            });
-        }
-    });
-}
-
-fn respond(request: Request, folder: &Path) -> std::io::Result<()> {
-    if !matches!(request.method(), Method::Get | Method::Head) {
-        return request.respond(Response::empty(405));
-    }
-    let found = file(folder, request.url()).and_then(|path| Some((fs::read(&path).ok()?, media_type(&path))));
-    let Some((bytes, media_type)) = found else {
-        return request.respond(Response::from_string("not found").with_status_code(404));
+/// Answers until the process ends. Connections wait for nobody: a browser keeps six of them open.
+fn answer(listener: TcpListener, folder: &Path) -> Outcome {
+    let always = |name, value| SetResponseHeaderLayer::overriding(name, HeaderValue::from_static(value));
+    let site = Router::new()
+        .fallback_service(ServeDir::new(folder))
+        .layer(always(header::CACHE_CONTROL, "no-cache"))
+        .layer(always(header::X_CONTENT_TYPE_OPTIONS, "nosniff"));
+    let serve = async {
+        listener.set_nonblocking(true)?;
+        axum::serve(tokio::net::TcpListener::from_std(listener)?, site).await
     };
-    let length = bytes.len();
-    let mut response = Response::new(200.into(), Vec::new(), Cursor::new(bytes), Some(length), None);
-    for (name, value) in
-        [("Content-Type", media_type), ("Cache-Control", "no-cache"), ("X-Content-Type-Options", "nosniff")]
-    {
-        response.add_header(Header::from_bytes(name, value).expect("ASCII"));
-    }
-    request.respond(response)
-}
-
-/// The file that a request's path names, inside the folder.
-fn file(folder: &Path, url: &str) -> Option<PathBuf> {
-    let path = decode(url.split(['?', '#']).next()?)?;
-    let relative = Path::new(path.trim_start_matches('/'));
-    if !relative.components().all(|part| matches!(part, Component::Normal(_))) {
-        return None;
-    }
-    let path = folder.join(relative);
-    let path = if path.is_dir() { path.join("index.html") } else { path };
-    path.is_file().then_some(path)
-}
-
-/// Undoes percent encoding.
-fn decode(path: &str) -> Option<String> {
-    let mut bytes = Vec::new();
-    let mut rest = path.bytes();
-    while let Some(byte) = rest.next() {
-        if byte == b'%' {
-            let digits = [rest.next()?, rest.next()?];
-            bytes.push(u8::from_str_radix(std::str::from_utf8(&digits).ok()?, 16).ok()?);
-        } else {
-            bytes.push(byte);
-        }
-    }
-    String::from_utf8(bytes).ok()
-}
-
-fn media_type(path: &Path) -> &'static str {
-    match path.extension().and_then(|name| name.to_str()).unwrap_or_default() {
-        "html" => "text/html; charset=utf-8",
-        "js" | "mjs" => "text/javascript; charset=utf-8",
-        "css" => "text/css; charset=utf-8",
-        "wasm" => "application/wasm",
-        "json" | "map" => "application/json",
-        "webmanifest" => "application/manifest+json",
-        "svg" => "image/svg+xml",
-        "png" => "image/png",
-        "jpg" | "jpeg" => "image/jpeg",
-        "webp" => "image/webp",
-        "ico" => "image/x-icon",
-        "woff2" => "font/woff2",
-        "txt" | "md" | "csv" => "text/plain; charset=utf-8",
-        _ => "application/octet-stream",
-    }
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build();
+    runtime.and_then(|runtime| runtime.block_on(serve)).map_err(|error| format!("the server: {error}"))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::io::{Read, Write};
+    use std::net::TcpStream;
+    use std::time::Duration;
+
     use super::*;
+
+    /// What the server answers to a request on a new connection that stays open.
+    fn ask(stream: &mut TcpStream, path: &str) -> std::io::Result<String> {
+        write!(stream, "GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n")?;
+        stream.set_read_timeout(Some(Duration::from_secs(10)))?;
+        let mut bytes = [0; 4096];
+        let read = stream.read(&mut bytes)?;
+        Ok(String::from_utf8_lossy(&bytes[..read]).into_owned())
+    }
+
+    fn connect(address: &str) -> TcpStream {
+        TcpStream::connect(address.trim_start_matches("http://").trim_end_matches('/')).expect("a connection")
+    }
+
+    #[test]
+    fn every_connection_of_a_burst_is_answered() {
+        let address = background(root().join("xtask")).expect("a server");
+        let mut open: Vec<_> = (0..32).map(|_| connect(&address)).collect();
+        for stream in &mut open {
+            let answer = ask(stream, "/Cargo.toml").expect("an answer");
+            assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
+            assert!(answer.contains("cache-control: no-cache"), "{answer}");
+        }
+    }
 
     #[test]
     fn only_files_of_the_folder_are_served() {
-        let folder = root().join("xtask");
-        assert_eq!(file(&folder, "/src/serve.rs?v=1"), Some(folder.join("src/serve.rs")));
-        assert_eq!(file(&folder, "/s%72c/serve.rs"), Some(folder.join("src/serve.rs")));
-        for outside in [
-            "/../Cargo.toml",
-            "/%2e%2e/Cargo.toml",
-            "/src/../../Cargo.toml",
-            "//etc/passwd",
-            "/%",
-            "/src/none.rs",
-            "/src",
-        ] {
-            assert_eq!(file(&folder, outside), None, "{outside}");
+        let address = background(root().join("xtask")).expect("a server");
+        let status = |path| ask(&mut connect(&address), path).expect("an answer")[9..12].to_owned();
+        assert_eq!(status("/src/serve.rs?v=1"), "200");
+        assert_eq!(status("/s%72c/serve.rs"), "200");
+        for outside in ["/../Cargo.toml", "/%2e%2e/Cargo.toml", "/src/../../Cargo.toml", "//etc/passwd", "/src/none.rs"]
+        {
+            assert_ne!(status(outside), "200", "{outside}");
         }
     }
 }

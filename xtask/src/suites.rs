@@ -103,7 +103,9 @@ fn node_tests(folder: &str, variables: &[(&str, &str)]) -> Outcome<Count> {
         return Err(format!("{folder} holds no *.test.mjs"));
     }
     files.sort();
-    let mut command = program("node", &["--test", "--test-concurrency=1", "--test-reporter=spec"]);
+    // Forced to exit: what a failed test leaves open (a browser) must not keep the run from ending.
+    let flags = ["--test", "--test-concurrency=1", "--test-force-exit", "--test-reporter=spec"];
+    let mut command = program("node", &flags);
     command.args(&files).envs(variables.iter().copied());
     counted(&mut command, node_count)
 }
