@@ -45,39 +45,54 @@ pub fn add_product<const SUBTRACT: bool, const M: usize, const R: usize, const C
     }
 }
 
-/// The lower triangle of the same with b = a: the number above an even one of the diagonal is changed too.
+/// The lower triangle of data[column·TILE + row] += Σ_m a[m][row]·b[m][column], a sum that is symmetric: the number above an
+/// even one of the diagonal is changed too.
 #[inline(always)]
-pub fn add_square<const SUBTRACT: bool, const M: usize, const C: usize>(data: &mut [f64], a: &[[f64; C]; M]) {
+pub fn add_lower<const M: usize, const C: usize>(data: &mut [f64], a: &[[f64; C]; M], b: &[[f64; C]; M]) {
     if C == 0 {
         return;
     }
     let data = &mut data[..(C - 1) * TILE + C];
     for column in 0..C {
         let to = &mut data[column * TILE..column * TILE + C];
-        let factor: [f64x2; M] = std::array::from_fn(|m| f64x2::splat(a[m][column]));
+        let factor: [f64x2; M] = std::array::from_fn(|m| f64x2::splat(b[m][column]));
         for row in (column / 2 * 2..C).step_by(2) {
             let mut sum = pair(&a[0], row) * factor[0];
             for m in 1..M {
                 sum += pair(&a[m], row) * factor[m];
             }
-            add_pair::<SUBTRACT>(to, row, sum);
+            add_pair::<false>(to, row, sum);
         }
     }
 }
 
-/// to ± = Σ_m factor[m]·a[m], minus if `SUBTRACT`.
+/// The first C numbers of to ± = Σ_m factor[m]·a[m], minus if `SUBTRACT`.
 #[inline(always)]
 pub fn add_rows<const SUBTRACT: bool, const M: usize, const C: usize>(
-    to: &mut [f64; C],
+    to: &mut [f64],
     factor: &[f64; M],
     a: &[[f64; C]; M],
 ) {
+    let to = &mut to[..C];
     for k in (0..C).step_by(2) {
         let mut sum = pair(&a[0], k) * f64x2::splat(factor[0]);
         for m in 1..M {
             sum += pair(&a[m], k) * f64x2::splat(factor[m]);
         }
         add_pair::<SUBTRACT>(to, k, sum);
+    }
+}
+
+/// The first C numbers of to += Σ_m a[m]².
+#[inline(always)]
+pub fn add_squares<const M: usize, const C: usize>(to: &mut [f64], a: &[[f64; C]; M]) {
+    let to = &mut to[..C];
+    for k in (0..C).step_by(2) {
+        let mut sum = pair(&a[0], k) * pair(&a[0], k);
+        for m in 1..M {
+            sum += pair(&a[m], k) * pair(&a[m], k);
+        }
+        add_pair::<false>(to, k, sum);
     }
 }
 
@@ -113,11 +128,17 @@ mod tests {
         plain(&mut slow, -1.0, &a, &b);
         assert!(fast.iter().zip(&slow).all(|(x, y)| (x - y).abs() < 1e-14));
         let (mut fast, mut slow) = (start.clone(), start);
-        add_square::<false, 3, 8>(&mut fast, &b);
+        add_lower::<3, 8>(&mut fast, &b, &b);
         plain(&mut slow, 1.0, &b, &b);
         for column in 0..8 {
             assert!((column..8).all(|row| (fast[column * TILE + row] - slow[column * TILE + row]).abs() < 1e-14));
         }
+        let (mut fast, mut slow) = (b[0], b[0]);
+        add_squares::<3, 8>(&mut fast, &b);
+        for k in 0..8 {
+            slow[k] += b[0][k] * b[0][k] + b[1][k] * b[1][k] + b[2][k] * b[2][k];
+        }
+        assert!(fast.iter().zip(&slow).all(|(x, y)| (x - y).abs() < 1e-15));
         let (mut fast, mut slow) = (a[0], a[0]);
         add_rows::<true, 3, 6>(&mut fast, &[0.2, -0.4, 0.7], &a);
         for k in 0..6 {

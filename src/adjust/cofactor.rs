@@ -19,7 +19,7 @@ use super::layout::Layout;
 use super::network::Network;
 use super::normal::{Normal, bar_row, with_interior_size};
 use super::parameters::State;
-use super::rows::{Row, Weighting, linearise, models};
+use super::rows::{Linearisation, Row, Weighting};
 use super::tiles::TileMatrix;
 use super::transformation::{Transformation, carried, transformation, transformed};
 use super::triple::{backward3, forward3};
@@ -134,7 +134,7 @@ fn compute<const N: usize>(
     datum: Option<&FreeDatum>,
     full: bool,
 ) -> Option<Cofactors> {
-    let models = models(state)?;
+    let linearisation = Linearisation::<N>::new(network, state, weighting)?;
     let inverse = normal.matrix.inverse();
     let dense = DenseInverse::<N>::of(&inverse, network, layout);
     let transformation = match datum {
@@ -150,17 +150,15 @@ fn compute<const N: usize>(
     let blocks = Blocks { network, layout, state, transformation: transformation.as_ref() };
     reduced_blocks(&mut result, network, layout, state, &inverse, transformation.as_ref());
 
-    let mut rows: Vec<Row<N>> = Vec::new();
+    let mut room = Vec::new();
     let (mut photos, mut places): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
     let mut interiors: Vec<(usize, usize, [[f64; N]; 3])> = Vec::new();
     let mut t_photos: Vec<[[f64; 6]; 3]> = Vec::new();
     let mut behind = 0;
     for (point, network_point) in network.points.iter().enumerate() {
-        if full && !linearise(network, state, &models, weighting, point, &mut rows, &mut behind) {
-            return None;
-        }
+        let rows = if full { linearisation.point(point, &mut room, &mut behind)? } else { &[] };
         if network_point.kept {
-            let q = kept_point(&mut result, &blocks, &inverse, point, &rows, full);
+            let q = kept_point(&mut result, &blocks, &inverse, point, rows, full);
             push_point(&mut result, network, layout, state, point, q, transformation.as_ref(), |at, v| v[at]);
             continue;
         }

@@ -1,14 +1,12 @@
 //! Accumulation of the reduced normal equations, point by point: what a kept point adds, what an eliminated one leaves.
 
-use crate::camera::Model;
-
-use super::blocks::{add_product, add_rows, add_square};
+use super::blocks::{add_lower, add_product, add_rows, add_squares};
 use super::kernel::TILE;
 use super::layout::Layout;
-use super::network::Network;
+use super::network::{Network, PhotoBlock, PointBlock};
 use super::normal::Normal;
 use super::parameters::State;
-use super::rows::{Row, Weighting, linearise, point_equations};
+use super::rows::{Linearisation, Row, Weighting, point_equations};
 use super::tiles::{Line, TileMatrix};
 use super::triple::{PointFactor, factor3, forward3};
 
@@ -33,33 +31,86 @@ fn add_outer_part<const M: usize, const R: usize, const C: usize>(
     }
 }
 
-/// All points' contributions. Returns false where a projection does not exist.
+/// Where a photo's numbers stand.
+struct Place {
+    /// In the vectors.
+    row: usize,
+    line: Line,
+    column: (u32, u32),
+    /// Its own block in the matrix.
+    own: usize,
+    interior: Shared,
+}
+
+/// Where the numbers of a photo's interior orientation stand.
+#[derive(Clone, Copy)]
+struct Shared {
+    row: usize,
+    /// Its own block in the matrix.
+    own: usize,
+    /// Its block with the photo.
+    cross: usize,
+}
+
+fn places<const N: usize>(matrix: &TileMatrix, network: &Network, layout: &Layout) -> Vec<Place> {
+    let place = |(photo, &row): (&PhotoBlock, &usize)| {
+        let interior = layout.interior[photo.interior];
+        let at = |column: usize| if N > 0 { matrix.place(interior, column) } else { 0 };
+        Place {
+            row,
+            line: matrix.line(row),
+            column: TileMatrix::column(row),
+            own: matrix.place(row, row),
+            interior: Shared { row: interior, own: at(interior), cross: at(row) },
+        }
+    };
+    network.photos.iter().zip(&layout.photo).map(place).collect()
+}
+
+/// What a ray's elimination goes on with: rows of B = A·L⁻ᵀ, and residuals less what the point's own step takes up, e - Bh.
+#[derive(Clone, Copy)]
+struct Reduced {
+    b: [[f64; 3]; 2],
+    e: [f64; 2],
+}
+
+/// All points' contributions. None where a projection does not exist.
 pub fn accumulate<const N: usize>(
     normal: &mut Normal,
     network: &Network,
     layout: &Layout,
     state: &State,
-    models: &[Model],
     weighting: Weighting<'_>,
-) -> bool {
-    let mut rows: Vec<Row<N>> = Vec::new();
-    let (mut b, mut columns) = (Vec::new(), Vec::new());
+) -> Option<()> {
+    let linearisation = Linearisation::<N>::new(network, state, weighting)?;
+    let places = places::<N>(&normal.matrix, network, layout);
+    let (mut room, mut reduced, mut columns) = (Vec::new(), Vec::new(), Vec::new());
     let mut behind = 0;
-    for point in 0..network.points.len() {
-        if !linearise(network, state, models, weighting, point, &mut rows, &mut behind) {
-            return false;
-        }
-        let block = &network.points[point];
-        let (n, g, cost) = point_equations(block, &state.points[point], &rows);
+    for (point, block) in network.points.iter().enumerate() {
+        let rows = linearisation.point(point, &mut room, &mut behind)?;
+        let (n, g, cost) = point_equations(block, &state.points[point], rows);
         normal.cost += cost;
         if block.kept {
-            keep(normal, network, layout, layout.point[point], n, g, &rows);
-        } else {
-            eliminate(normal, network, layout, point, n, g, &rows, &mut b, &mut columns);
+            keep(normal, network, layout, layout.point[point], n, g, rows);
+            continue;
+        }
+        factor_point(normal, block, point, n, g);
+        photo_parts(normal, block, point, rows, &places, &mut columns, &mut reduced);
+        if N > 0 {
+            let single = rows.windows(2).all(|pair| pair[0].interior == pair[1].interior);
+            match rows.first() {
+                Some(row) if single => {
+                    let u = interior_parts(normal, rows, &places, &reduced);
+                    if !network.interiors[row.interior].estimated.is_empty() {
+                        normal.eliminated.set_u(point, 0, &u);
+                    }
+                }
+                _ => mixed_interiors(normal, network, layout, point, rows, &reduced),
+            }
         }
     }
     normal.behind = behind;
-    true
+    Some(())
 }
 
 /// Blocks of a point that stays in the reduced equations.
@@ -100,20 +151,8 @@ fn add_own<const C: usize>(normal: &mut Normal, place: usize, length: usize, row
     }
 }
 
-#[allow(clippy::too_many_arguments)] // the state of one elimination; a struct would only rename it
-#[inline(never)]
-fn eliminate<const N: usize>(
-    normal: &mut Normal,
-    network: &Network,
-    layout: &Layout,
-    point: usize,
-    mut n: [f64; 6],
-    g: [f64; 3],
-    rows: &[Row<N>],
-    b: &mut Vec<[[f64; 3]; 2]>,
-    columns: &mut Vec<(u32, u32)>,
-) {
-    let block = &network.points[point];
+/// The point's own elimination: L and h.
+fn factor_point(normal: &mut Normal, block: &PointBlock, point: usize, mut n: [f64; 6], g: [f64; 3]) {
     let mut damping = [0.0; 3];
     for a in 0..3 {
         let diagonal = [0, 3, 5][a];
@@ -130,76 +169,99 @@ fn eliminate<const N: usize>(
     }
     let h = forward3(&l, g);
     normal.eliminated.factors[point] = PointFactor { l, h, damping };
+}
 
-    b.clear();
-    // U = Bᵀ·(interior rows) of the one interior orientation that nearly always sees a point.
-    let mut u: [[f64; N]; 3] = [[0.0; N]; 3];
-    let single = N > 0 && rows.windows(2).all(|pair| pair[0].interior == pair[1].interior);
-    let Normal { matrix, rhs, reference, eliminated, .. } = &mut *normal;
+/// Blocks of an eliminated point's photos, and what goes on to the interior orientations.
+#[inline(never)]
+fn photo_parts<const N: usize>(
+    normal: &mut Normal,
+    block: &PointBlock,
+    point: usize,
+    rows: &[Row<N>],
+    places: &[Place],
+    columns: &mut Vec<(u32, u32)>,
+    reduced: &mut Vec<Reduced>,
+) {
+    let Normal { matrix, rhs, reference, eliminated, .. } = normal;
+    let factor = &eliminated.factors[point];
     let z = &mut eliminated.z[block.rays.clone()];
-    for (row, z) in rows.iter().zip(&mut *z) {
-        let b_row = row.point.map(|a| forward3(&l, a));
-        *z = [[0.0; 6]; 3];
-        for m in 0..3 {
-            let factor = [b_row[0][m], b_row[1][m]];
-            add_rows::<false, 2, 6>(&mut z[m], &factor, &row.pose);
-            add_rows::<false, 2, N>(&mut u[m], &factor, &row.interior_rows);
-        }
-        b.push(b_row);
-    }
     columns.clear();
-    columns.extend(rows.iter().map(|row| TileMatrix::column(layout.photo[row.photo])));
+    reduced.clear();
     for (i, row) in rows.iter().enumerate() {
-        let place = layout.photo[row.photo];
-        let interior = layout.interior[row.interior];
-        let e: [f64; 2] =
-            std::array::from_fn(|s| row.e[s] - (b[i][s][0] * h[0] + b[i][s][1] * h[1] + b[i][s][2] * h[2]));
-        for k in 0..6 {
-            rhs[place + k] -= row.pose[0][k] * e[0] + row.pose[1][k] * e[1];
-            reference[place + k] += row.pose[0][k] * row.pose[0][k] + row.pose[1][k] * row.pose[1][k];
-        }
-        // The unused numbers of an interior orientation are zeros, and its block has room for them.
-        for (k, (rhs, reference)) in
-            rhs[interior..interior + N].iter_mut().zip(&mut reference[interior..interior + N]).enumerate()
-        {
-            let [x, y] = &row.interior_rows;
-            *rhs -= x[k] * e[0] + y[k] * e[1];
-            *reference += x[k] * x[k] + y[k] * y[k];
-        }
-        let line = matrix.line(place);
+        let place = &places[row.photo];
+        let vectors = (&mut rhs[place.row..], &mut reference[place.row..]);
+        reduced.push(photo_part(factor, row, &mut z[i], &mut matrix.data_mut()[place.own..], vectors));
         // Rays are sorted by place, so that the later one of a pair is the row.
-        subtract_pairs(matrix, line, &columns[..i], &z[..=i]);
-        let at = line.at(matrix, columns[i]);
-        let own = &mut matrix.data_mut()[at..];
-        add_square::<false, 2, 6>(own, &row.pose);
-        add_square::<true, 3, 6>(own, &z[i]);
-        if N > 0 {
-            let at = matrix.place(interior, interior);
-            add_square::<false, 2, N>(&mut matrix.data_mut()[at..], &row.interior_rows);
-        }
-        if single {
-            // G of the photo times (interior rows - B·U).
-            let mut rest = row.interior_rows;
-            for (rest, b) in rest.iter_mut().zip(&b[i]) {
-                add_rows::<true, 3, N>(rest, b, &u);
-            }
-            let at = matrix.place(interior, place);
-            add_product::<false, 2, N, 6>(&mut matrix.data_mut()[at..], &rest, &row.pose);
-        } else if N > 0 {
-            add_outer_part(matrix, 1.0, (interior, N), (place, 6), &row.interior_rows, &row.pose);
+        subtract_pairs(matrix, place.line, columns, &z[..=i]);
+        columns.push(place.column);
+    }
+}
+
+/// Z = GᵀB and the photo's own GᵀG - ZZᵀ = Gᵀ(G - BZᵀ).
+#[inline(never)]
+fn photo_part<const N: usize>(
+    factor: &PointFactor,
+    row: &Row<N>,
+    z: &mut [[f64; 6]; 3],
+    own: &mut [f64],
+    (rhs, reference): (&mut [f64], &mut [f64]),
+) -> Reduced {
+    let h = &factor.h;
+    let b = row.point.map(|a| forward3(&factor.l, a));
+    let mut columns = [[0.0; 6]; 3];
+    for m in 0..3 {
+        add_rows::<false, 2, 6>(&mut columns[m], &[b[0][m], b[1][m]], &row.pose);
+    }
+    let mut rest = row.pose;
+    for (rest, b) in rest.iter_mut().zip(&b) {
+        add_rows::<true, 3, 6>(rest, b, &columns);
+    }
+    *z = columns;
+    add_lower::<2, 6>(own, &rest, &row.pose);
+    let e = std::array::from_fn(|s| row.e[s] - (b[s][0] * h[0] + b[s][1] * h[1] + b[s][2] * h[2]));
+    add_rows::<true, 2, 6>(rhs, &e, &row.pose);
+    add_squares::<2, 6>(reference, &row.pose);
+    Reduced { b, e }
+}
+
+/// Blocks of the one interior orientation that nearly always sees a point: with U = CᵀB, CᵀC - UUᵀ = Cᵀ(C - BUᵀ), and
+/// (C - BUᵀ)ᵀG with the photos. Returns U.
+#[inline(never)]
+fn interior_parts<const N: usize>(
+    normal: &mut Normal,
+    rows: &[Row<N>],
+    places: &[Place],
+    reduced: &[Reduced],
+) -> [[f64; N]; 3] {
+    let mut u: [[f64; N]; 3] = [[0.0; N]; 3];
+    for (row, Reduced { b, .. }) in rows.iter().zip(reduced) {
+        for m in 0..3 {
+            add_rows::<false, 2, N>(&mut u[m], &[b[0][m], b[1][m]], &row.interior_rows);
         }
     }
-    match rows.first() {
-        Some(row) if single => {
-            let place = layout.interior[row.interior];
-            if !network.interiors[row.interior].estimated.is_empty() {
-                eliminated.set_u(point, 0, &u);
-            }
-            let at = matrix.place(place, place);
-            add_square::<true, 3, N>(&mut matrix.data_mut()[at..], &u);
-        }
-        _ => mixed_interiors(normal, network, layout, point, rows, b),
+    for (row, reduced) in rows.iter().zip(reduced) {
+        interior_part(normal, row, reduced, &places[row.photo].interior, &u);
     }
+    u
+}
+
+#[inline(never)]
+fn interior_part<const N: usize>(
+    normal: &mut Normal,
+    row: &Row<N>,
+    Reduced { b, e }: &Reduced,
+    at: &Shared,
+    u: &[[f64; N]; 3],
+) {
+    let mut rest = row.interior_rows;
+    for (rest, b) in rest.iter_mut().zip(b) {
+        add_rows::<true, 3, N>(rest, b, u);
+    }
+    let data = normal.matrix.data_mut();
+    add_lower::<2, N>(&mut data[at.own..], &rest, &row.interior_rows);
+    add_product::<false, 2, N, 6>(&mut data[at.cross..], &rest, &row.pose);
+    add_rows::<true, 2, N>(&mut normal.rhs[at.row..], e, &row.interior_rows);
+    add_squares::<2, N>(&mut normal.reference[at.row..], &row.interior_rows);
 }
 
 /// -z_i·z_kᵀ for the last z and every one before it, whose columns are given. This is where the time goes; not inlined, or
@@ -213,19 +275,28 @@ fn subtract_pairs(matrix: &mut TileMatrix, line: Line, columns: &[(u32, u32)], z
     }
 }
 
-/// A point seen through several interior orientations: -U_qᵀU_q' among them, -U_qᵀZ_i with the photos.
+/// A point seen through several interior orientations: CᵀC of each and CᵀG with its photos, then -U_qᵀU_q' among them and
+/// -U_qᵀZ_i with all photos.
 fn mixed_interiors<const N: usize>(
     normal: &mut Normal,
     network: &Network,
     layout: &Layout,
     point: usize,
     rows: &[Row<N>],
-    b: &[[[f64; 3]; 2]],
+    reduced: &[Reduced],
 ) {
+    for (row, Reduced { e, .. }) in rows.iter().zip(reduced) {
+        let (photo, interior) = (layout.photo[row.photo], layout.interior[row.interior]);
+        let own = normal.matrix.place(interior, interior);
+        add_lower::<2, N>(&mut normal.matrix.data_mut()[own..], &row.interior_rows, &row.interior_rows);
+        add_outer_part(&mut normal.matrix, 1.0, (interior, N), (photo, 6), &row.interior_rows, &row.pose);
+        add_rows::<true, 2, N>(&mut normal.rhs[interior..], e, &row.interior_rows);
+        add_squares::<2, N>(&mut normal.reference[interior..], &row.interior_rows);
+    }
     let own = normal.eliminated.own(point).to_vec();
     let mut sums: Vec<[[f64; N]; 3]> = vec![[[0.0; N]; 3]; own.len()];
     for (n, (own, u)) in own.iter().zip(&mut sums).enumerate() {
-        for (row, b) in rows.iter().zip(b).filter(|(row, _)| row.interior == own.interior) {
+        for (row, Reduced { b, .. }) in rows.iter().zip(reduced).filter(|(row, _)| row.interior == own.interior) {
             for m in 0..3 {
                 for k in 0..N {
                     u[m][k] += row.interior_rows[0][k] * b[0][m] + row.interior_rows[1][k] * b[1][m];

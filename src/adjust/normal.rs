@@ -16,7 +16,7 @@ use super::gradient::gradient;
 use super::layout::Layout;
 use super::network::Network;
 use super::parameters::{State, Step};
-use super::rows::{Weighting, models};
+use super::rows::Weighting;
 use super::tiles::TileMatrix;
 
 /// Reduced normal equations at a state.
@@ -88,7 +88,6 @@ impl Normal {
         lambda: f64,
         pins: &[usize],
     ) -> bool {
-        let Some(models) = models(state) else { return false };
         self.matrix.clear();
         self.rhs.fill(0.0);
         self.reference.fill(0.0);
@@ -97,8 +96,8 @@ impl Normal {
         self.behind = 0;
         self.lambda = lambda;
         let normal = &mut *self;
-        let sound = with_interior_size!(network, accumulate(normal, network, layout, state, &models, weighting));
-        if !sound || !self.cost.is_finite() {
+        let sound = with_interior_size!(network, accumulate(normal, network, layout, state, weighting));
+        if sound.is_none() || !self.cost.is_finite() {
             return false;
         }
         self.add_given(network, layout, state, true);
@@ -109,14 +108,13 @@ impl Normal {
     /// The right-hand side alone at another state, for the factor at hand: one step of the simplified Newton iteration, which
     /// costs a fraction of new equations. Returns false where a projection does not exist.
     pub fn renew(&mut self, network: &Network, layout: &Layout, state: &State, weighting: Weighting<'_>) -> bool {
-        let Some(models) = models(state) else { return false };
         self.rhs.fill(0.0);
         self.cost = 0.0;
         self.behind = 0;
         let normal = &mut *self;
-        let sound = with_interior_size!(network, gradient(normal, network, layout, state, &models, weighting));
+        let sound = with_interior_size!(network, gradient(normal, network, layout, state, weighting));
         self.add_given(network, layout, state, false);
-        sound && self.cost.is_finite()
+        sound.is_some() && self.cost.is_finite()
     }
 
     /// Adds to the lower triangle, and to the reference where that is the diagonal.

@@ -5,10 +5,10 @@
 //! centre: ∂e/∂X = J·M, ∂e/∂XL = -J·M, ∂e/∂t = p × Jᵀ (per row).
 
 use crate::adjustment::ResidualPlace;
-use crate::camera::Model;
+use crate::camera::{Brown, Linearised, Model, PARAMETERS};
 
-use super::network::{Network, PointBlock};
-use super::parameters::State;
+use super::network::{Network, PointBlock, Ray};
+use super::parameters::{Pose, State};
 
 /// Weighted rows of one ray. `N` is the number of interior unknowns, padded with zeros.
 #[derive(Clone, Copy, Debug)]
@@ -38,50 +38,103 @@ pub struct Weighting<'a> {
     pub shift: &'a [[f64; 2]],
 }
 
-/// Models of all interior orientations of a state; none where a principal distance is missing.
-pub fn models(state: &State) -> Option<Vec<Model>> {
-    state.interiors.iter().map(Model::new).collect()
+impl<const N: usize> Row<N> {
+    const ZERO: Self = Self {
+        photo: 0,
+        interior: 0,
+        e: [0.0; 2],
+        point: [[0.0; 3]; 2],
+        pose: [[0.0; 6]; 2],
+        interior_rows: [[0.0; N]; 2],
+    };
 }
 
-/// Fills `rows` with the point's rays. Returns false where a projection does not exist.
-#[inline(always)]
-pub fn linearise<const N: usize>(
-    network: &Network,
-    state: &State,
-    models: &[Model],
-    weighting: Weighting<'_>,
-    point: usize,
-    rows: &mut Vec<Row<N>>,
-    behind: &mut usize,
-) -> bool {
-    rows.clear();
-    let block = &network.points[point];
-    let x = &state.points[point];
-    for k in block.rays.clone() {
-        let ray = &network.rays[k];
-        let interior = network.photos[ray.photo].interior;
-        let pose = &state.poses[ray.photo];
-        let p = pose.camera_point(x);
-        *behind += usize::from(p[2] >= 0.0);
-        let measured = match weighting.shift.get(k) {
-            Some(shift) => [ray.measured[0] - shift[0], ray.measured[1] - shift[1]],
-            None => ray.measured,
-        };
-        let Some(linear) = models[interior].linearise(measured, p, weighting.place) else { return false };
-        let factor = weighting.robust.get(k).copied().unwrap_or([1.0, 1.0]);
-        let mut row = Row {
-            photo: ray.photo,
-            interior,
-            e: [0.0; 2],
-            point: [[0.0; 3]; 2],
-            pose: [[0.0; 6]; 2],
-            interior_rows: [[0.0; N]; 2],
-        };
+/// The linearisation of all rays at a state.
+pub struct Linearisation<'a, const N: usize> {
+    network: &'a Network,
+    state: &'a State,
+    weighting: Weighting<'a>,
+    models: Vec<Model>,
+    /// Per interior orientation the column of every unknown among the model's derivatives, and its scale, 0 for none.
+    columns: Vec<[(usize, f64); N]>,
+    /// Whether all unknowns stand in the order of the model's first columns.
+    ordered: bool,
+}
+
+impl<'a, const N: usize> Linearisation<'a, N> {
+    /// None where a principal distance is missing.
+    pub fn new(network: &'a Network, state: &'a State, weighting: Weighting<'a>) -> Option<Self> {
+        let models = state.interiors.iter().map(Model::new).collect::<Option<_>>()?;
+        let columns = network.interiors.iter().map(|interior| {
+            let of = |k: usize| interior.estimated.get(k).map_or((k, 0.0), |e| (e.column, e.scale));
+            std::array::from_fn(of)
+        });
+        let columns: Vec<[(usize, f64); N]> = columns.collect();
+        let ordered = columns.iter().all(|columns| columns.iter().enumerate().all(|(k, (column, _))| k == *column));
+        Some(Self { network, state, weighting, models, columns, ordered })
+    }
+
+    /// Rows of the point's rays, in `room`; none where a projection does not exist. Counts rays behind their camera.
+    pub fn point<'r>(&self, point: usize, room: &'r mut Vec<Row<N>>, behind: &mut usize) -> Option<&'r [Row<N>]> {
+        let block = &self.network.points[point];
+        let x = &self.state.points[point];
+        let count = block.rays.len();
+        if room.len() < count {
+            room.resize(count, Row::ZERO);
+        }
+        let rows = &mut room[..count];
+        for (k, row) in block.rays.clone().zip(&mut *rows) {
+            let ray = &self.network.rays[k];
+            row.photo = ray.photo;
+            row.interior = self.network.photos[ray.photo].interior;
+            let seen = Seen {
+                pose: &self.state.poses[ray.photo],
+                ray,
+                shift: self.weighting.shift.get(k).unwrap_or(&[0.0; 2]),
+                factor: self.weighting.robust.get(k).unwrap_or(&[1.0; 2]),
+                columns: &self.columns[row.interior],
+            };
+            *behind += match (&self.models[row.interior], self.weighting.place) {
+                (Model::Brown(brown), ResidualPlace::Corrected) if self.ordered => brown_row(brown, &seen, x, row)?,
+                (model, place) => model_row(model, place, &seen, x, row)?,
+            };
+            for a in (0..3).filter(|a| block.fixed[*a]) {
+                (row.point[0][a], row.point[1][a]) = (0.0, 0.0);
+            }
+        }
+        Some(rows)
+    }
+}
+
+/// What a ray's rows depend on besides the point and the model.
+struct Seen<'a, const N: usize> {
+    pose: &'a Pose,
+    ray: &'a Ray,
+    shift: &'a [f64; 2],
+    factor: &'a [f64; 2],
+    columns: &'a [(usize, f64); N],
+}
+
+impl<const N: usize> Seen<'_, N> {
+    #[inline(always)]
+    fn measured(&self) -> [f64; 2] {
+        std::array::from_fn(|s| self.ray.measured[s] - self.shift[s])
+    }
+
+    /// Fills the rows in; `by_unknown` gives the derivatives of a side. Returns 1 behind the camera, else 0.
+    #[inline(always)]
+    fn fill(
+        &self,
+        p: [f64; 3],
+        linear: &Linearised,
+        row: &mut Row<N>,
+        by_unknown: impl Fn(&[f64; PARAMETERS], &mut [f64; N]),
+    ) -> usize {
         for side in 0..2 {
-            let w = ray.weight[side] * factor[side];
+            let w = self.ray.weight[side] * self.factor[side];
             let [a, b, c] = linear.by_point[side].map(|d| d * w);
             row.e[side] = linear.residual[side] * w;
-            let m = &pose.m;
+            let m = &self.pose.m;
             let by_point: [f64; 3] = std::array::from_fn(|k| a * m[0][k] + b * m[1][k] + c * m[2][k]);
             row.pose[side] = [
                 p[1] * c - p[2] * b,
@@ -91,18 +144,45 @@ pub fn linearise<const N: usize>(
                 -by_point[1],
                 -by_point[2],
             ];
-            row.point[side] = std::array::from_fn(|k| if block.fixed[k] { 0.0 } else { by_point[k] });
-            for (to, estimated) in row.interior_rows[side].iter_mut().zip(&network.interiors[interior].estimated) {
-                *to = linear.by_parameter[side][estimated.column] * w * estimated.scale;
-            }
+            row.point[side] = by_point;
+            by_unknown(&linear.by_parameter[side], &mut row.interior_rows[side]);
+            row.interior_rows[side].iter_mut().for_each(|d| *d *= w);
         }
-        rows.push(row);
+        usize::from(p[2] >= 0.0)
     }
-    true
+}
+
+/// The most frequent case, whose derivatives stay in registers: not inlined, or they would not.
+#[inline(never)]
+fn brown_row<const N: usize>(brown: &Brown, seen: &Seen<'_, N>, x: &[f64; 3], row: &mut Row<N>) -> Option<usize> {
+    let p = seen.pose.camera_point(x);
+    let linear = brown.linearise(seen.measured(), p)?;
+    Some(seen.fill(p, &linear, row, |by_parameter, to| {
+        for k in 0..N {
+            to[k] = by_parameter[k] * seen.columns[k].1;
+        }
+    }))
+}
+
+#[inline(never)]
+fn model_row<const N: usize>(
+    model: &Model,
+    place: ResidualPlace,
+    seen: &Seen<'_, N>,
+    x: &[f64; 3],
+    row: &mut Row<N>,
+) -> Option<usize> {
+    let p = seen.pose.camera_point(x);
+    let linear = model.linearise(seen.measured(), p, place)?;
+    Some(seen.fill(p, &linear, row, |by_parameter, to| {
+        for (to, (column, scale)) in to.iter_mut().zip(seen.columns) {
+            *to = by_parameter[*column] * scale;
+        }
+    }))
 }
 
 /// Equations of the point alone, given coordinates included: normal matrix (xx, xy, xz, yy, yz, zz), Aᵀe, squares.
-#[inline(always)]
+#[inline(never)]
 pub fn point_equations<const N: usize>(block: &PointBlock, x: &[f64; 3], rows: &[Row<N>]) -> ([f64; 6], [f64; 3], f64) {
     let (mut n, mut g, mut cost) = ([0.0; 6], [0.0; 3], 0.0);
     for row in rows {

@@ -76,7 +76,7 @@ impl Brown {
     }
 
     /// Residual at the corrected place, e = ideal image minus corrected measurement; none at the projection centre.
-    #[inline]
+    #[inline(always)]
     pub fn linearise(&self, measured: [f64; 2], [px, py, pz]: [f64; 3]) -> Option<Linearised> {
         if pz.is_nan() || pz == 0.0 {
             return None;
@@ -137,7 +137,7 @@ impl Brown {
     }
 
     /// Derivatives of ideal minus corrected by c, x0, y0, K1-3, P1, P2, B1, B2, at the place (x̄, ȳ) with derivative d.
-    #[inline]
+    #[inline(always)]
     fn by_parameter(&self, [x, y]: [f64; 2], [nx, ny]: [f64; 2], d: [[f64; 2]; 2]) -> [[f64; PARAMETERS]; 2] {
         let r2 = x * x + y * y;
         let r4 = r2 * r2;
