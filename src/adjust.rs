@@ -2,14 +2,13 @@
 //!
 //! [`adjust`] numbers the document (`network`), chooses an order of the photos (`layout`), iterates (`iteration`) on
 //! reduced normal equations (`normal`: points are eliminated in `eliminate`, kept in `eliminated`) factored in tiles
-//! (`tiles`, `kernel`), brings the result into its datum (`datum`) and computes the statistics (`cofactor`, `result`).
+//! (`tiles`, `kernel`), brings the result into its datum (`datum`) and computes the statistics (`cofactor`, `ray_cofactor`, `result`).
 //! Circular targets of known diameter are freed of their eccentricity (`eccentric`). Gross errors are searched in `search`, by
 //! `snooping` or `robust` weights.
 
 mod blocks;
 mod cofactor;
 mod datum;
-mod dense_inverse;
 mod doctor;
 mod eccentric;
 mod eliminate;
@@ -23,6 +22,7 @@ mod layout;
 mod network;
 mod normal;
 mod parameters;
+mod ray_cofactor;
 mod result;
 mod result_given;
 mod robust;

@@ -1,9 +1,9 @@
 //! Cofactors of all unknowns and of all adjusted observations, without the full inverse.
 //!
-//! With Z = GᵀB per point (see [`super::normal`]), Q = S⁻¹ and T = Q·Z:
+//! With Z = GᵀB per point (see [`super::normal`]), Q = S⁻¹ and K of [`super::ray_cofactor`]:
 //!
 //! ```text
-//! Q_pp = L⁻ᵀ(I + ZᵀT)L⁻¹,   Q_cp = -T·L⁻¹
+//! Q_pp = L⁻ᵀ(I + ZᵀQZ)L⁻¹ = L⁻ᵀKL⁻¹,   Q_cp = -QZ·L⁻¹
 //! ```
 //!
 //! so that only the blocks of Q between photos that share a point are needed. The cofactor of an adjusted observation is
@@ -11,14 +11,14 @@
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, SMatrix};
 
-use super::datum::{FreeDatum, SIMILARITY, at_photo, at_point};
-use super::dense_inverse::DenseInverse;
-use super::influence::{Blocks, Carried, Influence, align_ray};
+use super::datum::{self, FreeDatum, SIMILARITY, at_point};
+use super::influence::{Alignment, Blocks, Carried, Influence, Taken, length};
 use super::kernel::TILE;
 use super::layout::Layout;
 use super::network::Network;
 use super::normal::{Normal, bar_row, with_interior_size};
 use super::parameters::State;
+use super::ray_cofactor::{RayCofactors, at_photo};
 use super::rows::{Linearisation, Row, Weighting};
 use super::tiles::TileMatrix;
 use super::transformation::{Transformation, carried, transformation, transformed};
@@ -71,58 +71,17 @@ impl Block<'_> {
     pub fn get(&self, i: usize, j: usize) -> f64 {
         if self.turned { self.data[i * TILE + j] } else { self.data[j * TILE + i] }
     }
+
+    /// Column `j` from its first number on, where its numbers stand side by side.
+    pub fn column(&self, j: usize) -> Option<&[f64]> {
+        (!self.turned).then(|| &self.data[j * TILE..])
+    }
 }
 
 pub(super) fn block(q: &TileMatrix, row: usize, column: usize) -> Block<'_> {
     let turned = row < column;
     let at = if turned { q.place(column, row) } else { q.place(row, column) };
     Block { data: &q.data()[at..], turned }
-}
-
-/// t += Q(row, column)·z, of sizes R and C with the first `rows` and `columns` in use.
-#[inline(always)]
-fn multiply<const R: usize, const C: usize>(
-    q: &TileMatrix,
-    (row, rows): (usize, usize),
-    (column, columns): (usize, usize),
-    z: &[[f64; C]; 3],
-    t: &mut [[f64; R]; 3],
-) {
-    let block = block(q, row, column);
-    for j in 0..columns {
-        for i in 0..rows {
-            let value = block.get(i, j);
-            for m in 0..3 {
-                t[m][i] += value * z[m][j];
-            }
-        }
-    }
-}
-
-/// The inner loop among photos: t_i += Q_ik z_k and, for i ≠ k, t_k += Q_ikᵀ z_i; place i is not before place k.
-#[inline(always)]
-fn multiply_pair(q: &[f64], zi: &[[f64; 6]; 3], zk: &[[f64; 6]; 3], ti: &mut [[f64; 6]; 3], tk: &mut [[f64; 6]; 3]) {
-    for (c, column) in q.chunks(TILE).take(6).enumerate() {
-        let column: &[f64; 6] = column[..6].try_into().unwrap_or(&[0.0; 6]);
-        for m in 0..3 {
-            let factor = zk[m][c];
-            // Two sums side by side, as the lanes have it.
-            let mut sum = [0.0; 2];
-            for r in 0..6 {
-                ti[m][r] += column[r] * factor;
-                sum[r % 2] += column[r] * zi[m][r];
-            }
-            tk[m][c] += sum[0] + sum[1];
-        }
-    }
-}
-
-fn product<const C: usize>(z: &[[f64; C]; 3], t: &[[f64; C]; 3], sum: &mut Matrix3<f64>) {
-    for a in 0..3 {
-        for b in 0..3 {
-            sum[(a, b)] += z[a].iter().zip(&t[b]).map(|(z, t)| z * t).sum::<f64>();
-        }
-    }
 }
 
 fn compute<const N: usize>(
@@ -136,7 +95,6 @@ fn compute<const N: usize>(
 ) -> Option<Cofactors> {
     let linearisation = Linearisation::<N>::new(network, state, weighting)?;
     let inverse = normal.matrix.inverse();
-    let dense = DenseInverse::<N>::of(&inverse, network, layout);
     let transformation = match datum {
         Some(datum) => Some(transformation(normal, network, layout, state, datum)?),
         None => None,
@@ -150,105 +108,44 @@ fn compute<const N: usize>(
     let blocks = Blocks { network, layout, state, transformation: transformation.as_ref() };
     reduced_blocks(&mut result, network, layout, state, &inverse, transformation.as_ref());
 
+    let alignment = transformation.as_ref().map(|t| Alignment::<N>::new(t, network, layout, state));
     let mut room = Vec::new();
-    let (mut photos, mut places): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
-    let mut interiors: Vec<(usize, usize, [[f64; N]; 3])> = Vec::new();
-    let mut t_photos: Vec<[[f64; 6]; 3]> = Vec::new();
+    let mut rays = RayCofactors::<N>::default();
+    let mut taken: Vec<Taken> = Vec::new();
     let mut behind = 0;
     for (point, network_point) in network.points.iter().enumerate() {
-        let rows = if full { linearisation.point(point, &mut room, &mut behind)? } else { &[] };
+        let rows = linearisation.point(point, &mut room, &mut behind)?;
         if network_point.kept {
-            let q = kept_point(&mut result, &blocks, &inverse, point, rows, full);
+            let q = kept_point(&mut result, &blocks, &inverse, alignment.as_ref(), point, rows, full);
             push_point(&mut result, network, layout, state, point, q, transformation.as_ref(), |at, v| v[at]);
             continue;
         }
         let l = normal.eliminated.factors[point].l;
-        let z = &normal.eliminated.z[network_point.rays.clone()];
-        photos.clear();
-        photos.extend(network.rays[network_point.rays.clone()].iter().map(|ray| ray.photo));
-        places.clear();
-        places.extend(photos.iter().map(|photo| layout.photo[*photo]));
-        interiors.clear();
-        interiors.extend(normal.eliminated.own(point).iter().map(|own| {
-            let mut u = [[0.0; N]; 3];
-            (0..3).for_each(|m| u[m][..own.length].copy_from_slice(normal.eliminated.u(own, m)));
-            (own.interior, layout.interior[own.interior], u)
-        }));
-        t_photos.clear();
-        t_photos.resize(z.len(), [[0.0; 6]; 3]);
-        if let Some(dense) = &dense {
-            for (photo, t) in photos.iter().zip(&mut t_photos) {
-                *t = dense.among_photos(*photo, &photos, z);
-            }
-        } else {
-            for i in 0..z.len() {
-                for k in 0..i {
-                    let data = &inverse.data()[inverse.place(places[i], places[k])..];
-                    let (before, after) = t_photos.split_at_mut(i);
-                    multiply_pair(data, &z[i], &z[k], &mut after[0], &mut before[k]);
-                }
-                multiply(&inverse, (places[i], 6), (places[i], 6), &z[i], &mut t_photos[i]);
-            }
-        }
-        let mut t_interiors = vec![[[0.0; N]; 3]; interiors.len()];
-        for ((q, at, u), t) in interiors.iter().zip(&mut t_interiors) {
-            let length = network.interiors[*q].estimated.len();
-            for (i, place) in places.iter().enumerate() {
-                if let Some(dense) = &dense {
-                    dense.with_interior((photos[i], *q), (&z[i], u), &mut t_photos[i], t);
-                    continue;
-                }
-                multiply(&inverse, (*at, length), (*place, 6), &z[i], t);
-                multiply(&inverse, (*place, 6), (*at, length), u, &mut t_photos[i]);
-            }
-            for (other, other_at, v) in &interiors {
-                let other_length = network.interiors[*other].estimated.len();
-                multiply(&inverse, (*at, length), (*other_at, other_length), v, t);
-            }
-        }
-        let mut k = Matrix3::identity();
-        z.iter().zip(&t_photos).for_each(|(z, t)| product(z, t, &mut k));
-        interiors.iter().zip(&t_interiors).for_each(|((.., u), t)| product(u, t, &mut k));
+        rays.compute(&inverse, layout, &normal.eliminated, point, rows);
+        taken.clear();
+        taken.extend(alignment.iter().flat_map(|alignment| rows.iter().map(|row| alignment.reduced(row))));
         let at_this_point = transformation.as_ref().map(|t| {
             let own = carried(t, datum, point);
+            let from_reduced = rays.carried(&taken);
             let mut v: Carried = [[0.0; 3]; SIMILARITY];
-            for ((v, reduced), own) in v.iter_mut().zip(&t.v).zip(own) {
-                let from_reduced = normal.eliminated.product(network, layout, point, reduced);
+            for (j, (v, own)) in v.iter_mut().zip(own).enumerate() {
                 let direct = forward3(&l, own);
-                *v = backward3(&l, std::array::from_fn(|m| direct[m] - from_reduced[m]));
+                *v = backward3(&l, std::array::from_fn(|m| direct[m] - from_reduced[m][j]));
             }
             v
         });
         if full {
-            let own = (normal.eliminated.own(point), &t_interiors[..]);
-            result.given_influence.eliminated(&blocks, point, &l, &t_photos, own);
+            let at_photo = |photo| at_photo::<N>(&inverse, network, layout, &normal.eliminated, point, photo);
+            let at_interiors = (normal.eliminated.own(point), &rays.interiors[..]);
+            result.given_influence.eliminated(&blocks, point, &l, at_photo, at_interiors);
             for (n, row) in rows.iter().enumerate() {
-                let interior = interiors.iter().position(|(q, ..)| *q == row.interior);
-                let t_interior = interior.map(|at| &t_interiors[at]);
-                let fixed = &network_point.fixed;
                 let ray = network_point.rays.start + n;
-                for side in 0..2 {
-                    let (g, c) = (&row.pose[side], &row.interior_rows[side]);
-                    let b = forward3(&l, row.point[side]);
-                    let own = match &dense {
-                        Some(dense) => dense.square((row.photo, row.interior), g, c),
-                        None => reduced_square(network, layout, &inverse, row, side),
-                    };
-                    // L⁻¹ Q_p,row = K b - TᵀG
-                    let cross: [f64; 3] = std::array::from_fn(|m| {
-                        let photo: f64 = t_photos[n][m].iter().zip(g).map(|(t, g)| t * g).sum();
-                        let interior: f64 = t_interior.map_or(0.0, |t| t[m].iter().zip(c).map(|(t, c)| t * c).sum());
-                        photo + interior
-                    });
-                    let kb: [f64; 3] = std::array::from_fn(|m| (0..3).map(|j| k[(m, j)] * b[j]).sum::<f64>());
-                    result.rays[ray][side] = own + (0..3).map(|m| b[m] * (kb[m] - 2.0 * cross[m])).sum::<f64>();
-                    let mut shift = backward3(&l, std::array::from_fn(|m| kb[m] - cross[m]));
-                    if let (Some(t), Some(v)) = (&transformation, &at_this_point) {
-                        align_ray(t, layout, state, (point, v), (row, side), &mut shift);
-                    }
-                    let shift = (0..3).filter(|a| !fixed[*a]).map(|a| shift[a].powi(2)).sum::<f64>();
-                    result.influence[ray][side] = shift.sqrt();
+                let (cofactors, mut shifts) = rays.ray(n, &l);
+                if let (Some(alignment), Some(v)) = (&alignment, &at_this_point) {
+                    alignment.align((point, v), (row, &taken[n]), &mut shifts);
                 }
+                result.rays[ray] = cofactors;
+                result.influence[ray] = shifts.map(|shift| length(&shift, &network_point.fixed));
             }
         }
         // Columns of L⁻ᵀ.
@@ -258,6 +155,7 @@ fn compute<const N: usize>(
             backward3(&l, unit)
         });
         let lower = Matrix3::from_fn(|i, j| columns[j][i]);
+        let k = Matrix3::from_fn(|i, j| rays.k[i][j]);
         let mut q = lower * k * lower.transpose();
         for a in (0..3).filter(|a| network_point.fixed[*a]) {
             q.row_mut(a).fill(0.0);
@@ -349,11 +247,12 @@ fn kept_point<const N: usize>(
     result: &mut Cofactors,
     blocks: &Blocks<'_>,
     inverse: &TileMatrix,
+    alignment: Option<&Alignment<'_, N>>,
     point: usize,
     rows: &[Row<N>],
     full: bool,
 ) -> Matrix3<f64> {
-    let &Blocks { network, layout, state, transformation } = blocks;
+    let &Blocks { network, layout, transformation, .. } = blocks;
     let place = layout.point[point];
     let own = block(inverse, place, place);
     let mut q = Matrix3::from_fn(|i, j| own.get(i, j));
@@ -373,6 +272,7 @@ fn kept_point<const N: usize>(
             let ray = network.points[point].rays.start + n;
             let photo = block(inverse, place, layout.photo[row.photo]);
             let length = network.interiors[row.interior].estimated.len();
+            let mut shifts = [[0.0; 3]; 2];
             for side in 0..2 {
                 let a = nalgebra::Vector3::from(row.point[side]);
                 let mut shift = q * a;
@@ -385,12 +285,12 @@ fn kept_point<const N: usize>(
                 }
                 let own = reduced_square(network, layout, inverse, row, side);
                 result.rays[ray][side] = own + 2.0 * a.dot(&shift) - a.dot(&(q * a));
-                let mut shift: [f64; 3] = shift.into();
-                if let Some(t) = transformation {
-                    align_ray(t, layout, state, (point, &v), (row, side), &mut shift);
-                }
-                result.influence[ray][side] = nalgebra::Vector3::from(shift).norm();
+                shifts[side] = shift.into();
             }
+            if let Some(alignment) = alignment {
+                alignment.align((point, &v), (row, &alignment.reduced(row)), &mut shifts);
+            }
+            result.influence[ray] = shifts.map(|shift| nalgebra::Vector3::from(shift).norm());
         }
     }
     q
@@ -417,7 +317,7 @@ fn reduced_blocks(
             cross = DMatrix::from_fn(6, length, |i, j| with_interior.get(i, j));
         }
         if let Some(t) = transformation {
-            let rows = at_photo(&state.poses[k].m, &state.poses[k].centre);
+            let rows = datum::at_photo(&state.poses[k].m, &state.poses[k].centre);
             let g = SMatrix::<f64, 6, SIMILARITY>::from_fn(|i, j| rows[i][j]);
             let v = |at: usize, j: usize| t.v.get(j).map_or(0.0, |v| v[at]);
             q = transformed(&q, &g, &SMatrix::<f64, SIMILARITY, 6>::from_fn(|j, i| v(place + i, j)), t);

@@ -69,6 +69,13 @@ impl Eliminated {
         &self.u[own.at + m * own.length..][..own.length]
     }
 
+    /// An interior orientation's U, zeros beyond its unknowns.
+    pub fn whole_u<const N: usize>(&self, own: &Own) -> [[f64; N]; 3] {
+        let mut u = [[0.0; N]; 3];
+        (0..3).for_each(|m| u[m][..own.length].copy_from_slice(self.u(own, m)));
+        u
+    }
+
     /// Takes over U of the point's interior orientation number `n`.
     #[inline(always)]
     pub fn set_u<const N: usize>(&mut self, point: usize, n: usize, u: &[[f64; N]; 3]) {

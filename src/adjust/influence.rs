@@ -5,6 +5,7 @@
 //! observed projection centre or parameter that of the point it moves most: among the ends of the distance, the points
 //! of the photo, the points that the camera sees.
 
+use super::blocks::add_rows;
 use super::datum::{SIMILARITY, at_point};
 use super::eliminated::Own;
 use super::kernel::TILE;
@@ -45,26 +46,61 @@ fn align(state: &State, point: usize, taken: &[f64; SIMILARITY], shift: &mut [f6
     }
 }
 
-/// Brings the shift of a point by one image coordinate into the datum; `at_point` is the datum's vector there.
-pub fn align_ray<const N: usize>(
-    t: &Transformation,
-    layout: &Layout,
-    state: &State,
-    (point, at_point): (usize, &Carried),
-    (row, side): (&Row<N>, usize),
-    shift: &mut [f64; 3],
-) {
-    let mut taken = [0.0; SIMILARITY];
-    let (photo, interior) = (layout.photo[row.photo], layout.interior[row.interior]);
-    for ((taken, v), at_point) in taken.iter_mut().zip(&t.v).zip(at_point) {
-        *taken = row.pose[side].iter().zip(&v[photo..]).map(|(g, v)| g * v).sum::<f64>()
-            + row.interior_rows[side].iter().zip(v.get(interior..).unwrap_or(&[])).map(|(c, v)| c * v).sum::<f64>()
-            + row.point[side].iter().zip(at_point).map(|(a, v)| a * v).sum::<f64>();
-    }
-    align(state, point, &taken, shift);
+/// What the datum takes off per direction, for both sides of a ray; the last number is 0.
+pub type Taken = [[f64; 8]; 2];
+
+/// Brings shifts by image coordinates into the datum; its vectors side by side for every unknown.
+pub struct Alignment<'a, const N: usize> {
+    state: &'a State,
+    photos: Vec<[[f64; 8]; 6]>,
+    interiors: Vec<[[f64; 8]; N]>,
 }
 
-fn length(shift: &[f64; 3], fixed: &[bool; 3]) -> f64 {
+impl<'a, const N: usize> Alignment<'a, N> {
+    /// Lays out the vectors.
+    pub fn new(t: &Transformation, network: &Network, layout: &Layout, state: &'a State) -> Self {
+        let at = |place: usize| std::array::from_fn(|j| t.v.get(j).map_or(0.0, |v| v[place]));
+        let photos = layout.photo.iter().map(|photo| std::array::from_fn(|k| at(photo + k))).collect();
+        let interiors = layout.interior.iter().zip(&network.interiors).map(|(place, interior)| {
+            std::array::from_fn(|k| if k < interior.estimated.len() { at(place + k) } else { [0.0; 8] })
+        });
+        Self { state, photos, interiors: interiors.collect() }
+    }
+
+    /// V·rowᵀ of both sides over the photo and interior part of a row.
+    #[inline(never)]
+    pub fn reduced(&self, row: &Row<N>) -> Taken {
+        let mut taken = [[0.0; 8]; 2];
+        for (side, taken) in taken.iter_mut().enumerate() {
+            add_rows::<false, 6, 8>(taken, &row.pose[side], &self.photos[row.photo]);
+            if N > 0 {
+                add_rows::<false, N, 8>(taken, &row.interior_rows[side], &self.interiors[row.interior]);
+            }
+        }
+        taken
+    }
+
+    /// The shifts of a point by the two sides of a ray, of which `taken` is the reduced part and `at_point` the datum's vector
+    /// at the point.
+    #[inline(never)]
+    pub fn align(
+        &self,
+        (point, at_point): (usize, &Carried),
+        (row, taken): (&Row<N>, &Taken),
+        shifts: &mut [[f64; 3]; 2],
+    ) {
+        for (side, shift) in shifts.iter_mut().enumerate() {
+            let mut whole: [f64; SIMILARITY] = std::array::from_fn(|j| taken[side][j]);
+            for (whole, at_point) in whole.iter_mut().zip(at_point) {
+                *whole += row.point[side].iter().zip(at_point).map(|(a, v)| a * v).sum::<f64>();
+            }
+            align(self.state, point, &whole, shift);
+        }
+    }
+}
+
+/// Length of a shift over the axes that are not held.
+pub fn length(shift: &[f64; 3], fixed: &[bool; 3]) -> f64 {
     (0..3).filter(|a| !fixed[*a]).map(|a| shift[a] * shift[a]).sum::<f64>().sqrt()
 }
 
@@ -97,14 +133,14 @@ impl Blocks<'_> {
         length(&shift, &self.network.points[point].fixed)
     }
 
-    /// Photos and interior orientations that see a point and have given values, with their places.
-    fn observed(&self, point: usize) -> (Vec<(usize, usize)>, Vec<usize>) {
+    /// Photos and interior orientations that see a point and have given values.
+    fn observed(&self, point: usize) -> (Vec<usize>, Vec<usize>) {
         let network = self.network;
         let (mut photos, mut interiors) = (Vec::new(), Vec::new());
-        for (n, ray) in network.rays[network.points[point].rays.clone()].iter().enumerate() {
+        for ray in &network.rays[network.points[point].rays.clone()] {
             let photo = &network.photos[ray.photo];
             if photo.prior.iter().any(|(_, weight)| *weight > 0.0) {
-                photos.push((n, ray.photo));
+                photos.push(ray.photo);
             }
             let observed = network.interiors[photo.interior].estimated.iter().any(|e| e.prior.1 > 0.0);
             if observed && !interiors.contains(&photo.interior) {
@@ -134,25 +170,26 @@ impl Influence {
         }
     }
 
-    /// Photos and interior orientations that see an eliminated point, from T = QZ at its rays and interior orientations:
+    /// Photos and interior orientations that see an eliminated point, from T = QZ at a photo or interior orientation:
     /// Q_pc = -L⁻ᵀTᵀ.
     pub fn eliminated<const N: usize>(
         &mut self,
         blocks: &Blocks<'_>,
         point: usize,
         l: &[f64; 6],
-        t_photos: &[[[f64; 6]; 3]],
-        t_interiors: (&[Own], &[[[f64; N]; 3]]),
+        at_photo: impl Fn(usize) -> [[f64; 6]; 3],
+        at_interiors: (&[Own], &[[[f64; N]; 3]]),
     ) {
         let (photos, interiors) = blocks.observed(point);
-        for (n, photo) in photos {
+        for photo in photos {
+            let t = at_photo(photo);
             for a in 0..3 {
-                let shift = backward3(l, std::array::from_fn(|m| -t_photos[n][m][3 + a]));
+                let shift = backward3(l, std::array::from_fn(|m| -t[m][3 + a]));
                 let place = blocks.layout.photo[photo] + 3 + a;
                 keep(&mut self.photos[photo][a], blocks.in_datum(point, place, shift), point);
             }
         }
-        for (own, t) in t_interiors.0.iter().zip(t_interiors.1).filter(|(own, _)| interiors.contains(&own.interior)) {
+        for (own, t) in at_interiors.0.iter().zip(at_interiors.1).filter(|(own, _)| interiors.contains(&own.interior)) {
             for n in 0..own.length {
                 let shift = backward3(l, std::array::from_fn(|m| -t[m][n]));
                 let place = blocks.layout.interior[own.interior] + n;
@@ -166,7 +203,7 @@ impl Influence {
         let (photos, interiors) = blocks.observed(point);
         let place = blocks.layout.point[point];
         let column = |at: usize| std::array::from_fn(|a| element(inverse, place + a, at));
-        for (_, photo) in photos {
+        for photo in photos {
             for a in 0..3 {
                 let at = blocks.layout.photo[photo] + 3 + a;
                 keep(&mut self.photos[photo][a], blocks.in_datum(point, at, column(at)), point);

@@ -113,11 +113,6 @@ impl TileMatrix {
         self.pattern.slot(row / TILE, column / TILE) * AREA + column % TILE * TILE + row % TILE
     }
 
-    /// Whether no tile of the lower triangle is absent.
-    pub fn is_full(&self) -> bool {
-        self.pattern.count == self.pattern.side * (self.pattern.side + 1) / 2
-    }
-
     /// The tile and the place in it of a column, for [`Line::at`].
     #[inline]
     pub fn column(column: usize) -> (u32, u32) {

@@ -1,5 +1,7 @@
 //! Quantiles of the test distributions.
 
+use std::sync::LazyLock;
+
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use statrs::function::gamma::gamma_lr;
 
@@ -22,7 +24,8 @@ pub fn critical_w() -> f64 {
 
 /// Non-centrality δ0 at [`ALPHA`] and [`POWER`]: 4.13.
 pub fn noncentrality() -> f64 {
-    critical_w() + normal_quantile(POWER)
+    static ONCE: LazyLock<f64> = LazyLock::new(|| critical_w() + normal_quantile(POWER));
+    *ONCE
 }
 
 /// Quantile of χ² with r degrees of freedom: the cube of E. B. Wilson and M. M. Hilferty (1931), refined by Newton's

@@ -182,7 +182,9 @@ export function writeAdjustedPoints(numbers, places, names) {
     const flags = places[2 * row + 1];
     const point = { id: names[row], xyz: [numbers[n], numbers[n + 1], numbers[n + 2]] };
     if (flags & 1) point.sigma = [numbers[n + 3], numbers[n + 4], numbers[n + 5]];
-    if (flags & 2) point.covariance = Array.from(numbers.subarray(n + 6, n + 12));
+    if (flags & 2) {
+      point.covariance = [numbers[n + 6], numbers[n + 7], numbers[n + 8], numbers[n + 9], numbers[n + 10], numbers[n + 11]];
+    }
     point.rays = places[2 * row];
     rows[row] = point;
   }

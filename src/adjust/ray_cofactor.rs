@@ -1,0 +1,358 @@
+//! Cofactors among the rays of one point, from the inverse Q of the reduced equations.
+//!
+//! With the photo and interior part G of ray i's rows, B = A·L⁻ᵀ and Z = ΣGᵀB (see [`super::normal`]):
+//!
+//! ```text
+//! P_ik = G_i Q G_kᵀ,   C_i = Σ_k P_ik B_k = G_i Q Z,   K = I + ZᵀQZ = I + Σ_i B_iᵀ C_i
+//! ```
+//!
+//! and from these follow the cofactors of the point, L⁻ᵀ K L⁻¹, of its adjusted observations, P_ii + B_i K B_iᵀ - B_i C_iᵀ -
+//! C_i B_iᵀ, and what an error in one of them does to the point, L⁻ᵀ(K B_iᵀ - C_iᵀ). P_ik is two by two and serves both C_i
+//! and C_k, so that Q·Z, three columns for every photo of the point, is never formed. What is not inlined below would leave
+//! its registers within a larger function.
+
+use std::hint::black_box;
+
+use wide::f64x2;
+
+use super::blocks::add_rows;
+use super::cofactor::block;
+use super::eliminated::{Eliminated, Own};
+use super::influence::Taken;
+use super::kernel::TILE;
+use super::layout::Layout;
+use super::network::Network;
+use super::rows::Row;
+use super::tiles::{Line, TileMatrix};
+use super::triple::{backward3, forward3};
+
+/// Two rows over the axes of a point and a zero.
+type Pair = [[f64; 4]; 2];
+
+/// The rays of one point.
+#[derive(Default)]
+pub struct RayCofactors<const N: usize> {
+    b: Vec<Pair>,
+    c: Vec<Pair>,
+    /// Diagonals of P_ii.
+    own: Vec<[f64; 2]>,
+    /// Per interior orientation of the point, its numbers of QZ.
+    pub interiors: Vec<[[f64; N]; 3]>,
+    /// K.
+    pub k: [[f64; 3]; 3],
+    columns: Vec<(u32, u32)>,
+    poses: Vec<[f64; 2]>,
+    p: Vec<[f64x2; 2]>,
+}
+
+impl<const N: usize> RayCofactors<N> {
+    /// Computes everything for an eliminated point.
+    #[inline(never)]
+    pub fn compute(
+        &mut self,
+        inverse: &TileMatrix,
+        layout: &Layout,
+        eliminated: &Eliminated,
+        point: usize,
+        rows: &[Row<N>],
+    ) {
+        let l = &eliminated.factors[point].l;
+        self.b.clear();
+        self.b.extend(rows.iter().map(|row| {
+            row.point.map(|a| {
+                let [x, y, z] = forward3(l, a);
+                [x, y, z, 0.0]
+            })
+        }));
+        self.c.clear();
+        self.c.resize(rows.len(), Pair::default());
+        self.own.clear();
+        self.own.resize(rows.len(), [0.0; 2]);
+        self.columns.clear();
+        self.poses.clear();
+        self.p.resize(rows.len(), [f64x2::ZERO; 2]);
+        for (i, row) in rows.iter().enumerate() {
+            let place = layout.photo[row.photo];
+            // Rays are sorted by place, so that the later one of a pair is the row.
+            self.columns.push(TileMatrix::column(place));
+            self.poses.extend((0..6).map(|k| [row.pose[0][k], row.pose[1][k]]));
+            let sum = among_photos(inverse, inverse.line(place), &self.columns, &self.poses, &self.b, &mut self.p);
+            let sum = sum.map(f64x2::to_array);
+            (0..2).for_each(|s| (0..3).for_each(|m| self.c[i][s][m] = sum[m][s]));
+            add_products(&self.p[..i], &self.b[i], &mut self.c[..i]);
+            let [x, y] = self.p[i].map(f64x2::to_array);
+            self.own[i] = [x[0], y[1]];
+        }
+        self.with_interiors(inverse, layout, eliminated, point, rows);
+        self.k = inner(&self.b, &self.c);
+    }
+
+    /// What the point's interior orientations q add, with U_q = ΣCᵀB: G_i Q_iq U_q to every ray, and to those that q sees the
+    /// interior part of their rows times what QZ has at q.
+    fn with_interiors(
+        &mut self,
+        inverse: &TileMatrix,
+        layout: &Layout,
+        eliminated: &Eliminated,
+        point: usize,
+        rows: &[Row<N>],
+    ) {
+        let place = |q: &Own| (layout.interior[q.interior], q.length);
+        self.interiors.clear();
+        for q in eliminated.own(point) {
+            let u = eliminated.whole_u::<N>(q);
+            let own: [[f64; N]; N] = gathered(inverse, place(q), place(q));
+            let mut t = [[0.0; N]; 3];
+            for other in eliminated.own(point) {
+                let block: [[f64; N]; N] = gathered(inverse, place(q), place(other));
+                for (t, u) in t.iter_mut().zip(eliminated.whole_u::<N>(other)) {
+                    add_rows::<false, N, N>(t, &u, &block);
+                }
+            }
+            for (i, row) in rows.iter().enumerate() {
+                let photo = layout.photo[row.photo];
+                let own = (row.interior == q.interior).then_some(&own);
+                let (of_ray, c) = ((row, &self.b[i]), &mut self.c[i]);
+                let [x, y] = if place(q).0 > photo {
+                    let cross = &inverse.data()[inverse.place(place(q).0, photo)..];
+                    with_interior::<N, TILE>(of_ray, (cross, own), &u, c, &mut t)
+                } else {
+                    let cross: [[f64; N]; 6] = gathered(inverse, place(q), (photo, 6));
+                    with_interior::<N, N>(of_ray, (cross.as_flattened(), own), &u, c, &mut t)
+                };
+                self.own[i][0] += x;
+                self.own[i][1] += y;
+            }
+            for (row, c) in rows.iter().zip(&mut self.c).filter(|(row, _)| row.interior == q.interior) {
+                for (c, interior) in c.iter_mut().zip(&row.interior_rows) {
+                    (0..3).for_each(|m| c[m] += dot(interior, &t[m]));
+                }
+            }
+            self.interiors.push(t);
+        }
+    }
+
+    /// ZᵀVᵀ of the datum's vectors V, from V·rowᵀ of every ray: Σ Bᵀ(V·rowᵀ)ᵀ.
+    #[inline(never)]
+    pub fn carried(&self, taken: &[Taken]) -> [[f64; 8]; 3] {
+        let mut sum = [[0.0; 8]; 3];
+        for (b, taken) in self.b.iter().zip(taken) {
+            for (m, sum) in sum.iter_mut().enumerate() {
+                add_rows::<false, 2, 8>(sum, &[b[0][m], b[1][m]], taken);
+            }
+        }
+        sum
+    }
+
+    /// Per side of ray `i`: cofactor of the weighted adjusted observation, and shift of the point by a unit of its error.
+    #[inline(never)]
+    pub fn ray(&self, i: usize, l: &[f64; 6]) -> ([f64; 2], [[f64; 3]; 2]) {
+        let (b, c) = (&self.b[i], &self.c[i]);
+        let (mut cofactor, mut shift) = (self.own[i], [[0.0; 3]; 2]);
+        for s in 0..2 {
+            let kb = self.k.map(|k| k[0] * b[s][0] + k[1] * b[s][1] + k[2] * b[s][2]);
+            cofactor[s] += (0..3).map(|m| b[s][m] * (kb[m] - 2.0 * c[s][m])).sum::<f64>();
+            shift[s] = backward3(l, std::array::from_fn(|m| kb[m] - c[s][m]));
+        }
+        (cofactor, shift)
+    }
+}
+
+/// QZ of a point at one of its photos, which only given values of the photo ask for.
+pub fn at_photo<const N: usize>(
+    inverse: &TileMatrix,
+    network: &Network,
+    layout: &Layout,
+    eliminated: &Eliminated,
+    point: usize,
+    photo: usize,
+) -> [[f64; 6]; 3] {
+    let mut t = [[0.0; 6]; 3];
+    let here = (layout.photo[photo], 6);
+    let rays = network.points[point].rays.clone();
+    for (ray, z) in network.rays[rays.clone()].iter().zip(&eliminated.z[rays]) {
+        let block: [[f64; 6]; 6] = gathered(inverse, here, (layout.photo[ray.photo], 6));
+        t.iter_mut().zip(z).for_each(|(t, z)| add_rows::<false, 6, 6>(t, z, &block));
+    }
+    for q in eliminated.own(point) {
+        let block: [[f64; 6]; N] = gathered(inverse, here, (layout.interior[q.interior], q.length));
+        let u = eliminated.whole_u::<N>(q);
+        t.iter_mut().zip(&u).for_each(|(t, u)| add_rows::<false, N, 6>(t, u, &block));
+    }
+    t
+}
+
+/// Columns of a block of the inverse, zeros beyond its rows and columns.
+#[inline(never)]
+fn gathered<const R: usize, const C: usize>(
+    inverse: &TileMatrix,
+    (row, rows): (usize, usize),
+    (column, columns): (usize, usize),
+) -> [[f64; R]; C] {
+    let mut gathered = [[0.0; R]; C];
+    let block = block(inverse, row, column);
+    for (j, to) in gathered.iter_mut().enumerate().take(columns) {
+        match block.column(j) {
+            Some(from) => to[..rows].copy_from_slice(&from[..rows]),
+            None => (0..rows).for_each(|i| to[i] = block.get(i, j)),
+        }
+    }
+    gathered
+}
+
+#[inline(always)]
+fn pair(from: &[f64], k: usize) -> f64x2 {
+    f64x2::new([from[k], from[k + 1]])
+}
+
+#[inline(always)]
+fn dot<const C: usize>(a: &[f64; C], b: &[f64; C]) -> f64 {
+    let mut sum = f64x2::ZERO;
+    for k in (0..C).step_by(2) {
+        sum += pair(a, k) * pair(b, k);
+    }
+    let [x, y] = sum.to_array();
+    x + y
+}
+
+/// P_ik for the last of the rays, i, and all k up to it: per side of k both sides of i. `poses` holds six columns of both sides
+/// per ray. Returns what these rays add to C_iᵀ. This is where the time goes.
+///
+/// The columns of a block are a loop in the machine's code too, which their number, unknown to the compiler, sees to: V8 puts
+/// all loads of a stretch without branches before its arithmetic, and unrolled they would overflow the registers.
+#[inline(never)]
+fn among_photos(
+    inverse: &TileMatrix,
+    line: Line,
+    columns: &[(u32, u32)],
+    poses: &[[f64; 2]],
+    b: &[Pair],
+    p: &mut [[f64x2; 2]],
+) -> [f64x2; 3] {
+    let six = black_box(6);
+    let mut sum = [f64x2::ZERO; 3];
+    let mut g = [f64x2::ZERO; 6];
+    let last = poses.len().saturating_sub(6);
+    g.iter_mut().zip(&poses[last..]).for_each(|(g, pose)| *g = f64x2::new(*pose));
+    for (((column, poses), b), p) in columns.iter().zip(poses.chunks_exact(six)).zip(b).zip(p) {
+        let mut both = [f64x2::ZERO; 2];
+        for (q, pose) in inverse.data()[line.at(inverse, *column)..].chunks(TILE).zip(poses) {
+            let q = &q[..6];
+            let mut product = g[0] * f64x2::splat(q[0]);
+            for r in 1..6 {
+                product += g[r] * f64x2::splat(q[r]);
+            }
+            both[0] += product * f64x2::splat(pose[0]);
+            both[1] += product * f64x2::splat(pose[1]);
+        }
+        for m in 0..3 {
+            sum[m] += both[0] * f64x2::splat(b[0][m]) + both[1] * f64x2::splat(b[1][m]);
+        }
+        *p = both;
+    }
+    sum
+}
+
+/// C_k += P_ikᵀ B_i for the rays before i.
+#[inline(never)]
+fn add_products(p: &[[f64x2; 2]], b: &Pair, c: &mut [Pair]) {
+    let b = b.map(|b| [pair(&b, 0), pair(&b, 2)]);
+    for (p, c) in p.iter().zip(c) {
+        for (p, c) in p.iter().zip(c) {
+            let [x, y] = p.to_array().map(f64x2::splat);
+            let sums = [x * b[0][0] + y * b[1][0], x * b[0][1] + y * b[1][1]];
+            let [low, high] = [pair(c, 0) + sums[0], pair(c, 2) + sums[1]].map(f64x2::to_array);
+            *c = [low[0], low[1], high[0], high[1]];
+        }
+    }
+}
+
+/// K.
+#[inline(never)]
+fn inner(b: &[Pair], c: &[Pair]) -> [[f64; 3]; 3] {
+    let mut k = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+    for (b, c) in b.iter().zip(c) {
+        for (m, k) in k.iter_mut().enumerate() {
+            add_rows::<false, 2, 4>(k, &[b[0][m], b[1][m]], c);
+        }
+    }
+    k.map(|[x, y, z, _]| [x, y, z])
+}
+
+/// One ray's part of [`RayCofactors::with_interiors`], by the block Q_q,photo, whose columns stand STRIDE apart, and, if q sees
+/// the ray, Q_qq; returns what the diagonal of P_ii gains.
+#[inline(never)]
+fn with_interior<const N: usize, const STRIDE: usize>(
+    (row, b): (&Row<N>, &Pair),
+    (cross, own): (&[f64], Option<&[[f64; N]; N]>),
+    u: &[[f64; N]; 3],
+    c: &mut Pair,
+    t: &mut [[f64; N]; 3],
+) -> [f64; 2] {
+    let cross = &cross[..5 * STRIDE + N];
+    let mut y = [[0.0; N]; 2];
+    for s in 0..2 {
+        for k in (0..N).step_by(2) {
+            let mut sum = pair(cross, k) * f64x2::splat(row.pose[s][0]);
+            for j in 1..6 {
+                sum += pair(cross, j * STRIDE + k) * f64x2::splat(row.pose[s][j]);
+            }
+            y[s][k..k + 2].copy_from_slice(&sum.to_array());
+        }
+        (0..3).for_each(|m| c[s][m] += dot(&y[s], &u[m]));
+    }
+    for m in 0..3 {
+        add_rows::<false, 2, N>(&mut t[m], &[b[0][m], b[1][m]], &y);
+    }
+    let Some(own) = own else { return [0.0; 2] };
+    std::array::from_fn(|s| {
+        let interior = &row.interior_rows[s];
+        let mut sum = y[s].map(|y| 2.0 * y);
+        add_rows::<false, N, N>(&mut sum, interior, own);
+        dot(&sum, interior)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tiles::Pattern;
+    use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn products_among_rays_agree_with_the_plain_matrix() {
+        // Three photos in two tiles.
+        let places = [6, 30, TILE + 12];
+        let number = |i: usize, j: usize| ((i.max(j) * 31 + i.min(j) * 7) as f64).sin();
+        let mut q = TileMatrix::new(Pattern::new(2, [(0, 0), (1, 0), (1, 1)].into_iter()));
+        for column in 0..2 * TILE {
+            for row in (0..2 * TILE).filter(|row| row / TILE >= column / TILE) {
+                let at = q.place(row, column);
+                q.data_mut()[at] = number(row, column);
+            }
+        }
+        let pose = |k: usize, s: usize, r: usize| (0.4 + k as f64 + 2.1 * s as f64 + 0.7 * r as f64).cos();
+        let poses: Vec<[f64; 2]> = (0..3).flat_map(|k| (0..6).map(move |r| [pose(k, 0, r), pose(k, 1, r)])).collect();
+        let b: Vec<Pair> = (0..3)
+            .map(|k| {
+                [0, 1].map(|s| [0, 1, 2, 3].map(|m| if m < 3 { (k * 5 + s * 3 + m) as f64 * 0.3 - 1.0 } else { 0.0 }))
+            })
+            .collect();
+        let columns: Vec<(u32, u32)> = places.iter().map(|place| TileMatrix::column(*place)).collect();
+        let (mut c, mut p) = (vec![Pair::default(); 3], vec![[f64x2::ZERO; 2]; 3]);
+        for i in 0..3 {
+            let sum = among_photos(&q, q.line(places[i]), &columns[..=i], &poses[..6 * (i + 1)], &b, &mut p);
+            let sum = sum.map(f64x2::to_array);
+            (0..2).for_each(|s| (0..3).for_each(|m| c[i][s][m] = sum[m][s]));
+            add_products(&p[..i], &b[i], &mut c[..i]);
+        }
+        let plain = |i: usize, s: usize, k: usize, t: usize| -> f64 {
+            (0..36).map(|n| pose(i, s, n / 6) * number(places[i] + n / 6, places[k] + n % 6) * pose(k, t, n % 6)).sum()
+        };
+        for (i, s, m) in (0..18).map(|n| (n / 6, n / 3 % 2, n % 3)) {
+            let wanted: f64 = (0..6).map(|n| plain(i, s, n / 2, n % 2) * b[n / 2][n % 2][m]).sum();
+            assert!((c[i][s][m] - wanted).abs() < 1e-12, "{i} {s} {m}: {} {wanted}", c[i][s][m]);
+        }
+    }
+}
