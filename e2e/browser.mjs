@@ -10,8 +10,11 @@ const FLAGS = [
   '--enable-unsafe-swiftshader',
 ];
 
-/** A fresh browser on the page: nothing is left of other tests. What the page logs as an error or throws is in `errors`. */
-export async function open({ width = 1440, height = 900, ...options } = {}) {
+/**
+ * A fresh browser on the page: nothing is left of other tests. What the page logs as an error or throws is in `errors`.
+ * `cores` is what the page is told of the processor, which decides how many workers it starts.
+ */
+export async function open({ width = 1440, height = 900, cores, ...options } = {}) {
   const { SIGHTLINE_URL: url, CHROMIUM: program } = process.env;
   if (!url || !program) throw new Error('run these tests with: cargo xtask test page');
   const executablePath = program.includes('/') ? program : which(program);
@@ -22,6 +25,7 @@ export async function open({ width = 1440, height = 900, ...options } = {}) {
     rmSync(profile, { recursive: true, force: true });
   };
   const errors = [];
+  if (cores) await context.addInitScript((n) => Object.defineProperty(Navigator.prototype, 'hardwareConcurrency', { get: () => n }), cores);
   const page = context.pages()[0] ?? (await context.newPage());
   page.on('pageerror', (error) => errors.push(String(error)));
   page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));

@@ -3,6 +3,7 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, writeFileSync } fro
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { inflateRawSync } from 'node:zlib';
 
 const root = process.env.SIGHTLINE_DATA ?? fileURLToPath(new URL('../../shared/data', import.meta.url));
 
@@ -50,6 +51,12 @@ export async function photos(page, paths) {
   await drop(page, paths);
   await page.waitForFunction(() => location.hash === '#photos', undefined, { timeout: 120_000 });
   await idle(page);
+}
+
+/** The sample project, opened and adjusted. */
+export async function sample(page) {
+  await page.click('.sample');
+  await page.waitForFunction(() => location.hash === '#results', undefined, { timeout: 300_000 });
 }
 
 /** Waits until no long work is under way. */
@@ -100,6 +107,22 @@ export async function downloads(page, count, click) {
   const all = {};
   for (const download of seen) all[download.suggestedFilename()] = readFileSync(await download.path());
   return all;
+}
+
+/** The files of an archive, by its directory. */
+export function unzipped(zip) {
+  const files = {};
+  const end = zip.lastIndexOf(Buffer.from([0x50, 0x4b, 5, 6]));
+  let at = zip.readUInt32LE(end + 16);
+  for (let i = 0; i < zip.readUInt16LE(end + 10); i++) {
+    const [method, size, name, extra, comment] = [zip.readUInt16LE(at + 10), zip.readUInt32LE(at + 20), ...[28, 30, 32].map((k) => zip.readUInt16LE(at + k))];
+    const local = zip.readUInt32LE(at + 42);
+    const start = local + 30 + zip.readUInt16LE(local + 26) + zip.readUInt16LE(local + 28);
+    const content = zip.subarray(start, start + size);
+    files[zip.toString('utf8', at + 46, at + 46 + name)] = method === 0 ? content : inflateRawSync(content);
+    at += 46 + name + extra + comment;
+  }
+  return files;
 }
 
 /** Rows of a CSV file with a heading; none of our fields holds a comma. */

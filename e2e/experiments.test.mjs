@@ -3,11 +3,10 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { test } from 'node:test';
-import { inflateRawSync } from 'node:zlib';
 
 import * as sightline from '../pkg/sightline.js';
 import { open } from './browser.mjs';
-import { adjust, downloads, drop, figure, idle, notice, rows, scratch } from './desk.mjs';
+import { adjust, downloads, drop, figure, idle, notice, rows, scratch, unzipped } from './desk.mjs';
 
 sightline.initSync({ module: readFileSync(fileURLToPath(new URL('../pkg/sightline_bg.wasm', import.meta.url))) });
 
@@ -34,22 +33,6 @@ async function run(page) {
   });
   await idle(page);
   return { took: Date.now() - began, longest };
-}
-
-/** The files of an archive, by its directory. */
-function unzipped(zip) {
-  const files = {};
-  const end = zip.lastIndexOf(Buffer.from([0x50, 0x4b, 5, 6]));
-  let at = zip.readUInt32LE(end + 16);
-  for (let i = 0; i < zip.readUInt16LE(end + 10); i++) {
-    const [method, size, name, extra, comment] = [zip.readUInt16LE(at + 10), zip.readUInt32LE(at + 20), ...[28, 30, 32].map((k) => zip.readUInt16LE(at + k))];
-    const local = zip.readUInt32LE(at + 42);
-    const start = local + 30 + zip.readUInt16LE(local + 26) + zip.readUInt16LE(local + 28);
-    const content = zip.subarray(start, start + size);
-    files[zip.toString('utf8', at + 46, at + 46 + name)] = method === 0 ? content : inflateRawSync(content);
-    at += 46 + name + extra + comment;
-  }
-  return files;
 }
 
 const longer = { timeout: 600_000 };

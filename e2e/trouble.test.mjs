@@ -4,13 +4,7 @@ import { deflateSync } from 'node:zlib';
 import { test } from 'node:test';
 
 import { open } from './browser.mjs';
-import { adjust, downloads, drop, go, idle, notice, photos, scratch } from './desk.mjs';
-
-/** The sample project, opened and adjusted. */
-async function sample(page) {
-  await page.click('.sample');
-  await page.waitForFunction(() => location.hash === '#results', undefined, { timeout: 300_000 });
-}
+import { adjust, downloads, drop, go, idle, notice, photos, sample, scratch } from './desk.mjs';
 
 /** A grey PNG of one value: a photo without a target. */
 function plainPng(width, height) {

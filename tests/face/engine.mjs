@@ -13,7 +13,8 @@ const folder = process.env.SIGHTLINE_DATA || join(root, '../shared/data');
 /** Whether the data is here; where it is, no test is skipped. */
 export const hasData = existsSync(folder);
 export const skip = hasData ? false : 'skipped, no data';
-export const data = (path) => readFileSync(join(folder, path));
+export const dataPath = (path) => join(folder, path);
+export const data = (path) => readFileSync(dataPath(path));
 
 /** What a function throws; a trap is no error of the engine. */
 export function thrown(action) {

@@ -81,10 +81,19 @@ pub fn metadata() -> Outcome<Value> {
     serde_json::from_str(&text).map_err(|error| format!("cargo metadata: {error}"))
 }
 
+/// Builds an example of the engine natively, with what the tests are built with, and gives its path.
+pub fn example(name: &str) -> Outcome<String> {
+    run(&mut cargo(&["build", "--profile", "test", "--package", "sightline", "--example", name]))?;
+    Ok(format!("{}/debug/examples/{name}{}", target_directory()?, std::env::consts::EXE_SUFFIX))
+}
+
+/// Where cargo builds.
+pub fn target_directory() -> Outcome<String> {
+    Ok(metadata()?["target_directory"].as_str().ok_or("cargo metadata names no target directory")?.to_owned())
+}
+
 fn bindings(wasm: &str, folder: &Path, name: &str, target: &str) -> Outcome {
-    let directory =
-        metadata()?["target_directory"].as_str().ok_or("cargo metadata names no target directory")?.to_owned();
-    let wasm = format!("{directory}/{TARGET}/release/{wasm}");
+    let wasm = format!("{}/{TARGET}/release/{wasm}", target_directory()?);
     let folder = folder.to_str().ok_or("the repository's path is not UTF-8")?;
     let mut arguments = vec!["wasm-bindgen", "--target", target, "--out-dir", folder, "--out-name", name];
     arguments.extend(["--remove-name-section", "--remove-producers-section", &wasm]);

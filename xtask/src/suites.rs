@@ -67,7 +67,9 @@ fn wasm() -> Outcome<Count> {
 fn face() -> Outcome<Count> {
     install::packages()?;
     build::pkg()?;
-    node_tests("tests/face", &[])
+    // Its numbers are compared with those that the engine gives natively.
+    let native = build::example("targets")?;
+    node_tests("tests/face", &[("SIGHTLINE_NATIVE", &native)])
 }
 
 /// The declarations of pkg/ with a program that uses them, under the strictest compiler.
