@@ -1,6 +1,7 @@
 //! Pictures of targets from an independent renderer: exact along each of many sub-rows, a sum across them. It shares
 //! neither formula nor code with the engine's own rendering.
 
+use nalgebra::{DMatrix, DVector};
 use sightline::image::{Grey, Samples};
 use sightline::noise::Noise;
 
@@ -71,6 +72,36 @@ impl Canvas {
             self.levels.iter().map(|level| (level + noise * source.normal()).round().clamp(0.0, 255.0) as u8).collect();
         Grey { width: self.width, height: self.height, samples: Samples::U8(samples) }
     }
+}
+
+/// Cramér-Rao bound of a spot's centre per axis in pixels, by differences of painted pictures: unknown are centre, axes,
+/// angle, contrast, blur and the first `background` terms of a plane (1 for a level, 3 with its slopes). The noise is the
+/// picture's and that of rounding.
+pub fn bound(spot: &Spot, blur: f64, noise: f64, background: usize) -> f64 {
+    let size = (2.0 * (spot.a + 5.0 * blur + 8.0)) as usize;
+    let middle = size as f64 / 2.0;
+    let image = |k: usize, step: f64| {
+        let d = |i: usize| if i == k { step } else { 0.0 };
+        let mut canvas = Canvas::new(size, size, 0.0);
+        let moved = Spot {
+            u: middle + spot.u.fract() + d(0),
+            v: middle + spot.v.fract() + d(1),
+            a: spot.a + d(2),
+            b: spot.b + d(3),
+            angle: spot.angle + d(4) / spot.a,
+            contrast: spot.contrast + d(5),
+        };
+        canvas.add(&moved, blur + d(6));
+        DVector::from_vec(canvas.levels)
+    };
+    // a circle has no angle
+    let shape = (0..7).filter(|k| *k != 4 || spot.a != spot.b);
+    let mut columns: Vec<_> = shape.map(|k| (image(k, 0.02) - image(k, -0.02)) / 0.04).collect();
+    let plane = |k: usize, i: usize| [1.0, (i % size) as f64 - middle, (i / size) as f64 - middle][k];
+    columns.extend((0..background).map(|k| DVector::from_fn(size * size, |i, _| plane(k, i))));
+    let design = DMatrix::from_columns(&columns);
+    let cofactors = (design.transpose() * design).try_inverse().expect("regular");
+    ((noise * noise + 1.0 / 12.0) * (cofactors[(0, 0)] + cofactors[(1, 1)]) / 2.0).sqrt()
 }
 
 fn range(from: f64, to: f64, size: usize) -> std::ops::Range<usize> {

@@ -1,7 +1,6 @@
 //! What makes targets hard: blur, clipping, flatness, size, neighbours, the border, glare, gradients, 16 bits. Whatever is
 //! reported must be as good as its sigma says; where the light alone limits it, it must reach the Cramér-Rao bound.
 
-use nalgebra::{DMatrix, DVector};
 use sightline::detect::{detect, measure_at};
 use sightline::detection::{DetectOptions, Detection, Reason, Target};
 use sightline::image::{Grey, Samples};
@@ -9,41 +8,12 @@ use sightline::noise::Noise;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use crate::painter::{Canvas, Spot, Uniform};
+use crate::painter::{Canvas, Spot, Uniform, bound};
 
 const DISC: Spot = Spot { u: 0.0, v: 0.0, a: 5.0, b: 5.0, angle: 0.0, contrast: 100.0 };
 
 fn circle(diameter: f64, contrast: f64) -> Spot {
     Spot { a: diameter / 2.0, b: diameter / 2.0, contrast, ..DISC }
-}
-
-/// Cramér-Rao bound of a spot's centre per axis, by differences of painted pictures: unknown are centre, axes, angle,
-/// contrast, blur and a background plane.
-fn bound(spot: &Spot, blur: f64, noise: f64) -> f64 {
-    let size = (2.0 * (spot.a + 5.0 * blur + 8.0)) as usize;
-    let middle = size as f64 / 2.0;
-    let image = |k: usize, step: f64| {
-        let d = |i: usize| if i == k { step } else { 0.0 };
-        let mut canvas = Canvas::new(size, size, 0.0);
-        let moved = Spot {
-            u: middle + spot.u.fract() + d(0),
-            v: middle + spot.v.fract() + d(1),
-            a: spot.a + d(2),
-            b: spot.b + d(3),
-            angle: spot.angle + d(4) / spot.a,
-            contrast: spot.contrast + d(5),
-        };
-        canvas.add(&moved, blur + d(6));
-        DVector::from_vec(canvas.levels)
-    };
-    // a circle has no angle
-    let shape = (0..7).filter(|k| *k != 4 || spot.a != spot.b);
-    let mut columns: Vec<_> = shape.map(|k| (image(k, 0.02) - image(k, -0.02)) / 0.04).collect();
-    let plane = |k: usize, i: usize| [1.0, (i % size) as f64 - middle, (i / size) as f64 - middle][k];
-    columns.extend((0..3).map(|k| DVector::from_fn(size * size, |i, _| plane(k, i))));
-    let design = DMatrix::from_columns(&columns);
-    let cofactors = (design.transpose() * design).try_inverse().expect("regular");
-    ((noise * noise + 1.0 / 12.0) * (cofactors[(0, 0)] + cofactors[(1, 1)]) / 2.0).sqrt()
 }
 
 /// A square of spots at random places within their pixels.
@@ -153,7 +123,7 @@ fn out_of_focus_faint_and_flat_targets_reach_the_bound() {
         let name = format!("diameter {diameter}, blur {blur}, contrast {contrast}");
         let spot = circle(diameter, contrast);
         let (errors, found) = all_found(&name, |_| spot, level, blur, 2.0);
-        let limit = bound(&spot, blur, 2.0);
+        let limit = bound(&spot, blur, 2.0, 3);
         assert!(errors.rms() < 1.15 * limit, "{name}: rms {} for {limit}", errors.rms());
         let worst = found.targets.iter().map(|t| (t.quality.edge_width / blur - 1.0).abs()).fold(0.0, f64::max);
         assert!(worst < 0.25, "{name}: blur off by {worst}");
@@ -163,7 +133,7 @@ fn out_of_focus_faint_and_flat_targets_reach_the_bound() {
         let name = format!("semi-axis {a}, ratio {ratio}, contrast {contrast}");
         let kind = |random: &mut Uniform| Spot { a, b: a * ratio, angle: random.within(0.0, 3.1), contrast, ..DISC };
         let (errors, _) = all_found(&name, kind, 120.0, 0.7, 2.0);
-        let limit = bound(&kind(&mut Uniform(1)), 0.7, 2.0);
+        let limit = bound(&kind(&mut Uniform(1)), 0.7, 2.0, 3);
         assert!(errors.rms() < 1.15 * limit, "{name}: rms {} for {limit}", errors.rms());
         all.push(errors);
     }

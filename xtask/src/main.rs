@@ -1,5 +1,6 @@
 //! Builds, serves and tests Sightline: `cargo xtask <command>` is the whole interface, and installs nothing globally.
 
+mod bench;
 mod build;
 mod check;
 mod install;
@@ -18,7 +19,7 @@ cargo xtask <command>
   serve [--port N]     build, serve the page on loopback and print the address (port 8080, or the next free one)
   build                leave the page in dist/ and the engine with its JavaScript face in pkg/
   test [suite ...]     run everything, or only the suites named: native wasm face types page
-  bench                measure the engine natively, and whole calls from JavaScript in Node
+  bench [part ...]     measure the engine as wasm in Node, or only the parts named: detect border growth
   check                licences of the dependency tree, invariants of the code, the code map; works offline
   test-runner          run a wasm test binary in Node (cargo calls this)";
 
@@ -43,14 +44,7 @@ fn run(arguments: &[String]) -> Outcome {
             build::dist()
         }
         "test" => suites::command(rest),
-        "bench" => {
-            none_of(rest)?;
-            install::node()?;
-            build::pkg()?;
-            process::run(&mut process::cargo(&["bench", "--package", "sightline"]))?;
-            process::run(&mut process::program("node", &["benches/border.mjs"]))?;
-            process::run(&mut process::program("node", &["benches/growth.mjs"]))
-        }
+        "bench" => bench::command(rest),
         "check" => {
             none_of(rest)?;
             check::command()

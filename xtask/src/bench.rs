@@ -1,0 +1,38 @@
+//! `cargo xtask bench`: what is measured of the engine, as wasm in Node on one thread.
+
+use crate::install;
+use crate::process::{cargo, program, run};
+use crate::{Outcome, build};
+
+/// A part: its name on the command line and how it runs.
+type Part = (&'static str, fn() -> Outcome);
+
+const PARTS: [Part; 3] = [("detect", detect), ("border", || script("border")), ("growth", || script("growth"))];
+
+/// `bench [part ...]`.
+pub fn command(names: &[String]) -> Outcome {
+    if let Some(name) = names.iter().find(|name| PARTS.iter().all(|(part, _)| part != name)) {
+        let known = PARTS.map(|(part, _)| part).join(", ");
+        return Err(format!("there is no part {name}; the parts are {known}"));
+    }
+    install::node()?;
+    build::pkg()?;
+    for (name, part) in PARTS {
+        if names.is_empty() || names.iter().any(|wanted| wanted == name) {
+            println!("== {name}");
+            part()?;
+        }
+    }
+    Ok(())
+}
+
+/// Targets whose truth is known are painted natively and detected in Node.
+fn detect() -> Outcome {
+    let folder = format!("{}/bench", build::target_directory()?);
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "detect", "--", &folder]))?;
+    run(&mut program("node", &["benches/detect.mjs", &folder]))
+}
+
+fn script(name: &str) -> Outcome {
+    run(&mut program("node", &[&format!("benches/{name}.mjs")]))
+}
