@@ -16,8 +16,8 @@ pub(crate) struct EllipseFit {
     pub outline: Outline,
     /// Rms of the orthogonal distances of the kept points, in pixels.
     pub rms: f64,
-    /// Cofactors of (u, v, p, q, r): their covariance for independent edge points of sigma 1 px.
-    pub cofactors: SMatrix<f64, 5, 5>,
+    /// Normal matrix of (u, v, p, q, r) for independent edge points of sigma 1 px.
+    pub normal: SMatrix<f64, 5, 5>,
     /// Share of the rays without a fitting edge.
     pub occluded: f64,
     /// Longest run of such rays, as a share of all.
@@ -29,9 +29,21 @@ const TOLERANCE: f64 = 0.25;
 /// Largest distance of a kept point, in robust standard deviations.
 const SIGMAS: f64 = 3.0;
 
-/// Fits an ellipse to the kept points; updates which are kept. A rough start, more than a few tenths of a pixel off, is
-/// replaced by the direct fit first.
-pub(crate) fn fit(points: &mut [EdgePoint], start: &Outline, rough: bool) -> Option<EllipseFit> {
+/// How a fit starts and ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Start {
+    /// More than a few tenths of a pixel off: replaced by the direct fit, and refined once.
+    Rough,
+    /// Near: refined until the last correction is below so many pixels.
+    Near(f64),
+}
+
+/// Fits an ellipse to the kept points; updates which are kept.
+pub(crate) fn fit(points: &mut [EdgePoint], start: &Outline, from: Start) -> Option<EllipseFit> {
+    let (rough, converged) = match from {
+        Start::Rough => (true, f64::INFINITY),
+        Start::Near(converged) => (false, converged),
+    };
     let count = points.len();
     let (mut distances, mut kept) = (Vec::with_capacity(count), Vec::with_capacity(count));
     let mut outline = *start;
@@ -42,7 +54,10 @@ pub(crate) fn fit(points: &mut [EdgePoint], start: &Outline, rough: bool) -> Opt
     for round in 0..if rough { 3 } else { 0 } {
         let tolerance = if round == 0 { 2.0 * TOLERANCE } else { TOLERANCE };
         if !changed {
-            // the same points have the same ellipse
+            // the same points have the same ellipse: only the limit may still change
+            if round > 1 {
+                break;
+            }
             changed = select(points, &outline, &mut distances, 1.5, tolerance);
             continue;
         }
@@ -61,8 +76,7 @@ pub(crate) fn fit(points: &mut [EdgePoint], start: &Outline, rough: bool) -> Opt
         if used < 8.max(count / 3) {
             return None;
         }
-        let cofactors = normal.try_inverse()?;
-        let step = cofactors * right;
+        let step = normal.cholesky()?.solve(&right);
         outline = outline.plus(step.as_slice());
         if !outline.is_proper() {
             return None;
@@ -70,11 +84,11 @@ pub(crate) fn fit(points: &mut [EdgePoint], start: &Outline, rough: bool) -> Opt
         result = Some(EllipseFit {
             outline,
             rms: (sum / (used - 5) as f64).sqrt(),
-            cofactors,
+            normal,
             occluded: 1.0 - used as f64 / count as f64,
             gap: longest_gap(points) as f64 / count as f64,
         });
-        if step.amax() < 1e-4 {
+        if !rough && step.amax() < converged {
             break;
         }
         select(points, &outline, &mut distances, SIGMAS, TOLERANCE);
@@ -94,17 +108,20 @@ fn longest_gap(points: &[EdgePoint]) -> usize {
 
 /// Normal equations of the orthogonal distances: matrix, right-hand side, sum of squares, number of points.
 fn normal_equations(points: &[EdgePoint], outline: &Outline) -> (SMatrix<f64, 5, 5>, SVector<f64, 5>, f64, usize) {
-    let (mut normal, mut right) = (SMatrix::<f64, 5, 5>::zeros(), SVector::<f64, 5>::zeros());
+    let (mut lower, mut right) = ([[0.0; 5]; 5], [0.0; 5]);
     let (mut sum, mut used) = (0.0, 0);
     for point in points.iter().filter(|point| point.kept) {
         let (rim, distance) = outline.nearest(point.x, point.y);
-        let row = SVector::<f64, 5>::from_column_slice(&rim.moves);
-        normal += row * row.transpose();
-        right += row * distance;
+        for i in 0..5 {
+            for j in 0..=i {
+                lower[i][j] += rim.moves[i] * rim.moves[j];
+            }
+            right[i] += rim.moves[i] * distance;
+        }
         sum += distance * distance;
         used += 1;
     }
-    (normal, right, sum, used)
+    (SMatrix::from_fn(|i, j| lower[i.max(j)][i.min(j)]), SVector::from(right), sum, used)
 }
 
 /// Keeps the points that have an edge and lie near the rim: within some robust sigmas, at least `tolerance` pixels.
@@ -153,8 +170,8 @@ mod tests {
             })
             .collect();
         let start = truth.plus(&[0.8, -0.7, 0.5, -0.4, 0.1]);
-        let rough = fit(&mut points, &start, true).unwrap();
-        let found = fit(&mut points, &rough.outline, false).unwrap();
+        let rough = fit(&mut points, &start, Start::Rough).unwrap();
+        let found = fit(&mut points, &rough.outline, Start::Near(1e-4)).unwrap();
         assert!((found.outline.u - truth.u).hypot(found.outline.v - truth.v) < 0.02, "{found:?}");
         assert!((found.occluded - 0.2).abs() < 1e-9, "{found:?}");
     }
@@ -166,6 +183,6 @@ mod tests {
             .enumerate()
             .map(|(k, rim)| EdgePoint { x: rim.x, y: rim.y, strength: if k < 9 { 50.0 } else { 0.0 }, kept: k < 9 })
             .collect();
-        assert!(fit(&mut points, &truth, true).is_none());
+        assert!(fit(&mut points, &truth, Start::Rough).is_none());
     }
 }

@@ -45,6 +45,8 @@ pub(crate) struct Fit {
 pub(crate) struct Workspace {
     field: Field,
     band: Band,
+    /// Place that the band's pixels are counted from.
+    origin: [f64; 2],
 }
 
 /// Outline, blur and contrast of a fit to all pixels, which only needs to be good enough to choose the pixels of the next
@@ -60,8 +62,9 @@ pub(crate) fn approach<T: Sample>(
     let (mut normal, mut render_all, mut last) = (Normal::zeros(), true, f64::INFINITY);
     for round in 0.. {
         state.may_go_on(round)?;
-        work.residuals(&state, render_all)?;
+        work.residuals(&state, false)?;
         if render_all {
+            work.band.sketch(&state.outline, state.blur, work.origin);
             normal = work.normal(&state, &flats);
         }
         let (size, used) = state.step(&normal, &work.right(&state, &flats))?;
@@ -154,6 +157,7 @@ impl Workspace {
             contrast: surround.contrast,
             background: [surround.level, surround.slope[0], surround.slope[1]],
         };
+        self.origin = [region.outline.u, region.outline.v];
         self.field.place(&region.outline, state.blur, region.half_band);
         Some((state, self.band.collect(plane, &self.field, region)?))
     }
@@ -164,7 +168,7 @@ impl Workspace {
             return None;
         }
         self.field.render(&state.outline, state.blur, derivatives, &self.band.spans);
-        self.band.gather(&self.field, derivatives);
+        self.band.gather(&self.field, self.origin, derivatives.then_some(&state.outline));
         self.band.subtract(state.contrast, state.background);
         Some(())
     }

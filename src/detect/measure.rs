@@ -4,7 +4,7 @@ use super::band::Region;
 use super::centroid::{self, Centre};
 use super::code::DotLevels;
 use super::edge::{self, EdgePoint, Profile};
-use super::ellipse::{self, EllipseFit};
+use super::ellipse::{self, EllipseFit, Start};
 use super::fit::{self, Workspace};
 use super::look;
 use super::noise::Levels;
@@ -34,6 +34,12 @@ fn undisturbed(edges: &[EdgePoint]) -> Vec<bool> {
     let count = edges.len();
     (0..count).map(|k| edges[k].kept || edges[(k + 1) % count].kept && edges[(k + count - 1) % count].kept).collect()
 }
+
+/// Rings of a first look at the surround.
+const NEARBY: u32 = 6;
+
+/// Correction, in pixels, that ends the refinement of an ellipse that only starts the final measurement.
+const NEAR: f64 = 0.005;
 
 /// Expected corrections, in pixels, that end the approach and the fit.
 const ROUGH: f64 = 2e-3;
@@ -117,7 +123,8 @@ impl<'a, T: Sample> Measure<'a, T> {
                     self.search(&outline, bright, reach, count, focus);
                 }
             }
-            let found = ellipse::fit(&mut self.edges, &outline, round == 0).ok_or(Reason::NotAnEllipse)?;
+            let from = if round == 0 { Start::Rough } else { Start::Near(NEAR) };
+            let found = ellipse::fit(&mut self.edges, &outline, from).ok_or(Reason::NotAnEllipse)?;
             outline = found.outline;
             // out of focus, two pixels see but 0.8 / s of the contrast
             let contrast = self.strength() * if focus > DEFOCUSED { 1.25 * focus } else { 1.0 };
@@ -163,10 +170,11 @@ impl<'a, T: Sample> Measure<'a, T> {
             return Err(Reason::NotAnEllipse);
         }
         let kept = undisturbed(&self.edges);
-        let rough = surround::measure(&self.plane, &outline, focus.max(SHARP), &kept).ok_or(Reason::AtBorder)?;
+        let rough =
+            surround::measure(&self.plane, &outline, focus.max(SHARP), &kept, NEARBY).ok_or(Reason::AtBorder)?;
         let blur = self.blur(rough.contrast.abs());
         let surround = if blur > BLURRED {
-            surround::measure(&self.plane, &outline, blur, &kept).ok_or(Reason::AtBorder)?
+            surround::measure(&self.plane, &outline, blur, &kept, NEARBY).ok_or(Reason::AtBorder)?
         } else {
             rough
         };
@@ -252,6 +260,12 @@ impl<'a, T: Sample> Measure<'a, T> {
         ((1.0 / z.max(0.05)).powi(2) - SAMPLED).max(0.09).sqrt().min(6.5)
     }
 
+    /// The whole surround of an outline of about this blur.
+    fn surround(&self, outline: &Outline, blur: f64, kept: &[bool]) -> Result<Surround, Reason> {
+        let blur = if blur > BLURRED { blur } else { SHARP };
+        surround::measure(&self.plane, outline, blur, kept, u32::MAX).ok_or(Reason::NoFit)
+    }
+
     /// Measurement of a found target by one method.
     pub fn finish(&mut self, found: &Found, method: Method) -> Result<Target, Reason> {
         let measured = self.measured(found, method);
@@ -262,28 +276,29 @@ impl<'a, T: Sample> Measure<'a, T> {
 
     fn measured(&mut self, found: &Found, method: Method) -> Result<Target, Reason> {
         let mut outline = found.ellipse.outline;
-        let (mut contrast, mut blur) = (found.surround.contrast.abs(), found.blur);
+        let mut surround = match method {
+            Method::LeastSquares => found.surround,
+            _ => self.surround(&outline, found.blur, &found.kept)?,
+        };
+        let (mut contrast, mut blur) = (surround.contrast.abs(), found.blur);
         let (mut fit_rms, mut occluded) = (found.ellipse.rms, found.ellipse.occluded);
         let margin = 3.0 * (blur * blur + 1.0 / 12.0).sqrt() + 0.5;
         let centre = match method {
             Method::LeastSquares => {
-                let fit = self.least_squares(found)?;
+                let (fit, around) = self.least_squares(found)?;
+                surround = around;
                 outline = fit.outline;
                 (contrast, blur, fit_rms) = (fit.contrast.abs(), fit.blur, fit.rms);
                 Centre { u: outline.u, v: outline.v, covariance: fit.covariance }
             }
             Method::Ellipse => {
-                let (fit, covariance) = self.refined_ellipse(found)?;
+                let (fit, covariance) = self.refined_ellipse(found, &surround)?;
                 outline = fit.outline;
                 (fit_rms, occluded) = (fit.rms, fit.occluded);
                 Centre { u: outline.u, v: outline.v, covariance }
             }
-            Method::Intensity => {
-                centroid::intensity(&self.plane, &outline, &found.surround, margin).ok_or(Reason::NoFit)?
-            }
-            Method::Gradient => {
-                centroid::gradient(&self.plane, &outline, &found.surround, margin).ok_or(Reason::NoFit)?
-            }
+            Method::Intensity => centroid::intensity(&self.plane, &outline, &surround, margin).ok_or(Reason::NoFit)?,
+            Method::Gradient => centroid::gradient(&self.plane, &outline, &surround, margin).ok_or(Reason::NoFit)?,
         };
         let (a, b, angle) = outline.axes();
         let [uu, uv, vv] = centre.covariance;
@@ -304,7 +319,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             code: None,
             quality: Quality {
                 fit_rms,
-                noise: found.surround.noise,
+                noise: surround.noise,
                 edge_width: blur,
                 saturated: self.saturated(&outline),
                 code_margin: None,
@@ -317,9 +332,8 @@ impl<'a, T: Sample> Measure<'a, T> {
 
     /// The ellipse through edges refined with the target's own levels and blur, and the covariance of its centre: the
     /// propagated noise, and as much more as the edges scatter more than it explains.
-    fn refined_ellipse(&mut self, found: &Found) -> Result<(EllipseFit, [f64; 3]), Reason> {
+    fn refined_ellipse(&mut self, found: &Found, surround: &Surround) -> Result<(EllipseFit, [f64; 3]), Reason> {
         let outline = found.ellipse.outline;
-        let surround = &found.surround;
         let profile = Profile {
             level: surround.level,
             slope: surround.slope,
@@ -329,8 +343,9 @@ impl<'a, T: Sample> Measure<'a, T> {
         };
         let count = (outline.perimeter() / 4.0).round() as usize * 4;
         edge::refine(&self.plane, &outline, &profile, count.clamp(20, 1500), &mut self.edges);
-        let fit = ellipse::fit(&mut self.edges, &outline, false).ok_or(Reason::NoFit)?;
-        let (unit, edge) = propagation::covariance(&outline, &profile, &self.edges, &fit.outline, &fit.cofactors);
+        let fit = ellipse::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
+        let cofactors = fit.normal.cholesky().ok_or(Reason::NoFit)?.inverse();
+        let (unit, edge) = propagation::covariance(&outline, &profile, &self.edges, &fit.outline, &cofactors);
         let noise = surround.noise.powi(2).max(1.0 / 12.0);
         let variance = noise.max(fit.rms * fit.rms / edge.max(1e-12));
         Ok((fit, unit.map(|q| q * variance)))
@@ -345,7 +360,7 @@ impl<'a, T: Sample> Measure<'a, T> {
     ///
     /// Which pixels count depends on the outline around which they are chosen. An approach from the edges finds
     /// the outline; the fit takes its pixels around that outline, so that the way to it leaves no trace in the result.
-    pub fn least_squares(&mut self, found: &Found) -> Result<fit::Fit, Reason> {
+    fn least_squares(&mut self, found: &Found) -> Result<(fit::Fit, Surround), Reason> {
         let whole = found.kept.iter().all(|kept| *kept);
         let region = Region {
             outline: found.ellipse.outline,
@@ -359,8 +374,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             fit::approach(&self.plane, &region, found.blur, ROUGH, &mut self.work).ok_or(Reason::NoFit)?;
         let all = vec![true; edge::ray_count(&outline)];
         let kept = if whole { &all } else { &found.kept };
-        let reach = if blur > BLURRED { blur } else { SHARP };
-        let mut surround = surround::measure(&self.plane, &outline, reach, kept).ok_or(Reason::NoFit)?;
+        let mut surround = self.surround(&outline, blur, kept)?;
         surround.contrast = contrast;
         let last = Region { outline, half_band: half_band(blur), surround: &surround, kept, ..region };
         let mut fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
@@ -384,7 +398,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         if 2.0 * a < 0.95 * self.options.min_diameter {
             return Err(Reason::TooSmall);
         }
-        if self.explains(found, &fit) { Ok(fit) } else { Err(Reason::NotAnEllipse) }
+        if self.explains(found, &fit) { Ok((fit, surround)) } else { Err(Reason::NotAnEllipse) }
     }
 
     /// Whether two grey levels and a blur describe the rim, whatever the lens adds.

@@ -5,7 +5,7 @@
 //! theorem turns the integral over the ellipse into one along its rim (u(t), v(t)):
 //!
 //! I(x, y) = ∮ -K(x - u) k(y - v) dv, the share of the pixel at (x, y) that the ellipse fills,
-//! dI/dp = ∮ k(x - u) k(y - v) (du/dp dv - dv/dp du), since a parameter p of the outline moves the rim only,
+//! dI/du = ∮ k(x - u) k(y - v) dv and dI/dv = -∮ k(x - u) k(y - v) du, since the centre moves the rim only,
 //! dI/ds = s (d²I/dx² + d²I/dy²) = s ∮ (-k'(x - u) k(y - v) dv + k(x - u) k'(y - v) du), since blur obeys the heat equation.
 //!
 //! The integrands are smooth and periodic in t, so the trapezium rule is exact to rounding once its points lie closer than
@@ -26,8 +26,8 @@ const FAINT: f32 = 3e-6;
 /// Pixels of a row: row and first column in the field, how many.
 pub(crate) type Span = (usize, usize, usize);
 
-/// Number of derivatives: u, v, p, q, r of the outline and the blur s.
-pub(crate) const DERIVATIVES: usize = 6;
+/// Number of derivatives: u and v of the outline and the blur s.
+pub(crate) const DERIVATIVES: usize = 3;
 
 /// Columns and rows a rim point reaches for a given blur (four sigmas to both sides), in the steps that are compiled.
 fn reach(s: f64) -> usize {
@@ -138,7 +138,7 @@ impl Field {
             let dv = (-outline.r * sn + outline.q * c) * turn;
             let (across, down) = (Kernel::<N>::at::<B>(x, width, inverse), Kernel::<N>::at::<B>(y, width, inverse));
             let start = down.first * self.width + across.first;
-            let weights = [dv, -du, c * dv, -sn * du, sn * dv - c * du].map(|w| w as f32);
+            let [along, aside] = [dv, -du].map(|weight| weight as f32);
             let blur = [(-s * dv) as f32, (s * du) as f32];
             for row in 0..N {
                 let level = down.pixel[row];
@@ -146,29 +146,28 @@ impl Field {
                     continue;
                 }
                 let from = start + row * self.width;
-                add::<N>(&mut self.planes[from..], &across.ramp, -(dv as f32) * level);
+                add::<N, _>(&mut self.planes[from..], [(&across.ramp, -along * level)]);
                 if !D || level < 30.0 * FAINT {
                     continue;
                 }
-                for (i, &weight) in weights.iter().enumerate() {
-                    add::<N>(&mut self.planes[(i + 1) * size + from..], &across.pixel, weight * level);
-                }
-                let plane = &mut self.planes[DERIVATIVES * size + from..];
-                add::<N>(plane, &across.slope, blur[0] * level);
-                add::<N>(plane, &across.pixel, blur[1] * down.slope[row]);
+                add::<N, _>(&mut self.planes[size + from..], [(&across.pixel, along * level)]);
+                add::<N, _>(&mut self.planes[2 * size + from..], [(&across.pixel, aside * level)]);
+                let both = [(&across.slope, blur[0] * level), (&across.pixel, blur[1] * down.slope[row])];
+                add::<N, _>(&mut self.planes[3 * size + from..], both);
             }
             (c, sn) = (c * turn_c - sn * turn_s, sn * turn_c + c * turn_s);
         }
     }
 }
 
+/// Adds weighted rows of N pixels.
 #[inline(always)]
-fn add<const N: usize>(to: &mut [f32], values: &[f32; N], weight: f32) {
-    if let Some(to) = to.first_chunk_mut::<N>() {
-        let weight = f32x4::splat(weight);
-        for (to, values) in to.as_chunks_mut::<4>().0.iter_mut().zip(values.as_chunks::<4>().0) {
-            *to = (f32x4::new(*to) + weight * f32x4::new(*values)).to_array();
-        }
+fn add<const N: usize, const K: usize>(to: &mut [f32], terms: [(&[f32; N], f32); K]) {
+    let Some(to) = to.first_chunk_mut::<N>() else { return };
+    let terms = terms.map(|(values, weight)| (values.as_chunks::<4>().0, f32x4::splat(weight)));
+    for (i, to) in to.as_chunks_mut::<4>().0.iter_mut().enumerate() {
+        let sum = terms.iter().fold(f32x4::new(*to), |sum, (values, weight)| sum + *weight * f32x4::new(values[i]));
+        *to = sum.to_array();
     }
 }
 
@@ -199,10 +198,15 @@ impl<const N: usize> Kernel<N> {
         let (antiderivative, normal, density) =
             (antiderivative.as_flattened(), normal.as_flattened(), density.as_flattened());
         let (mut pixel, mut slope, mut ramp) = ([0f32; N], [0f32; N], [0f32; N]);
-        for i in 0..N {
-            pixel[i] = normal[i + 2] - normal[i + 1];
-            slope[i] = (density[i + 2] - density[i + 1]) * inverse;
-            ramp[i] = (antiderivative[i + 2] - antiderivative[i + 1]) - (antiderivative[i + 1] - antiderivative[i]);
+        // four at a time
+        let four = |values: &[f32], i: usize| f32x4::new([values[i], values[i + 1], values[i + 2], values[i + 3]]);
+        let fours = pixel.as_chunks_mut::<4>().0.iter_mut().zip(slope.as_chunks_mut::<4>().0);
+        for (k, ((pixel, slope), ramp)) in fours.zip(ramp.as_chunks_mut::<4>().0).enumerate() {
+            let i = 4 * k;
+            *pixel = (four(normal, i + 2) - four(normal, i + 1)).to_array();
+            *slope = ((four(density, i + 2) - four(density, i + 1)) * f32x4::splat(inverse)).to_array();
+            let middle = four(antiderivative, i + 1);
+            *ramp = ((four(antiderivative, i + 2) - middle) - (middle - four(antiderivative, i))).to_array();
         }
         Self { first, pixel, slope, ramp }
     }
@@ -289,11 +293,12 @@ mod tests {
         let field = rendered(&outline, s);
         for which in 0..DERIVATIVES {
             let shifted = |sign: f64| {
-                let mut d = [0.0; 5];
-                if which < 5 {
+                let mut d = [0.0; 2];
+                if which < 2 {
                     d[which] = sign * step;
                 }
-                rendered(&outline.plus(&d), if which == 5 { s + sign * step } else { s })
+                let moved = Outline { u: outline.u + d[0], v: outline.v + d[1], ..outline };
+                rendered(&moved, if which == 2 { s + sign * step } else { s })
             };
             let (more, less) = (shifted(1.0), shifted(-1.0));
             for row in 0..field.height {

@@ -30,8 +30,15 @@ pub(crate) struct Surround {
 /// A sample: place relative to the centre, level.
 type Spot = [f64; 3];
 
-/// Measures the surround; `hidden` marks rays that count no more. None when too little of it lies in the picture.
-pub(crate) fn measure<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64, kept: &[bool]) -> Option<Surround> {
+/// Measures the surround in at most so many rings; rays that are not `kept` are left out. None when too little of it lies in
+/// the picture.
+pub(crate) fn measure<T: Sample>(
+    plane: &Plane<T>,
+    outline: &Outline,
+    blur: f64,
+    kept: &[bool],
+    rings: u32,
+) -> Option<Surround> {
     // the pixel of a place, relative to the centre, with its level
     let [wide, high] = [plane.width, plane.height].map(|size| size as f64);
     let pixel = |x: f64, y: f64| {
@@ -47,44 +54,36 @@ pub(crate) fn measure<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64,
     let mut rims = Vec::with_capacity(kept.len());
     let counted = rim_points(outline, kept.len()).zip(kept).filter(|(_, kept)| **kept);
     rims.extend(counted.map(|(rim, _)| [rim.x, rim.y, rim.normal[0], rim.normal[1]]));
+    let ring =
+        |distance: f64| rims.iter().filter_map(move |[x, y, nx, ny]| pixel(x + distance * nx, y + distance * ny));
     let mut spots: Vec<Spot> = Vec::with_capacity(2 * rims.len());
     let mut sums = Sums::default();
     let mut found: Option<(Vector3<f64>, f64)> = None;
     let mut outer = start;
-    let mut ring = Vec::with_capacity(rims.len());
     let mut step = 0;
-    let widest = if width > start + 2.0 { width } else { start + 2.0 };
-    while start + f64::from(step) * spacing < widest {
+    let widest = width.max(start + 2.0);
+    while step < rings && start + f64::from(step) * spacing < widest {
         let distance = start + f64::from(step) * spacing;
-        ring.clear();
-        for [x, y, nx, ny] in &rims {
-            ring.extend(pixel(x + distance * nx, y + distance * ny));
-        }
         match &mut found {
             None => {
                 // two rings for the first plane
-                spots.extend_from_slice(&ring);
+                spots.extend(ring(distance));
                 if step == 1 {
                     found = Some(robust_plane(&mut spots)?);
-                    sums.add(&spots);
+                    sums = Sums::of(spots.iter().copied());
                 }
             }
             Some((coefficients, noise)) => {
-                if ring.len() * 10 < kept.len() * 6 {
+                let next = Sums::of(ring(distance));
+                if next.n * 10.0 < kept.len() as f64 * 6.0 {
                     break;
                 }
-                let (mut mean, mut square) = (0.0, 0.0);
-                for spot in &ring {
-                    let residual = residual(coefficients, spot);
-                    mean += residual;
-                    square += residual * residual;
-                }
-                (mean, square) = (mean / ring.len() as f64, square / ring.len() as f64);
+                let (mean, square) = next.residuals(coefficients);
                 let floor = noise.max(0.5);
                 if square > (1.7 * floor).powi(2) || mean.abs() > 0.9 * floor {
                     break;
                 }
-                sums.add(&ring);
+                sums.add(&next);
                 if step % 3 == 0 {
                     (*coefficients, *noise) = sums.plane()?;
                 }
@@ -137,19 +136,50 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, spots: &[Spot]) {
-        for &[x, y, level] in spots {
-            self.x += x;
-            self.y += y;
-            self.xx += x * x;
-            self.xy += x * y;
-            self.yy += y * y;
-            self.g += level;
-            self.gx += level * x;
-            self.gy += level * y;
-            self.gg += level * level;
+    fn of(spots: impl Iterator<Item = Spot>) -> Self {
+        let mut sums = Self::default();
+        for [x, y, level] in spots {
+            sums.n += 1.0;
+            sums.x += x;
+            sums.y += y;
+            sums.xx += x * x;
+            sums.xy += x * y;
+            sums.yy += y * y;
+            sums.g += level;
+            sums.gx += level * x;
+            sums.gy += level * y;
+            sums.gg += level * level;
         }
-        self.n += spots.len() as f64;
+        sums
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.n += other.n;
+        self.x += other.x;
+        self.y += other.y;
+        self.xx += other.xx;
+        self.xy += other.xy;
+        self.yy += other.yy;
+        self.g += other.g;
+        self.gx += other.gx;
+        self.gy += other.gy;
+        self.gg += other.gg;
+    }
+
+    /// Mean of the residuals from a plane c, and mean of their squares: Σ(g - c'a)² = Σg² - 2 c'Σag + c'(Σaa')c.
+    fn residuals(&self, c: &Vector3<f64>) -> (f64, f64) {
+        let along = self.normal() * c;
+        let right = self.right();
+        let mean = (self.g - along.x) / self.n;
+        (mean, ((self.gg - 2.0 * c.dot(&right) + c.dot(&along)) / self.n).max(0.0))
+    }
+
+    fn normal(&self) -> Matrix3<f64> {
+        Matrix3::new(self.n, self.x, self.y, self.x, self.xx, self.xy, self.y, self.xy, self.yy)
+    }
+
+    fn right(&self) -> Vector3<f64> {
+        Vector3::new(self.g, self.gx, self.gy)
     }
 
     /// Least-squares plane and the standard deviation from it.
@@ -157,18 +187,15 @@ impl Sums {
         if self.n < 8.0 {
             return None;
         }
-        let normal = Matrix3::new(self.n, self.x, self.y, self.x, self.xx, self.xy, self.y, self.xy, self.yy);
-        let right = Vector3::new(self.g, self.gx, self.gy);
-        let coefficients = normal.cholesky()?.solve(&right);
+        let right = self.right();
+        let coefficients = self.normal().cholesky()?.solve(&right);
         let square = self.gg - coefficients.dot(&right);
         Some((coefficients, if square > 0.0 { (square / (self.n - 3.0)).sqrt() } else { 0.0 }))
     }
 }
 
 fn plane_through(spots: &[Spot]) -> Option<(Vector3<f64>, f64)> {
-    let mut sums = Sums::default();
-    sums.add(spots);
-    sums.plane()
+    Sums::of(spots.iter().copied()).plane()
 }
 
 /// The same without outliers, which are removed from the spots: further than three robust sigmas from the plane.
