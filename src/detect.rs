@@ -17,6 +17,7 @@ pub(crate) mod conic;
 mod edge;
 mod ellipse;
 mod fit;
+mod flats;
 mod look;
 mod measure;
 mod noise;

@@ -1,12 +1,12 @@
-//! The pixels of a fit: the band along the rim, and the flat parts inside and outside of it.
+//! The pixels of a fit along the rim; those inside and outside of them are [`flats`](super::flats).
 //!
 //! Band pixels are gathered into one array a column, so that products of columns run over contiguous memory in eight
 //! independent sums: the compiler makes vector code of them, and the order of the additions is the same on every machine.
-//! Of the flat parts only moments are kept: their model, B + gx x + gy y (+ C inside), is linear.
 
 use nalgebra::{SMatrix, SVector};
 use wide::{f32x4, f32x8};
 
+use super::flats::Flats;
 use super::outline::Outline;
 use super::rendered::{DERIVATIVES, Field, Span, normal_distribution};
 use super::surround::Surround;
@@ -48,27 +48,6 @@ pub(crate) struct Band {
     /// After u, v and s as rendered, then after p, q and r.
     derivatives: [Vec<f32>; 2 * DERIVATIVES],
     residual: Vec<f32>,
-}
-
-/// Moments of flat parts.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Flats {
-    inside: Moments,
-    outside: Moments,
-}
-
-/// Sums over pixels at (x, y) from the origin, of level g.
-#[derive(Clone, Copy, Debug, Default)]
-struct Moments {
-    n: f64,
-    x: f64,
-    y: f64,
-    xx: f64,
-    xy: f64,
-    yy: f64,
-    g: f64,
-    gx: f64,
-    gy: f64,
 }
 
 impl Band {
@@ -348,111 +327,9 @@ impl Band {
     }
 }
 
-impl Flats {
-    /// Adds J'J of the flat parts.
-    pub fn add_normal(&self, normal: &mut Normal) {
-        for (m, share) in [(&self.inside, 1.0), (&self.outside, 0.0)] {
-            let first = [m.n, m.x, m.y];
-            let second = [[m.n, m.x, m.y], [m.x, m.xx, m.xy], [m.y, m.xy, m.yy]];
-            normal[(6, 6)] += share * m.n;
-            for i in 0..3 {
-                normal[(6, 7 + i)] += share * first[i];
-                normal[(7 + i, 6)] += share * first[i];
-                for j in 0..3 {
-                    normal[(7 + i, 7 + j)] += second[i][j];
-                }
-            }
-        }
-    }
-
-    /// Adds J'r of the flat parts for contrast and background (level, slope).
-    pub fn add_right(&self, contrast: f64, [level, gx, gy]: [f64; 3], right: &mut Unknowns) {
-        for (m, share) in [(&self.inside, 1.0), (&self.outside, 0.0)] {
-            let level = level + share * contrast;
-            let sum = m.g - level * m.n - gx * m.x - gy * m.y;
-            right[6] += share * sum;
-            right[7] += sum;
-            right[8] += m.gx - level * m.x - gx * m.xx - gy * m.xy;
-            right[9] += m.gy - level * m.y - gx * m.xy - gy * m.yy;
-        }
-    }
-}
-
-impl Moments {
-    /// Number, sums of x, x², r and x r of the pixels that count, with x from the middle column and r the level less a whole
-    /// number near the one that is expected there: for what is no outlier these sums are small.
-    #[inline(always)]
-    fn sums<T: Sample>(
-        samples: &[T],
-        first: usize,
-        y: usize,
-        region: &Region,
-        inside: bool,
-        counts: impl Fn(usize) -> bool,
-    ) -> [i32; 5] {
-        let surround = region.surround;
-        let (middle, level) = origin(y, region, inside);
-        let (whole, rest) = (level.round() as i32, (level - level.round()) as f32);
-        let limit = 4.0 * surround.noise.max(0.6) + if inside { 0.05 * surround.contrast.abs() } else { 0.0 };
-        let (limit, slope) = (limit as f32, surround.slope[0] as f32);
-        let saturation = region.saturation as i32;
-        let first = (first as i64 - middle) as i32;
-        let mut sums = [0i32; 5];
-        for (k, sample) in samples.iter().enumerate() {
-            let x = first + k as i32;
-            let grey = sample.level() as i32;
-            let r = grey - whole;
-            let near = (r as f32 - rest - slope * x as f32).abs() <= limit && grey < saturation;
-            let one = i32::from(near && counts(k));
-            for (sum, term) in sums.iter_mut().zip([one, one * x, one * x * x, one * r, one * r * x]) {
-                *sum = sum.wrapping_add(term);
-            }
-        }
-        sums
-    }
-
-    /// Adds the pixels of a span of a row that are neither hidden nor outliers: further than four sigmas from the plane.
-    fn add<T: Sample>(&mut self, row: &[T], span: std::ops::Range<usize>, y: usize, region: &Region, inside: bool) {
-        if span.is_empty() {
-            return;
-        }
-        let first = span.start;
-        // the plain case apart, which the compiler makes vector code of
-        let sums = if region.whole {
-            Self::sums(&row[span], first, y, region, inside, |_| true)
-        } else {
-            Self::sums(&row[span], first, y, region, inside, |k| region.counts(first + k, y))
-        };
-        let [n, sx, sxx, sr, srx] = sums.map(f64::from);
-        let (middle, level) = origin(y, region, inside);
-        let (sg, sgx) = (sr + level.round() * n, srx + level.round() * sx);
-        let dy = y as f64 + 0.5 - region.outline.v;
-        // from whole columns to the distance from the outline's centre
-        let shift = middle as f64 + 0.5 - region.outline.u;
-        let x = sx + shift * n;
-        self.n += n;
-        self.x += x;
-        self.y += n * dy;
-        self.xx += sxx + 2.0 * shift * sx + shift * shift * n;
-        self.xy += x * dy;
-        self.yy += n * dy * dy;
-        self.g += sg;
-        self.gx += sgx + shift * sg;
-        self.gy += sg * dy;
-    }
-}
-
-/// Middle column of a row, and the level expected there.
-fn origin(y: usize, region: &Region, inside: bool) -> (i64, f64) {
-    let surround = region.surround;
-    let dy = y as f64 + 0.5 - region.outline.v;
-    let level = surround.level + surround.slope[1] * dy + if inside { surround.contrast } else { 0.0 };
-    (region.outline.u.floor() as i64, level)
-}
-
 impl Region<'_> {
     /// Whether the pixel lies where the rim is not hidden.
-    fn counts(&self, x: usize, y: usize) -> bool {
+    pub fn counts(&self, x: usize, y: usize) -> bool {
         if self.whole {
             return true;
         }

@@ -3,9 +3,12 @@
 //! u = Σ w x / Σ w over the pixels around the target, with w either the grey level above a threshold (intensity-weighted,
 //! Lee 1996 eq. 3-2) or the squared gradient of the grey levels (gradient-weighted, eq. 3-1). Both are simple and fast; the
 //! first takes in what lies in the window beside the target, the second weighs the rim and its noise twice. Their sigma is
-//! the propagated noise of the pixels; for the first also what its threshold cuts off, which is the larger part.
+//! the propagated noise of the pixels; for the first also that of the background's slope and what its threshold cuts off, which is the larger part.
+
+use wide::f32x4;
 
 use super::outline::Outline;
+use super::rendered::normal_distribution;
 use super::surround::Surround;
 use crate::image::{Plane, Sample};
 
@@ -63,19 +66,42 @@ pub(crate) fn intensity<T: Sample>(
     weights(&mut |w, x, y| sums.add(w, x, y));
     let [u, v] = sums.centre()?;
     let mut covariance = [0.0; 3];
-    let noise = surround.noise.powi(2).max(1.0 / 12.0);
-    weights(&mut |_, x, y| add_outer(&mut covariance, (x - u) / sums.w, (y - v) / sums.w, noise));
-    // what the threshold cuts off at the rim is lost, a little more on one side than on the other
-    let mut cut = [0.0; 2];
+    let noise = surround.noise.max(12f64.sqrt().recip());
+    let (mut slope, mut cut, mut chance) = ([[0.0; 2]; 2], [0.0; 2], 0.0);
     pixels(plane, outline, margin, &mut |column, row, x, y| {
         let background = surround.level + surround.slope[0] * x + surround.slope[1] * y;
         let above = (f64::from(plane.row(row)[column].level()) - background) * surround.contrast.signum();
-        if above <= threshold {
-            cut = [cut[0] + above * (x - u) / sums.w, cut[1] + above * (y - v) / sums.w];
+        let moved = [(x - u) / sums.w, (y - v) / sums.w];
+        add_outer(&mut covariance, moved[0], moved[1], variance_above(above, threshold, noise));
+        if above > threshold {
+            for (row, moved) in slope.iter_mut().zip(moved) {
+                *row = [row[0] - moved * x, row[1] - moved * y];
+            }
+        } else {
+            // what the threshold cuts off at the rim is lost, a little more on one side than on the other
+            cut = [cut[0] + above * moved[0], cut[1] + above * moved[1]];
+            chance += (moved[0] * moved[0] + moved[1] * moved[1]) * noise * noise;
         }
     });
-    add_outer(&mut covariance, cut[0], cut[1], 1.0);
+    for (sum, carried) in covariance.iter_mut().zip(surround.carried(slope)) {
+        *sum += carried;
+    }
+    // as far as it is more than the noise of what was cut off
+    let square = cut[0] * cut[0] + cut[1] * cut[1];
+    add_outer(&mut covariance, cut[0], cut[1], (1.0 - chance / square.max(1e-300)).max(0.0));
     Some(Centre { u: outline.u + u, v: outline.v + v, covariance })
+}
+
+/// Variance of what a level m with noise n leaves above a threshold T: of w where w > T, else 0. Near the threshold a pixel
+/// comes and goes with its noise, and with it all of T. From the moments of the truncated normal distribution, with a =
+/// (T - m) / n: E = m P + n φ(a), E² = (m² + n²) P + n (m + T) φ(a), P = Φ(-a).
+fn variance_above(level: f64, threshold: f64, noise: f64) -> f64 {
+    let a = ((threshold - level) / noise).clamp(-5.5, 5.5);
+    let (below, density) = normal_distribution(f32x4::splat(a as f32));
+    let [share, density] = [1.0 - f64::from(below.to_array()[0]), f64::from(density.to_array()[0])];
+    let mean = level * share + noise * density;
+    let square = (level * level + noise * noise) * share + noise * (level + threshold) * density;
+    (square - mean * mean).max(0.0)
 }
 
 /// Centroid of the squared gradient (central differences), within `margin` pixels of the outline.

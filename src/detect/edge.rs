@@ -7,6 +7,7 @@
 use wide::f32x4;
 
 use super::outline::{Outline, RimPoint};
+use super::rendered::{BLUR, normal_distribution};
 use crate::image::{Plane, Sample};
 
 /// An edge looked for on one ray.
@@ -156,23 +157,45 @@ pub(crate) struct Profile {
     pub origin: [f64; 2],
     /// Inside minus outside.
     pub contrast: f64,
-    /// Blur of the edge as sampled, sigma in pixels.
+    /// Blur of the edge in the pixels, sigma.
     pub blur: f64,
 }
 
-/// Slope of the edge's profile at whole pixels from its middle: the weights of the samples in its place.
+/// Largest share of the light that a curved rim is taken to lose: there the first order ends.
+const MOST_CURVED: f64 = 0.3;
+
+/// Variance that bilinear sampling adds, in square pixels, on average over all places between pixels.
+const BILINEAR: f64 = 1.0 / 6.0;
+
+/// Share of its contrast that a disc of this radius and blur shows half-way between its centre and its rim: that of a strip
+/// along the radius times that of a chord across.
+pub(crate) fn half_way(radius: f64, blur: f64) -> f64 {
+    let z = [0.5, 1.5, 0.75f64.sqrt()].map(|share| (share * radius / blur.max(BLUR.0)) as f32);
+    let [near, far, chord, _] = normal([z[0], z[1], z[2], 0.0]).0.map(f64::from);
+    (near + far - 1.0) * (2.0 * chord - 1.0)
+}
+
+/// Slope of the sampled edge's profile at whole pixels from its middle: the weights of the samples in its place.
 pub(crate) fn slopes(blur: f64) -> Vec<f64> {
     let side = refined_side(blur) as i32;
-    (-side..=side).map(|t| normal(f64::from(t) / blur).1 / blur).collect()
+    let sampled = (blur * blur + BILINEAR).sqrt();
+    (-side..=side).map(|t| f64::from(normal([(f64::from(t) / sampled) as f32; 4]).1[0]) / sampled).collect()
 }
 
 /// Pixels to both sides of the rim that a refined edge is fitted to.
 fn refined_side(blur: f64) -> usize {
-    ((3.0 * blur).ceil() as usize).clamp(2, LONGEST / 2 - 2)
+    ((3.0 * (blur * blur + BILINEAR).sqrt()).ceil() as usize).clamp(2, LONGEST / 2 - 2)
 }
 
-/// Edge points by fitting each ray's profile, level + contrast Φ(-(t - δ)/s), for its shift δ: Gauss-Newton steps of one
-/// unknown. All samples across the edge count, each with the derivative of the profile as its weight.
+/// A sample on a ray: its level between background (0) and target (1), the four pixels it is drawn from by their weights
+/// and their distances from the outline.
+type Drawn = (f64, [f64; 4], [f64; 4]);
+
+/// Edge points by fitting each ray's profile for its shift δ: Gauss-Newton steps of one unknown. All samples across the edge
+/// count, each with the derivative of the profile as its weight. A rim of curvature κ gets less light, by κ s φ / 2 in first
+/// order. The profile of a sample is drawn from its four pixels as the
+/// sample is, Σ w (Φ(-z) - κ s φ(z) / 2) with z = (d - δ)/s: what bilinear sampling does to an edge depends on where it lies between the pixels, and would
+/// move the centre by half its standard error.
 pub(crate) fn refine<T: Sample>(
     plane: &Plane<T>,
     outline: &Outline,
@@ -182,40 +205,51 @@ pub(crate) fn refine<T: Sample>(
 ) {
     found.clear();
     let side = refined_side(profile.blur);
+    let mut samples: Vec<Drawn> = Vec::with_capacity(2 * side + 1);
     for rim in rim_points(outline, count) {
-        let mut values = [0f64; LONGEST];
-        for (i, value) in values[..=2 * side].iter_mut().enumerate() {
+        samples.clear();
+        samples.extend((0..=2 * side).map(|i| {
             let t = i as f64 - side as f64;
-            let (x, y) = (rim.x + t * rim.normal[0], rim.y + t * rim.normal[1]);
-            let background =
-                profile.level + profile.slope[0] * (x - profile.origin[0]) + profile.slope[1] * (y - profile.origin[1]);
-            *value = (f64::from(plane.sample(x as f32, y as f32)) - background) / profile.contrast;
-        }
-        let mut shift = 0.0;
-        let mut weight = 0.0;
+            draw(plane, outline, profile, rim.x + t * rim.normal[0], rim.y + t * rim.normal[1])
+        }));
+        let curved = (0.5 * profile.blur * outline.curvature(&rim)).min(MOST_CURVED);
+        let (mut shift, mut weight) = (0.0, 0.0);
         for _ in 0..4 {
             let mut sum = 0.0;
             weight = 0.0;
-            for (i, value) in values[..=2 * side].iter().enumerate() {
-                let z = (i as f64 - side as f64 - shift) / profile.blur;
-                let (below, density) = normal(z);
-                let derivative = density / profile.blur;
-                sum += derivative * (value - (1.0 - below));
-                weight += derivative * derivative;
+            for (value, weights, distances) in &samples {
+                let (outside, density) = normal(distances.map(|d| ((d - shift) / profile.blur) as f32));
+                let drawn =
+                    |levels: [f32; 4]| -> f64 { weights.iter().zip(levels).map(|(w, l)| w * f64::from(l)).sum() };
+                let light = drawn(density);
+                sum += light * (value - 1.0 + drawn(outside) + curved * light);
+                weight += light * light / profile.blur;
             }
             shift = (shift + sum / weight.max(1e-9)).clamp(-(side as f64), side as f64);
         }
         found.push(EdgePoint {
             x: rim.x + shift * rim.normal[0],
             y: rim.y + shift * rim.normal[1],
-            strength: weight.sqrt(),
+            strength: (weight / profile.blur).sqrt(),
             kept: shift.abs() < side as f64 * 0.9,
         });
     }
 }
 
+/// The bilinear sample at a place.
+fn draw<T: Sample>(plane: &Plane<T>, outline: &Outline, profile: &Profile, x: f64, y: f64) -> Drawn {
+    let (left, top) = ((x - 0.5).floor(), (y - 0.5).floor());
+    let (fx, fy) = (x - 0.5 - left, y - 0.5 - top);
+    let weights = [(1.0 - fx) * (1.0 - fy), fx * (1.0 - fy), (1.0 - fx) * fy, fx * fy];
+    let places = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[dx, dy]| [left + dx + 0.5, top + dy + 0.5]);
+    let [slope_x, slope_y] = profile.slope;
+    let background = profile.level + slope_x * (x - profile.origin[0]) + slope_y * (y - profile.origin[1]);
+    let level = places.iter().zip(weights).map(|([x, y], w)| w * f64::from(plane.nearest(*x, *y))).sum::<f64>();
+    ((level - background) / profile.contrast, weights, places.map(|[x, y]| outline.nearest(x, y).1))
+}
+
 /// Φ(z) and its density.
-fn normal(z: f64) -> (f64, f64) {
-    let (below, density) = super::rendered::normal_distribution(f32x4::splat(z.clamp(-5.5, 5.5) as f32));
-    (f64::from(below.to_array()[0]), f64::from(density.to_array()[0]))
+fn normal(z: [f32; 4]) -> ([f32; 4], [f32; 4]) {
+    let (below, density) = normal_distribution(f32x4::new(z.map(|z| z.clamp(-5.5, 5.5))));
+    (below.to_array(), density.to_array())
 }

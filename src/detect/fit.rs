@@ -8,7 +8,8 @@
 //! is rendered at the start and kept while the corrections are small against the blur (chord method): the limit is the
 //! same, as the residuals are always exact.
 
-use super::band::{Band, Flats, Normal, Region, Unknowns};
+use super::band::{Band, Normal, Region, Unknowns};
+use super::flats::Flats;
 use super::outline::Outline;
 use super::rendered::{BLUR, Field};
 use crate::image::{Plane, Sample};

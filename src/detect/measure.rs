@@ -82,7 +82,22 @@ pub(crate) struct Found {
     pub kept: Vec<bool>,
     /// Blur as sigma in pixels.
     pub blur: f64,
+    /// Median difference over two pixels across its edges.
+    pub strength: f64,
     pub bright: bool,
+}
+
+/// Blur from the edges' steepness: over two pixels an edge of contrast C and blur s falls by C (2 Φ(1/s) - 1), where
+/// s² includes the pixel's own width (1/12) and that of bilinear sampling (about 1/6).
+fn blur_of(strength: f64, contrast: f64) -> f64 {
+    if strength <= 0.0 {
+        return 1.0;
+    }
+    let ratio = (strength / contrast.max(1e-9)).clamp(0.05, 0.985);
+    // 2 Φ(z) - 1 = ratio, by a rational approximation of Φ^-1 good to 1e-3 (Abramowitz & Stegun 26.2.22)
+    let t = (-2.0 * ((1.0 - ratio) / 2.0).ln()).sqrt();
+    let z = t - (2.30753 + 0.27061 * t) / (1.0 + t * (0.99229 + 0.04481 * t));
+    ((1.0 / z.max(0.05)).powi(2) - SAMPLED).max(0.09).sqrt().min(6.5)
 }
 
 impl<'a, T: Sample> Measure<'a, T> {
@@ -172,7 +187,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         let kept = undisturbed(&self.edges);
         let rough =
             surround::measure(&self.plane, &outline, focus.max(SHARP), &kept, NEARBY).ok_or(Reason::AtBorder)?;
-        let blur = self.blur(rough.contrast.abs());
+        let blur = blur_of(self.strength(), rough.contrast.abs());
         let surround = if blur > BLURRED {
             surround::measure(&self.plane, &outline, blur, &kept, NEARBY).ok_or(Reason::AtBorder)?
         } else {
@@ -195,7 +210,8 @@ impl<'a, T: Sample> Measure<'a, T> {
         if surround.uneven > UNEVEN || !quality::outline_allows(&ellipse, self.noise(&surround), signed, focus) {
             return Err(Reason::NotAnEllipse);
         }
-        Ok(Found { ellipse, surround, kept, blur: self.blur(signed), bright })
+        let strength = self.strength();
+        Ok(Found { ellipse, surround, kept, blur: blur_of(strength, signed), strength, bright })
     }
 
     /// A quick look: as many directions as `missing` may be without a step, `open` may lead out of the shape.
@@ -230,7 +246,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         let mut blur = SHARP;
         for _ in 0..4 {
             let contrast = look::contrast(&self.plane, outline, (2.0 * blur).max(look::OUTSIDE));
-            blur = self.blur(if bright { contrast } else { -contrast });
+            blur = blur_of(self.strength(), if bright { contrast } else { -contrast });
             if blur <= DEFOCUSED {
                 return SHARP;
             }
@@ -244,20 +260,6 @@ impl<'a, T: Sample> Measure<'a, T> {
         strengths.extend(self.edges.iter().filter(|edge| edge.kept).map(|edge| edge.strength));
         let half = strengths.len() / 2;
         if strengths.is_empty() { 0.0 } else { *strengths.select_nth_unstable_by(half, f64::total_cmp).1 }
-    }
-
-    /// Blur from the edges' steepness: over two pixels an edge of contrast C and blur s falls by C (2 Φ(1/s) - 1), where
-    /// s² includes the pixel's own width (1/12) and that of bilinear sampling (about 1/6).
-    fn blur(&self, contrast: f64) -> f64 {
-        let median = self.strength();
-        if median <= 0.0 {
-            return 1.0;
-        }
-        let ratio = (median / contrast.max(1e-9)).clamp(0.05, 0.985);
-        // 2 Φ(z) - 1 = ratio, by a rational approximation of Φ^-1 good to 1e-3 (Abramowitz & Stegun 26.2.22)
-        let t = (-2.0 * ((1.0 - ratio) / 2.0).ln()).sqrt();
-        let z = t - (2.30753 + 0.27061 * t) / (1.0 + t * (0.99229 + 0.04481 * t));
-        ((1.0 / z.max(0.05)).powi(2) - SAMPLED).max(0.09).sqrt().min(6.5)
     }
 
     /// The whole surround of an outline of about this blur.
@@ -334,21 +336,28 @@ impl<'a, T: Sample> Measure<'a, T> {
     /// propagated noise, and as much more as the edges scatter more than it explains.
     fn refined_ellipse(&mut self, found: &Found, surround: &Surround) -> Result<(EllipseFit, [f64; 3]), Reason> {
         let outline = found.ellipse.outline;
+        // half-way to the rim a small target is not as bright as it would be without blur
+        let (mut contrast, mut blur) = (surround.contrast, found.blur);
+        for _ in 0..3 {
+            contrast = surround.contrast / edge::half_way(outline.semi_axes().1, blur);
+            blur = blur_of(found.strength, contrast.abs());
+        }
         let profile = Profile {
             level: surround.level,
             slope: surround.slope,
             origin: [outline.u, outline.v],
-            contrast: surround.contrast,
-            blur: (found.blur * found.blur + SAMPLED).sqrt(),
+            contrast,
+            blur: (blur * blur + 1.0 / 12.0).sqrt(),
         };
         let count = (outline.perimeter() / 4.0).round() as usize * 4;
         edge::refine(&self.plane, &outline, &profile, count.clamp(20, 1500), &mut self.edges);
         let fit = ellipse::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
         let cofactors = fit.normal.cholesky().ok_or(Reason::NoFit)?.inverse();
-        let (unit, edge) = propagation::covariance(&outline, &profile, &self.edges, &fit.outline, &cofactors);
+        let influence = propagation::influence(&outline, &profile, &self.edges, &fit.outline, &cofactors);
         let noise = surround.noise.powi(2).max(1.0 / 12.0);
-        let variance = noise.max(fit.rms * fit.rms / edge.max(1e-12));
-        Ok((fit, unit.map(|q| q * variance)))
+        let variance = noise.max(fit.rms * fit.rms / influence.edge.max(1e-12));
+        let slope = surround.carried(influence.slope);
+        Ok((fit, std::array::from_fn(|i| variance * influence.noise[i] + slope[i])))
     }
 
     /// Noise around a target; where the surround is not plane, what the whole picture has is believed.

@@ -93,6 +93,13 @@ impl Outline {
         }
     }
 
+    /// Curvature of the rim at one of its points: det A / |de/dt|³.
+    pub fn curvature(&self, rim: &RimPoint) -> f64 {
+        let [c, s] = self.normalised(rim.x, rim.y);
+        let speed = (self.r * c - self.p * s).hypot(self.q * c - self.r * s);
+        (self.p * self.q - self.r * self.r) / speed.powi(3)
+    }
+
     /// Rim point next to a place near the rim, and the signed distance along its normal (outside positive): the rim point
     /// of the same parameter, whose tangent differs from the nearest one's by the second order of the distance.
     #[inline]

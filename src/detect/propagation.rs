@@ -2,24 +2,35 @@
 //!
 //! A ray's edge is a weighted sum of bilinear samples, and these of pixels; the centre is a weighted sum of edges. Neighbouring
 //! rays share pixels, so that their errors are alike: treated as independent they promise too much, by a third. Here the
-//! weights of every pixel in the centre are added up, and the noise is propagated through them: Σ = n² W W'.
+//! weights of every pixel in the centre are added up, and the noise is propagated through them: Σ = n² W W'. The background's
+//! slope comes from other pixels; its errors move the centre by the same weights.
 
 use nalgebra::SMatrix;
 
 use super::edge::{EdgePoint, Profile, rim_points, slopes};
 use super::outline::Outline;
 
-/// Covariance (uu, uv, vv) of the centre for pixels of unit noise, and the mean variance of a single edge.
+/// What a centre owes to its pixels.
+pub(crate) struct Influence {
+    /// Covariance (uu, uv, vv) of the centre for pixels of unit noise.
+    pub noise: [f64; 3],
+    /// Change of the centre with the slope of the background that is taken off.
+    pub slope: [[f64; 2]; 2],
+    /// Mean variance of a single edge, for pixels of unit noise.
+    pub edge: f64,
+}
+
+/// Influence of the pixels on the centre of an ellipse.
 ///
 /// `points` are the edges found on rays across `cast`, `fitted` is the ellipse through them and `cofactors` the inverse of its
 /// normal matrix.
-pub(crate) fn covariance(
+pub(crate) fn influence(
     cast: &Outline,
     profile: &Profile,
     points: &[EdgePoint],
     fitted: &Outline,
     cofactors: &SMatrix<f64, 5, 5>,
-) -> ([f64; 3], f64) {
+) -> Influence {
     let slopes = slopes(profile.blur);
     let side = (slopes.len() / 2) as f64;
     let square: f64 = slopes.iter().map(|slope| slope * slope).sum();
@@ -45,16 +56,24 @@ pub(crate) fn covariance(
         }
         shares.sort_unstable_by_key(|share| share.0);
         let moves = fitted.nearest(point.x, point.y).0.moves;
-        let influence = cofactors * SMatrix::<f64, 5, 1>::from(moves);
+        let moved = cofactors * SMatrix::<f64, 5, 1>::from(moves);
         for pixel in shares.chunk_by(|a, b| a.0 == b.0) {
             let share: f64 = pixel.iter().map(|share| share.1).sum();
             edges += share * share;
             if let Some(weight) = weights.get_mut(pixel[0].0) {
-                *weight = [weight[0] + share * influence[0], weight[1] + share * influence[1]];
+                *weight = [weight[0] + share * moved[0], weight[1] + share * moved[1]];
             }
         }
         used += 1;
     }
     let sum = |i: usize, j: usize| weights.iter().map(|weight| weight[i] * weight[j]).sum();
-    ([sum(0, 0), sum(0, 1), sum(1, 1)], edges / used.max(1) as f64)
+    let mut slope = [[0.0; 2]; 2];
+    for (at, weight) in weights.iter().enumerate() {
+        let place =
+            [(at % width) as f64 + 0.5 + left - profile.origin[0], (at / width) as f64 + 0.5 + top - profile.origin[1]];
+        for (row, weight) in slope.iter_mut().zip(weight) {
+            *row = [row[0] - weight * place[0], row[1] - weight * place[1]];
+        }
+    }
+    Influence { noise: [sum(0, 0), sum(0, 1), sum(1, 1)], slope, edge: edges / used.max(1) as f64 }
 }

@@ -17,6 +17,8 @@ pub(crate) struct Surround {
     /// Background at the centre, and its slope along u and v.
     pub level: f64,
     pub slope: [f64; 2],
+    /// Covariance of that slope: uu, uv, vv.
+    pub slope_covariance: [f64; 3],
     /// Standard deviation of single pixels from that plane.
     pub noise: f64,
     /// Inside minus outside.
@@ -109,6 +111,7 @@ pub(crate) fn measure<T: Sample>(
     Some(Surround {
         level: coefficients.x,
         slope: [coefficients.y, coefficients.z],
+        slope_covariance: sums.slope_cofactors()?.map(|cofactor| cofactor * noise * noise),
         noise,
         contrast,
         uneven: far as f64 / inside.len() as f64,
@@ -133,6 +136,15 @@ struct Sums {
     gx: f64,
     gy: f64,
     gg: f64,
+}
+
+impl Surround {
+    /// Covariance of a centre (uu, uv, vv) that moves by M g when the slope changes by g: M S M'.
+    pub fn carried(&self, m: [[f64; 2]; 2]) -> [f64; 3] {
+        let [uu, uv, vv] = self.slope_covariance;
+        let product = |a: [f64; 2], b: [f64; 2]| a[0] * (uu * b[0] + uv * b[1]) + a[1] * (uv * b[0] + vv * b[1]);
+        [product(m[0], m[0]), product(m[0], m[1]), product(m[1], m[1])]
+    }
 }
 
 impl Sums {
@@ -180,6 +192,12 @@ impl Sums {
 
     fn right(&self) -> Vector3<f64> {
         Vector3::new(self.g, self.gx, self.gy)
+    }
+
+    /// Cofactors of the plane's slope: uu, uv, vv.
+    fn slope_cofactors(&self) -> Option<[f64; 3]> {
+        let inverse = self.normal().cholesky()?.inverse();
+        Some([inverse[(1, 1)], inverse[(1, 2)], inverse[(2, 2)]])
     }
 
     /// Least-squares plane and the standard deviation from it.
