@@ -51,6 +51,13 @@ pub fn decimals_for(sigma: f64) -> usize {
     if sigma > 0.0 && sigma.is_finite() { (1.0 - sigma.log10().floor()).clamp(0.0, 12.0) as usize } else { 3 }
 }
 
+/// Decimals that show two digits of a value that may be much smaller than what its column is rounded to: at least `least` of
+/// them, and at most four more.
+pub fn decimals_of(value: f64, least: usize) -> usize {
+    let small = value != 0.0 && value.is_finite();
+    if small { decimals_for(value.abs()).clamp(least, least + 4) } else { least }
+}
+
 /// A number as mantissa and power of ten where it is very large or very small.
 pub fn scientific(value: f64) -> (String, Option<i32>) {
     let size = value.abs();
@@ -117,6 +124,18 @@ pub fn parse(text: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_value_far_below_its_column_keeps_two_digits() {
+        let shown = |value: f64, least: usize| fixed(value, decimals_of(value, least));
+        // The redundancy number and the residual of a distance that is much better than the photos.
+        assert_eq!(shown(0.000_43, 2), "0.00043");
+        assert_eq!(shown(-0.000_012, 3), "\u{2212}0.000012");
+        assert_eq!(shown(0.43, 2), "0.43");
+        assert_eq!(shown(1.0, 2), "1.00");
+        assert_eq!(shown(0.0, 2), "0.00");
+        assert_eq!(shown(1e-12, 2), "0.000000");
+    }
 
     #[test]
     fn numbers_are_grouped_and_never_minus_zero() {

@@ -68,6 +68,7 @@ pub(super) fn GivenTable() -> impl IntoView {
                 let over = test.w.is_some_and(|w| w.abs() > CRITICAL_W);
                 let mut size = Cell::number(test.w, 2).class(if over { "bad" } else { "" });
                 size.order = test.w.map(f64::abs);
+                let redundancy = given.reliability.map(|r| r.redundancy);
                 let effect = given.effect.map_or(3, format::decimals_for);
                 Row {
                     key: k.to_string(),
@@ -75,9 +76,9 @@ pub(super) fn GivenTable() -> impl IntoView {
                         Cell::id(&given_name(&given.what)),
                         Cell::words(given_kind(&given.what)),
                         Cell::words(unit),
-                        Cell::number(Some(given.residual), decimals),
+                        Cell::number(Some(given.residual), format::decimals_of(given.residual, decimals)),
                         Cell::number(Some(given.sigma), decimals),
-                        Cell::number(given.reliability.map(|r| r.redundancy), 2),
+                        Cell::number(redundancy, redundancy.map_or(2, |r| format::decimals_of(r, 2))),
                         size,
                         Cell::number(test.mdb, decimals),
                         Cell::number(given.effect, effect),
