@@ -44,15 +44,18 @@ pub(crate) fn runs(edges: &[Edge], bright: bool, width: usize, y: f32, out: &mut
 struct Active {
     x0: f32,
     x1: f32,
+    cut: bool,
     chain: usize,
     meets: u32,
 }
 
-/// Whether the lengths of two runs allow one outline: the background between two targets does not continue in a third.
-/// An outline loses at most its outermost row to this.
+/// Whether the lengths of two runs allow one outline: the background between two targets does not continue in a third, nor
+/// does a run that goes on to the border, because the faint edge of a target's first row was not seen, continue one that
+/// ends far from there. An outline loses at most its outermost row to this.
 fn alike(run: &Chord, above: &Active) -> bool {
     let (length, other) = (run.x1 - run.x0, above.x1 - above.x0);
-    length > 0.35 * other && other > 0.35 * length
+    let moved = (run.x0 - above.x0).abs().max((run.x1 - above.x1).abs());
+    length > 0.35 * other && other > 0.35 * length && (run.cut == above.cut || moved < 4.0 + 0.25 * length.min(other))
 }
 
 /// Links the runs of one polarity, row by row, into chains.
@@ -109,7 +112,7 @@ impl Linker {
             if self.chains[chain].len() <= self.max_rows {
                 self.chains[chain].push(*run);
             }
-            self.next.push(Active { x0: run.x0, x1: run.x1, chain, meets: 0 });
+            self.next.push(Active { x0: run.x0, x1: run.x1, cut: run.cut, chain, meets: 0 });
         }
         self.finish_active(finish);
         std::mem::swap(&mut self.active, &mut self.next);
@@ -164,6 +167,22 @@ mod tests {
     #[test]
     fn a_background_run_does_not_become_a_target() {
         assert_eq!(chains(&[&[(0.0, 100.0)], &[(40.0, 50.0)], &[(38.0, 52.0)], &[(0.0, 100.0)]]), [1, 2, 1]);
+    }
+
+    #[test]
+    fn a_run_to_the_border_does_not_continue_a_target() {
+        let mut linker = Linker::new(100);
+        let mut lengths = Vec::new();
+        for (y, x1, cut) in [(0, 60.0, true), (1, 30.0, false), (2, 32.0, false), (3, 31.0, false)] {
+            linker.row(&[Chord { x0: 10.0, x1, y: y as f32, cut }], &mut |chain| lengths.push(chain.len()));
+        }
+        linker.end(&mut |chain| lengths.push(chain.len()));
+        assert_eq!(lengths, [1, 3]);
+        // a large target that the border cuts stays whole
+        let mut cut = Linker::new(100);
+        for (y, x1) in [(0, 57.0), (1, 59.5), (2, 60.0), (3, 60.0)] {
+            cut.row(&[Chord { x0: 10.0, x1, y: y as f32, cut: x1 == 60.0 }], &mut |_| panic!("it ended"));
+        }
     }
 
     #[test]

@@ -212,7 +212,7 @@ pub(crate) fn refine<T: Sample>(
             let t = i as f64 - side as f64;
             draw(plane, outline, profile, rim.x + t * rim.normal[0], rim.y + t * rim.normal[1])
         }));
-        let curved = (0.5 * profile.blur * outline.curvature(&rim)).min(MOST_CURVED);
+        let curved = (0.5 * profile.blur * outline.curvature(rim.x, rim.y)).min(MOST_CURVED);
         let (mut shift, mut weight) = (0.0, 0.0);
         for _ in 0..4 {
             let mut sum = 0.0;

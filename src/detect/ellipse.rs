@@ -26,6 +26,9 @@ pub(crate) struct EllipseFit {
 
 /// Smallest distance, in pixels, that a point may always have.
 const TOLERANCE: f64 = 0.25;
+/// Blur s moves the steepest place of a rim of curvature κ inwards by about κ s² / 2: so much, in square pixels, is allowed
+/// for at the tips of a slender ellipse.
+const BENT: f64 = 0.4;
 /// Largest distance of a kept point, in robust standard deviations.
 const SIGMAS: f64 = 3.0;
 
@@ -142,8 +145,11 @@ fn select(points: &mut [EdgePoint], outline: &Outline, distances: &mut Vec<f64>,
     } else {
         return false;
     };
+    let (a, b) = outline.semi_axes();
+    let bent = BENT * a / (b * b) > 0.5 * TOLERANCE;
     let mut changed = false;
     for (point, distance) in points.iter_mut().filter(|point| point.strength > 0.0).zip(distances) {
+        let limit = if bent { limit + BENT * outline.curvature(point.x, point.y) } else { limit };
         let keep = *distance <= limit;
         changed |= keep != point.kept;
         point.kept = keep;

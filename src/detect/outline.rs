@@ -93,11 +93,12 @@ impl Outline {
         }
     }
 
-    /// Curvature of the rim at one of its points: det A / |de/dt|³.
-    pub fn curvature(&self, rim: &RimPoint) -> f64 {
-        let [c, s] = self.normalised(rim.x, rim.y);
-        let speed = (self.r * c - self.p * s).hypot(self.q * c - self.r * s);
-        (self.p * self.q - self.r * self.r) / speed.powi(3)
+    /// Curvature of the rim next to a place near it: det A / |de/dt|³.
+    pub fn curvature(&self, x: f64, y: f64) -> f64 {
+        let [c, s] = self.normalised(x, y);
+        let (du, dv) = (self.r * c - self.p * s, self.q * c - self.r * s);
+        let (square, speed) = (c * c + s * s, (du * du + dv * dv).sqrt());
+        (self.p * self.q - self.r * self.r) * square * square.sqrt() / (speed * speed * speed).max(1e-12)
     }
 
     /// Rim point next to a place near the rim, and the signed distance along its normal (outside positive): the rim point
