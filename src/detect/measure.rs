@@ -148,7 +148,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             let contrast = self.strength() * if focus > DEFOCUSED { 1.25 * focus } else { 1.0 };
             let scatter = quality::expected_scatter(b, self.levels.noise, contrast, focus);
             // the search knows the height of a small target to two pixels only
-            let rough = if round == 0 && b < SMALL { 0.15 } else { 0.0 };
+            let rough = if round == 0 && b < SMALL { 0.2 } else { 0.0 };
             if found.rms > 0.05 + rough + 1.3 * scatter {
                 return Err(Reason::NotAnEllipse);
             }
