@@ -6,8 +6,9 @@ import { test } from 'node:test';
 
 import * as sightline from '../pkg/sightline.js';
 import { compare } from '../tests/face/compare.mjs';
+import { tiff } from '../tests/face/tiff.mjs';
 import { open } from './browser.mjs';
-import { data, detect, downloads, files, idle, photos, sample, unzipped } from './desk.mjs';
+import { data, detect, downloads, files, go, idle, photos, sample, scratch, unzipped } from './desk.mjs';
 
 sightline.initSync({ module: readFileSync(fileURLToPath(new URL('../pkg/sightline_bg.wasm', import.meta.url))) });
 
@@ -70,3 +71,33 @@ for (const { name, ending, folder, choices, options, least } of [
     }
   });
 }
+
+/** A bright disc of 120 px with a soft edge. */
+function disc(u, v) {
+  const samples = new Uint8Array(400 * 300);
+  const level = (x, y) => 40 + 160 / (1 + Math.exp(2 * (Math.hypot(x + 0.5 - u, y + 0.5 - v) - 60)));
+  return samples.map((_, i) => Math.round(level(i % 400, Math.floor(i / 400))));
+}
+
+test('Alt and a click measure one target, in one photo after the other', async () => {
+  const places = [[205.3, 148.6], [190.8, 155.2]];
+  const entries = await saved(1, 'Save', async (page) => {
+    await photos(page, places.map(([u, v], i) => scratch(`disc${i}.tif`, tiff(400, 300, disc(u, v)))));
+    await go(page, 'identities');
+    // The second click in a photo finds it decoded, and the first one in the other photo does not.
+    for (const photo of [0, 0, 1, 0]) {
+      await page.locator('.strip [data-photo]').nth(photo).click();
+      await page.click('canvas.photo', { modifiers: ['Alt'] });
+      await page.waitForTimeout(300);
+    }
+  });
+  const found = Object.entries(targets(entries)).sort(([a], [b]) => (a < b ? -1 : 1));
+  assert.equal(found.length, 2);
+  found.forEach(([, { targets }], i) => {
+    assert.equal(targets.length, 1);
+    const expected = sightline.measureAtGray(400, 300, disc(...places[i]), ...places[i]);
+    const [{ u, v, sigma_u: sigma }] = targets;
+    assert.ok(Math.hypot(u - expected.u, v - expected.v) < 0.05 * sigma, `photo ${i + 1}: ${u}, ${v}`);
+    assert.ok(Math.hypot(u - places[i][0], v - places[i][1]) < 0.05);
+  });
+});

@@ -61,11 +61,14 @@ pub fn detect_grey(
 ) -> Thrown {
     let found = || {
         let options: DetectOptions = value::options(&options, &[])?;
-        let (width, height) = (value::whole(&width, "width")?, value::whole(&height, "height")?);
-        let grey = Grey { width, height, samples: samples_of(&samples)? };
-        detect::detect(&grey.view()?, &options)
+        detect::detect(&grey_of(&width, &height, &samples)?.view()?, &options)
     };
     found().map(value::detection_object).map_err(|error| thrown(&error))
+}
+
+fn grey_of(width: &JsValue, height: &JsValue, samples: &JsValue) -> crate::Result<Grey> {
+    let (width, height) = (value::whole(width, "width")?, value::whole(height, "height")?);
+    Ok(Grey { width, height, samples: samples_of(samples)? })
 }
 
 fn samples_of(samples: &JsValue) -> crate::Result<Samples> {
@@ -91,6 +94,25 @@ pub fn measure_at(
         let options: DetectOptions = value::options(&options, &[])?;
         let (u, v) = (value::number(&u, "u")?, value::number(&v, "v")?);
         let grey = decode::grey(&value::bytes(&bytes, "bytes")?, options.channel)?;
+        detect::measure_at(&grey.view()?, u, v, &options)
+    };
+    found().map(|target| value::write(&target)).map_err(|error| thrown(&error))
+}
+
+/// The same in a picture that is decoded already.
+#[wasm_bindgen(js_name = measureAtGray, unchecked_return_type = "Target | null")]
+pub fn measure_at_gray(
+    #[wasm_bindgen(unchecked_param_type = "number")] width: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] height: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Uint8Array | Uint8ClampedArray | Uint16Array")] samples: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] u: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] v: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
+) -> Thrown {
+    let found = || {
+        let options: DetectOptions = value::options(&options, &[])?;
+        let (u, v) = (value::number(&u, "u")?, value::number(&v, "v")?);
+        let grey = grey_of(&width, &height, &samples)?;
         detect::measure_at(&grey.view()?, u, v, &options)
     };
     found().map(|target| value::write(&target)).map_err(|error| thrown(&error))

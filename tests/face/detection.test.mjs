@@ -31,6 +31,9 @@ test('a disc is measured where it is, in 8 and in 16 bits, by every method', () 
       assert.ok(Math.hypot(target.u - 41.3, target.v - 28.8) < tolerance, `${method}: ${target.u}, ${target.v}`);
       assert.ok(Math.abs(target.major - 19) < 0.3 && target.polarity === 'bright' && target.code === null);
       assert.ok(target.sigma_u > 0 && target.sigma_v > 0);
+      const clicked = sightline.measureAtGray(80, 60, disc(80, 60, 41.3, 28.8, 9.5, depth), 39, 30, { method });
+      assert.ok(Math.hypot(clicked.u - target.u, clicked.v - target.v) < 0.05 * target.sigma_u, `${method}: ${clicked.u}, ${clicked.v}`);
+      assert.equal(sightline.measureAtGray(80, 60, disc(80, 60, 41.3, 28.8, 9.5, depth), 10, 10, { method }), null);
     }
   }
   const dark = disc(80, 60, 41.3, 28.8, 9.5, 8).map((value) => 255 - value);
@@ -57,6 +60,8 @@ test('what is no picture, no size and no option is named', () => {
     [() => sightline.detectGray(4, 3, samples, 'fast'), 'options'],
     [() => sightline.detect('a.jpg'), 'bytes'],
     [() => sightline.measureAt(samples, 'left', 0), 'u'],
+    [() => sightline.measureAtGray(4, 3, samples, 9, 1), 'u'],
+    [() => sightline.measureAtGray(4, 2, samples, 1, 1), 'samples'],
   ];
   for (const [action, field] of cases) {
     const error = thrown(action);

@@ -21,8 +21,8 @@ pub enum Request {
     Picture,
     /// Find the targets of a photo.
     Detect { options: DetectOptions },
-    /// Measure at one place of a photo.
-    Measure { u: f64, v: f64, options: DetectOptions },
+    /// Measure at one place of a photo; by the file's digest a worker knows the photo that it decoded last.
+    Measure { digest: u64, u: f64, v: f64, options: DetectOptions },
     /// Orient what is not oriented and adjust; progress per iteration.
     Adjust { project: Box<Project>, options: AdjustOptions },
     /// Name uncoded targets by the geometry of the photos, which are oriented and adjusted first where they are not.

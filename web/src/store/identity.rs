@@ -178,7 +178,8 @@ impl Desk {
 
     /// Measures at a place of the photo; where there is nothing to measure, the place itself is taken.
     pub fn measure_at(self, photo: &str, u: f64, v: f64) {
-        let Some(file) = self.files.with_untracked(|f| f.get(photo).map(|f| f.content.clone())) else {
+        let file = self.files.with_untracked(|f| f.get(photo).map(|f| (f.content.clone(), f.digest)));
+        let Some((file, digest)) = file else {
             self.warn(|| text::no_photo_files().to_owned());
             return;
         };
@@ -194,7 +195,8 @@ impl Desk {
             Outcome::Answer(Answer::Unreadable { detail }, _) | Outcome::Crashed(detail) => self.warn_crash(detail),
             Outcome::Answer(..) => {}
         };
-        self.pool.with_value(|pool| pool.submit_first(Request::Measure { u, v, options }, vec![file], on_outcome));
+        self.pool
+            .with_value(|pool| pool.submit_first(Request::Measure { digest, u, v, options }, vec![file], on_outcome));
     }
 
     /// A target measured on request joins the photo's list and is chosen, to be named.
