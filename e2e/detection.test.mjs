@@ -87,8 +87,11 @@ test('Alt and a click measure one target, in one photo after the other', async (
     // The second click in a photo finds it decoded, and the first one in the other photo does not.
     for (const photo of [0, 0, 1, 0]) {
       await page.locator('.strip [data-photo]').nth(photo).click();
+      // Escape leaves no target chosen; the measured one is chosen when it is there.
+      await page.keyboard.press('Escape');
+      await page.waitForSelector('#target-name', { state: 'detached' });
       await page.click('canvas.photo', { modifiers: ['Alt'] });
-      await page.waitForTimeout(300);
+      await page.waitForSelector('#target-name');
     }
   });
   const found = Object.entries(targets(entries)).sort(([a], [b]) => (a < b ? -1 : 1));

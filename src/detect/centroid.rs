@@ -3,7 +3,8 @@
 //! u = Σ w x / Σ w over the pixels around the target, with w either the grey level above a threshold (intensity-weighted,
 //! Lee 1996 eq. 3-2) or the squared gradient of the grey levels (gradient-weighted, eq. 3-1). Both are simple and fast; the
 //! first takes in what lies in the window beside the target, the second weighs the rim and its noise twice. Their sigma is
-//! the propagated noise of the pixels; for the first also that of the background's slope and what its threshold cuts off, which is the larger part.
+//! the propagated noise of the pixels; for the first also that of the background's slope, the coming and going of pixels at its
+//! threshold, and what that cuts off.
 
 use wide::f32x4;
 

@@ -192,10 +192,11 @@ fn refined_side(blur: f64) -> usize {
 type Drawn = (f64, [f64; 4], [f64; 4]);
 
 /// Edge points by fitting each ray's profile for its shift δ: Gauss-Newton steps of one unknown. All samples across the edge
-/// count, each with the derivative of the profile as its weight. A rim of curvature κ gets less light, by κ s φ / 2 in first
-/// order. The profile of a sample is drawn from its four pixels as the
-/// sample is, Σ w (Φ(-z) - κ s φ(z) / 2) with z = (d - δ)/s: what bilinear sampling does to an edge depends on where it lies between the pixels, and would
-/// move the centre by half its standard error.
+/// count, each with the derivative of the profile as its weight.
+///
+/// The profile of a sample is drawn from its four pixels as the sample is, Σ w (Φ(-z) - κ s φ(z) / 2) with z = (d - δ)/s: what
+/// bilinear sampling does to an edge depends on where it lies between the pixels, and would move the centre by half its
+/// standard error. The second term is the light that a rim of curvature κ lacks, in first order.
 pub(crate) fn refine<T: Sample>(
     plane: &Plane<T>,
     outline: &Outline,
