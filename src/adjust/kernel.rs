@@ -15,11 +15,11 @@ pub type Tile = [f64; AREA];
 /// Register block: four rows by four columns.
 const R: usize = 4;
 
-/// c[0..4 rows from i, 4 columns from j] -= a[rows i.., 0..depth] · b[rows j.., 0..depth]ᵀ.
+/// c[0..4 rows from i, 4 columns from j] ± = a[rows i..] · b[rows j..]ᵀ over the columns from `first` on, minus if `SUBTRACT`.
 #[inline(always)]
-fn block(c: &mut Tile, a: &Tile, b: &Tile, i: usize, j: usize, depth: usize) {
+fn block<const SUBTRACT: bool>(c: &mut Tile, a: &Tile, b: &Tile, i: usize, j: usize, first: usize) {
     let mut sum = [[0.0; R]; R];
-    for (a, b) in a.chunks_exact(TILE).zip(b.chunks_exact(TILE)).take(depth) {
+    for (a, b) in a[first * TILE..].chunks_exact(TILE).zip(b[first * TILE..].chunks_exact(TILE)) {
         let a: &[f64; R] = a[i..i + R].try_into().unwrap_or(&[0.0; R]);
         let b: &[f64; R] = b[j..j + R].try_into().unwrap_or(&[0.0; R]);
         for (sum, &b) in sum.iter_mut().zip(b) {
@@ -31,7 +31,11 @@ fn block(c: &mut Tile, a: &Tile, b: &Tile, i: usize, j: usize, depth: usize) {
     for (k, sum) in sum.iter().enumerate() {
         let start = (j + k) * TILE + i;
         for (c, sum) in c[start..start + R].iter_mut().zip(sum) {
-            *c -= sum;
+            if SUBTRACT {
+                *c -= sum;
+            } else {
+                *c += sum;
+            }
         }
     }
 }
@@ -40,7 +44,52 @@ fn block(c: &mut Tile, a: &Tile, b: &Tile, i: usize, j: usize, depth: usize) {
 pub fn subtract_product(c: &mut Tile, a: &Tile, b: &Tile) {
     for j in (0..TILE).step_by(R) {
         for i in (0..TILE).step_by(R) {
-            block(c, a, b, i, j, TILE);
+            block::<true>(c, a, b, i, j, 0);
+        }
+    }
+}
+
+/// C += A·Bᵀ.
+pub fn add_product(c: &mut Tile, a: &Tile, b: &Tile) {
+    for j in (0..TILE).step_by(R) {
+        for i in (0..TILE).step_by(R) {
+            block::<false>(c, a, b, i, j, 0);
+        }
+    }
+}
+
+/// C -= U·Bᵀ with the upper triangle U, zeros below.
+pub fn subtract_upper_product(c: &mut Tile, u: &Tile, b: &Tile) {
+    for j in (0..TILE).step_by(R) {
+        for i in (0..TILE).step_by(R) {
+            block::<true>(c, u, b, i, j, i);
+        }
+    }
+}
+
+/// The lower triangle of C += U·Uᵀ with the upper triangle U, zeros below (and of the register blocks above the diagonal).
+pub fn add_upper_square(c: &mut Tile, u: &Tile) {
+    for j in (0..TILE).step_by(R) {
+        for i in (j..TILE).step_by(R) {
+            block::<false>(c, u, u, i, j, i);
+        }
+    }
+}
+
+/// The lower triangle of C += A·Bᵀ, a product that is symmetric (and of the register blocks above the diagonal).
+pub fn add_symmetric_product(c: &mut Tile, a: &Tile, b: &Tile) {
+    for j in (0..TILE).step_by(R) {
+        for i in (j..TILE).step_by(R) {
+            block::<false>(c, a, b, i, j, 0);
+        }
+    }
+}
+
+/// Repeats the lower triangle above the diagonal.
+pub fn mirror(c: &mut Tile) {
+    for j in 1..TILE {
+        for i in 0..j {
+            c[j * TILE + i] = c[i * TILE + j];
         }
     }
 }
@@ -49,7 +98,7 @@ pub fn subtract_product(c: &mut Tile, a: &Tile, b: &Tile) {
 pub fn subtract_square(c: &mut Tile, a: &Tile) {
     for j in (0..TILE).step_by(R) {
         for i in (j..TILE).step_by(R) {
-            block(c, a, a, i, j, TILE);
+            block::<true>(c, a, a, i, j, 0);
         }
     }
 }
@@ -133,14 +182,12 @@ pub fn transpose(from: &Tile, to: &mut Tile) {
     }
 }
 
-/// Inverse of the lower triangle L, full tile with zeros above the diagonal.
-pub fn inverse_of_lower(l: &Tile) -> Box<Tile> {
-    // L⁻ᵀ = I·L⁻ᵀ, transposed.
+/// L⁻ᵀ of the lower triangle L, full tile with zeros below the diagonal.
+pub fn inverse_transposed(l: &Tile) -> Box<Tile> {
+    // I·L⁻ᵀ.
     let mut upper = identity();
     solve_right(&mut upper, l);
-    let mut inverse = Box::new([0.0; AREA]);
-    transpose(&upper, &mut inverse);
-    inverse
+    upper
 }
 
 /// The unit tile.
@@ -205,6 +252,10 @@ mod tests {
         c
     }
 
+    fn negative(a: &Tile) -> Box<Tile> {
+        Box::new(a.map(|x| -x))
+    }
+
     #[test]
     fn products_agree_with_the_plain_loops() {
         let (a, b, c) = (tile(1), tile(2), tile(3));
@@ -212,12 +263,38 @@ mod tests {
         subtract_product(&mut fast, &a, &b);
         plain::subtract_product(&mut slow, &a, &b);
         assert!(fast.iter().zip(slow.iter()).all(|(x, y)| (x - y).abs() < 1e-13));
+        let (mut fast, mut slow) = (c.clone(), c.clone());
+        add_product(&mut fast, &a, &b);
+        plain::subtract_product(&mut slow, &negative(&a), &b);
+        assert!(fast.iter().zip(slow.iter()).all(|(x, y)| (x - y).abs() < 1e-13));
         let (mut fast, mut slow) = (c.clone(), c);
         subtract_square(&mut fast, &a);
         plain::subtract_product(&mut slow, &a, &a);
         for j in 0..TILE {
             assert!((j..TILE).all(|i| (fast[j * TILE + i] - slow[j * TILE + i]).abs() < 1e-13));
         }
+    }
+
+    #[test]
+    fn products_of_triangles_and_symmetric_ones_agree_with_the_plain_loops() {
+        let (mut u, b, c) = (tile(1), tile(2), tile(3));
+        for j in 0..TILE {
+            u[j * TILE + j + 1..(j + 1) * TILE].fill(0.0);
+        }
+        let (mut fast, mut slow) = (c.clone(), c);
+        subtract_upper_product(&mut fast, &u, &b);
+        plain::subtract_product(&mut slow, &u, &b);
+        assert!(fast.iter().zip(slow.iter()).all(|(x, y)| (x - y).abs() < 1e-13));
+        let (mut fast, mut slow) = (identity(), identity());
+        add_upper_square(&mut fast, &u);
+        mirror(&mut fast);
+        plain::subtract_product(&mut slow, &negative(&u), &u);
+        assert!(fast.iter().zip(slow.iter()).all(|(x, y)| (x - y).abs() < 1e-13));
+        let (mut fast, mut slow) = (identity(), identity());
+        add_symmetric_product(&mut fast, &b, &b);
+        mirror(&mut fast);
+        plain::subtract_product(&mut slow, &negative(&b), &b);
+        assert!(fast.iter().zip(slow.iter()).all(|(x, y)| (x - y).abs() < 1e-13));
     }
 
     #[test]

@@ -41,7 +41,6 @@ pub struct RayCofactors<const N: usize> {
     /// K.
     pub k: [[f64; 3]; 3],
     columns: Vec<(u32, u32)>,
-    poses: Vec<[f64; 2]>,
     p: Vec<[f64x2; 2]>,
 }
 
@@ -69,14 +68,12 @@ impl<const N: usize> RayCofactors<N> {
         self.own.clear();
         self.own.resize(rows.len(), [0.0; 2]);
         self.columns.clear();
-        self.poses.clear();
         self.p.resize(rows.len(), [f64x2::ZERO; 2]);
         for (i, row) in rows.iter().enumerate() {
             let place = layout.photo[row.photo];
             // Rays are sorted by place, so that the later one of a pair is the row.
             self.columns.push(TileMatrix::column(place));
-            self.poses.extend((0..6).map(|k| [row.pose[0][k], row.pose[1][k]]));
-            let sum = among_photos(inverse, inverse.line(place), &self.columns, &self.poses, &self.b, &mut self.p);
+            let sum = among_photos(inverse, inverse.line(place), &self.columns, &rows[..=i], &self.b, &mut self.p);
             let sum = sum.map(f64x2::to_array);
             (0..2).for_each(|s| (0..3).for_each(|m| self.c[i][s][m] = sum[m][s]));
             add_products(&self.p[..i], &self.b[i], &mut self.c[..i]);
@@ -215,36 +212,41 @@ fn dot<const C: usize>(a: &[f64; C], b: &[f64; C]) -> f64 {
     x + y
 }
 
-/// P_ik for the last of the rays, i, and all k up to it: per side of k both sides of i. `poses` holds six columns of both sides
-/// per ray. Returns what these rays add to C_iᵀ. This is where the time goes.
+/// P_ik for the last of the rays, i, and all k up to it: per side of k both sides of i. Returns what these rays add to C_iᵀ.
+/// This is where the time goes.
 ///
-/// The columns of a block are a loop in the machine's code too, which their number, unknown to the compiler, sees to: V8 puts
-/// all loads of a stretch without branches before its arithmetic, and unrolled they would overflow the registers.
+/// Q_ik G_kᵀ comes first, whose numbers stand in pairs as those of a column of Q_ik do. The columns of a block are a loop in the
+/// machine's code too, which their number, unknown to the compiler, sees to: V8 puts all loads of a stretch without branches
+/// before its arithmetic, and unrolled they would overflow the registers.
 #[inline(never)]
-fn among_photos(
+fn among_photos<const N: usize>(
     inverse: &TileMatrix,
     line: Line,
     columns: &[(u32, u32)],
-    poses: &[[f64; 2]],
+    rows: &[Row<N>],
     b: &[Pair],
     p: &mut [[f64x2; 2]],
 ) -> [f64x2; 3] {
-    let six = black_box(6);
+    let six = black_box(6).min(6);
     let mut sum = [f64x2::ZERO; 3];
-    let mut g = [f64x2::ZERO; 6];
-    let last = poses.len().saturating_sub(6);
-    g.iter_mut().zip(&poses[last..]).for_each(|(g, pose)| *g = f64x2::new(*pose));
-    for (((column, poses), b), p) in columns.iter().zip(poses.chunks_exact(six)).zip(b).zip(p) {
-        let mut both = [f64x2::ZERO; 2];
-        for (q, pose) in inverse.data()[line.at(inverse, *column)..].chunks(TILE).zip(poses) {
+    let Some(last) = rows.last() else { return sum };
+    let g = &last.pose;
+    for (((column, row), b), p) in columns.iter().zip(rows).zip(b).zip(p) {
+        let block = &inverse.data()[line.at(inverse, *column)..][..5 * TILE + 6];
+        let (mut x, mut y) = ([f64x2::ZERO; 3], [f64x2::ZERO; 3]);
+        for ((q, h), k) in block.chunks(TILE).zip(&row.pose[0][..six]).zip(&row.pose[1][..six]) {
             let q = &q[..6];
-            let mut product = g[0] * f64x2::splat(q[0]);
-            for r in 1..6 {
-                product += g[r] * f64x2::splat(q[r]);
+            let (h, k) = (f64x2::splat(*h), f64x2::splat(*k));
+            for r in 0..3 {
+                x[r] += pair(q, 2 * r) * h;
+                y[r] += pair(q, 2 * r) * k;
             }
-            both[0] += product * f64x2::splat(pose[0]);
-            both[1] += product * f64x2::splat(pose[1]);
         }
+        let both = [x, y].map(|product| {
+            let [a, b] =
+                g.map(|g| (pair(&g, 0) * product[0] + pair(&g, 2) * product[1] + pair(&g, 4) * product[2]).to_array());
+            f64x2::new([a[0], b[0]]) + f64x2::new([a[1], b[1]])
+        });
         for m in 0..3 {
             sum[m] += both[0] * f64x2::splat(b[0][m]) + both[1] * f64x2::splat(b[1][m]);
         }
@@ -333,7 +335,8 @@ mod tests {
             }
         }
         let pose = |k: usize, s: usize, r: usize| (0.4 + k as f64 + 2.1 * s as f64 + 0.7 * r as f64).cos();
-        let poses: Vec<[f64; 2]> = (0..3).flat_map(|k| (0..6).map(move |r| [pose(k, 0, r), pose(k, 1, r)])).collect();
+        let row = |k: usize| Row::<0> { pose: [0, 1].map(|s| [0, 1, 2, 3, 4, 5].map(|r| pose(k, s, r))), ..Row::ZERO };
+        let rows: Vec<Row<0>> = (0..3).map(row).collect();
         let b: Vec<Pair> = (0..3)
             .map(|k| {
                 [0, 1].map(|s| [0, 1, 2, 3].map(|m| if m < 3 { (k * 5 + s * 3 + m) as f64 * 0.3 - 1.0 } else { 0.0 }))
@@ -342,7 +345,7 @@ mod tests {
         let columns: Vec<(u32, u32)> = places.iter().map(|place| TileMatrix::column(*place)).collect();
         let (mut c, mut p) = (vec![Pair::default(); 3], vec![[f64x2::ZERO; 2]; 3]);
         for i in 0..3 {
-            let sum = among_photos(&q, q.line(places[i]), &columns[..=i], &poses[..6 * (i + 1)], &b, &mut p);
+            let sum = among_photos(&q, q.line(places[i]), &columns[..=i], &rows[..=i], &b, &mut p);
             let sum = sum.map(f64x2::to_array);
             (0..2).for_each(|s| (0..3).for_each(|m| c[i][s][m] = sum[m][s]));
             add_products(&p[..i], &b[i], &mut c[..i]);

@@ -39,7 +39,8 @@ pub struct Weighting<'a> {
 }
 
 impl<const N: usize> Row<N> {
-    const ZERO: Self = Self {
+    /// Nothing.
+    pub const ZERO: Self = Self {
         photo: 0,
         interior: 0,
         e: [0.0; 2],

@@ -226,15 +226,13 @@ impl TileMatrix {
         for k in (0..self.pattern.side).rev() {
             let rows = &self.pattern.rows[k];
             let first = self.pattern.slot(k, k);
-            let inverse_diagonal = kernel::inverse_of_lower(tile(&self.data, first));
-            let mut diagonal_turned = Box::new([0.0; AREA]);
-            kernel::transpose(&inverse_diagonal, &mut diagonal_turned);
-            // -Yᵀ = -(L_IK L_KK⁻¹)ᵀ of every row of the column.
+            // L_KK⁻ᵀ, an upper triangle.
+            let upper = kernel::inverse_transposed(tile(&self.data, first));
+            // -Yᵀ = -(L_IK L_KK⁻¹)ᵀ = -L_KK⁻ᵀ L_IKᵀ of every row of the column.
             let negative: Vec<Box<Tile>> = (1..rows.len())
                 .map(|n| {
-                    // -L_KK⁻ᵀ L_IKᵀ = -Y_IKᵀ
                     let mut product = Box::new([0.0; AREA]);
-                    kernel::subtract_product(&mut product, &diagonal_turned, tile(&self.data, first + n));
+                    kernel::subtract_upper_product(&mut product, &upper, tile(&self.data, first + n));
                     product
                 })
                 .collect();
@@ -243,34 +241,28 @@ impl TileMatrix {
             for (n, &i) in rows.iter().enumerate().skip(1) {
                 let target = tile_mut(column, n);
                 for (m, &j) in rows.iter().enumerate().skip(1) {
-                    // target += Z_IJ·(-Y_JK) = -(Z_IJ·(Y_JKᵀ)ᵀ)
+                    // target += Z_IJ·(-Y_JK)
                     let (row, at) = (i.max(j), i.min(j));
                     let z = tile(later, self.pattern.slot(row, at) - first - rows.len());
                     if i >= j {
-                        add_product(target, z, &negative[m - 1]);
+                        kernel::add_product(target, z, &negative[m - 1]);
                     } else {
                         kernel::transpose(z, &mut turned);
-                        add_product(target, &turned, &negative[m - 1]);
+                        kernel::add_product(target, &turned, &negative[m - 1]);
                     }
                 }
             }
             let (diagonal, below) = column.split_at_mut(AREA);
             let diagonal = tile_mut(diagonal, 0);
-            add_product(diagonal, &diagonal_turned, &diagonal_turned);
+            kernel::add_upper_square(diagonal, &upper);
             for (n, negative) in negative.iter().enumerate() {
                 kernel::transpose(tile(below, n), &mut turned);
-                add_product(diagonal, &turned, negative);
+                kernel::add_symmetric_product(diagonal, &turned, negative);
             }
+            kernel::mirror(diagonal);
         }
         inverse
     }
-}
-
-/// C += A·Bᵀ, by way of the subtracting kernel.
-fn add_product(c: &mut Tile, a: &Tile, b: &Tile) {
-    c.iter_mut().for_each(|x| *x = -*x);
-    kernel::subtract_product(c, a, b);
-    c.iter_mut().for_each(|x| *x = -*x);
 }
 
 #[cfg(test)]

@@ -31,15 +31,15 @@ extern "C" {
     #[wasm_bindgen(js_name = readPoints)]
     fn read_points(rows: &Array) -> Columns;
     #[wasm_bindgen(js_name = writeObservations)]
-    fn write_observations(numbers: &Float64Array, places: &Uint32Array, names: &Array) -> Array;
+    fn write_observations(numbers: &[f64], places: &[u32], names: &Array) -> Array;
     #[wasm_bindgen(js_name = writePoints)]
-    fn write_points(numbers: &Float64Array, places: &Uint32Array, names: &Array) -> Array;
+    fn write_points(numbers: &[f64], places: &[u32], names: &Array) -> Array;
     #[wasm_bindgen(js_name = writeAdjustedObservations)]
-    fn write_adjusted_observations(numbers: &Float64Array, places: &Uint32Array, names: &Array) -> Array;
+    fn write_adjusted_observations(numbers: &[f64], places: &[u32], names: &Array) -> Array;
     #[wasm_bindgen(js_name = writeRejected)]
-    fn write_rejected(numbers: &Float64Array, reasons: &Uint32Array, names: &Array) -> Array;
+    fn write_rejected(numbers: &[f64], reasons: &[u32], names: &Array) -> Array;
     #[wasm_bindgen(js_name = writeAdjustedPoints)]
-    fn write_adjusted_points(numbers: &Float64Array, places: &Uint32Array, names: &Array) -> Array;
+    fn write_adjusted_points(numbers: &[f64], places: &[u32], names: &Array) -> Array;
 }
 
 /// Bits of an observation's flags.
@@ -97,7 +97,7 @@ pub fn observation_rows(observations: &[Observation]) -> Array {
         let flags = two | if *enabled { ENABLED } else { 0 };
         places.extend([last_photo.number(&mut names, photo), last_point.number(&mut names, point), flags]);
     }
-    write_observations(&columns(&numbers), &Uint32Array::from(places.as_slice()), &names.list)
+    write_observations(&numbers, &places, &names.list)
 }
 
 /// Rows of a project's points.
@@ -119,7 +119,7 @@ pub fn point_rows(points: &[Point]) -> Array {
         let normal = if normal.is_some() { NORMAL } else { 0 };
         flags.push(role | coordinates | sigmas | normal);
     }
-    write_points(&columns(&numbers), &Uint32Array::from(flags.as_slice()), &names)
+    write_points(&numbers, &flags, &names)
 }
 
 /// Rows of adjusted observations.
@@ -155,7 +155,7 @@ pub fn adjusted_observation_rows(observations: &[AdjustedObservation]) -> Array 
             u32::from(*enabled),
         ]);
     }
-    write_adjusted_observations(&columns(&numbers), &Uint32Array::from(places.as_slice()), &names.list)
+    write_adjusted_observations(&numbers, &places, &names.list)
 }
 
 /// Rows of adjusted points.
@@ -168,7 +168,7 @@ pub fn adjusted_point_rows(points: &[AdjustedPoint]) -> Array {
         numbers.extend(covariance.unwrap_or([f64::NAN; 6]));
         places.extend([*rays as u32, u32::from(sigma.is_some()) + 2 * u32::from(covariance.is_some())]);
     }
-    write_adjusted_points(&columns(&numbers), &Uint32Array::from(places.as_slice()), &names)
+    write_adjusted_points(&numbers, &places, &names)
 }
 
 /// Rows of rejected blobs.
@@ -184,11 +184,7 @@ pub fn rejected_rows(blobs: &[Rejected]) -> Array {
         reasons.push(at as u32);
     }
     let names: Array = names.iter().map(super::value::write).collect();
-    write_rejected(&columns(&numbers), &Uint32Array::from(reasons.as_slice()), &names)
-}
-
-fn columns(numbers: &[f64]) -> Float64Array {
-    Float64Array::from(numbers)
+    write_rejected(&numbers, &reasons, &names)
 }
 
 /// Identifiers numbered by their first appearance.

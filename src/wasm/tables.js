@@ -1,8 +1,9 @@
 // The long tables of a project and of an adjustment, between rows of plain objects and columns of numbers.
 //
-// A call across the border costs more than the row it fetches: here a table crosses in three typed arrays. Identifiers are
-// numbered by their first appearance; a number that is null is NaN in its column, and NaN itself is refused on the way in.
-// A row that is not what it should be comes back as { row, field, expected }.
+// A call across the border costs more than the row it fetches: here a table crosses in three typed arrays, on the way out as
+// views of the engine's memory, which only live during the call. Identifiers are numbered by their first appearance; a number
+// that is null is NaN in its column, and NaN itself is refused on the way in. A row that is not what it should be comes back as
+// { row, field, expected }.
 
 class Names {
   list = [];
