@@ -4,6 +4,9 @@ use crate::image::{Plane, Sample};
 
 /// Rows that are looked at, spread over the picture.
 const ROWS: usize = 48;
+/// Golden section: the rows for the range lie at its multiples in their strips. At even distances all of them might pass between
+/// the targets of a regular field.
+const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// Statistics of a picture in grey levels.
 #[derive(Clone, Copy, Debug)]
@@ -23,13 +26,14 @@ pub(crate) fn levels<T: Sample>(plane: &Plane<T>) -> Levels {
     let (mut values, mut differences) = (vec![0u32; bins], vec![0u32; bins]);
     let step = (plane.height / ROWS).max(1);
     for y in (step / 2..plane.height).step_by(step) {
-        let row = plane.row(y);
-        for triple in row.windows(3).step_by(2) {
-            let [left, middle, right] = [triple[0].level(), triple[1].level(), triple[2].level()];
-            let difference = (left + right).abs_diff(2 * middle);
+        for triple in plane.row(y).windows(3).step_by(2) {
+            let difference = (triple[0].level() + triple[2].level()).abs_diff(2 * triple[1].level());
             differences[(difference as usize).min(bins - 1)] += 1;
-            values[middle as usize] += 1;
         }
+    }
+    for strip in 0..plane.height / step {
+        let row = plane.row(strip * step + ((strip as f64 * GOLDEN).fract() * step as f64) as usize);
+        row.windows(3).step_by(2).for_each(|triple| values[triple[1].level() as usize] += 1);
     }
     let noise = quantile(&differences, 0.5).unwrap_or(0.0) / (0.6745 * 6f64.sqrt());
     let range = quantile(&values, 0.999).unwrap_or(0.0) - quantile(&values, 0.001).unwrap_or(0.0);
@@ -89,6 +93,16 @@ mod tests {
             let samples = noisy(sigma);
             let found = levels(&Plane::new(200, 200, &samples)).noise;
             assert!((found / sigma - 1.0).abs() < 0.1, "{sigma}: {found}");
+        }
+    }
+
+    #[test]
+    fn the_range_sees_the_bright_bands_of_a_regular_pattern() {
+        for period in [12, 24, 32, 48, 96] {
+            let samples: Vec<u8> =
+                (0..64 * 1152).map(|k| if k / 64 % period < period / 4 { 200 } else { 20 }).collect();
+            let found = levels(&Plane::new(64, 1152, &samples)).range;
+            assert!(found > 170.0, "{period}: {found}");
         }
     }
 
