@@ -26,6 +26,7 @@ mod propagation;
 mod quality;
 mod rendered;
 mod scan;
+mod scatter;
 mod search;
 mod surround;
 

@@ -9,6 +9,7 @@ use wide::{f32x4, f32x8};
 use super::flats::Flats;
 use super::outline::Outline;
 use super::rendered::{DERIVATIVES, Field, Span, normal_distribution};
+use super::scatter::Lights;
 use super::surround::Surround;
 use crate::image::{Plane, Sample};
 
@@ -292,6 +293,34 @@ impl Band {
         let used = self.kept.iter().filter(|kept| **kept > 0.0).count();
         let [square] = dots(&self.residual, [&self.residual]);
         (square / used.saturating_sub(UNKNOWNS - 2).max(1) as f64, used)
+    }
+
+    /// How the squares of the residuals go with the share of the disc, and the light's part in the centre.
+    #[inline(never)]
+    pub fn lights(&self, cofactors: &Normal, contrast: f64) -> Lights {
+        let columns = self.columns().map(|column| column.as_chunks::<8>().0);
+        let scale = |i: usize| if i < 2 * DERIVATIVES { contrast } else { 1.0 };
+        let factor = |i: usize, j: usize| f32x8::splat((cofactors[(i, j)] * scale(i) * scale(j)) as f32);
+        let factors: [[f32x8; UNKNOWNS]; UNKNOWNS] = std::array::from_fn(|i| std::array::from_fn(|j| factor(i, j)));
+        let mut lights = Lights::default();
+        for k in 0..columns[0].len() {
+            let row = columns.map(|column| f32x8::new(column[k]));
+            let moved = factors.map(|factors| factors.iter().zip(&row).fold(f32x8::ZERO, |sum, (f, x)| sum + *f * *x));
+            let leverage = moved.iter().zip(&row).fold(f32x8::ZERO, |sum, (z, x)| sum + *z * *x);
+            let kept = f32x8::new(self.kept.as_chunks::<8>().0[k]);
+            let free = (kept - leverage).fast_max(f32x8::ZERO);
+            let share = f32x8::new(self.share.as_chunks::<8>().0[k]);
+            let residual = f32x8::new(self.residual.as_chunks::<8>().0[k]);
+            let square = residual * residual;
+            let sum = |x: f32x8| x.to_array().iter().map(|x| f64::from(*x)).sum::<f64>();
+            let powers = [free, free * share, free * share * share].map(sum);
+            let squares = [square, square * share].map(sum);
+            let lit = [moved[0] * moved[0], moved[0] * moved[1], moved[1] * moved[1]].map(|z| sum(z * share));
+            lights.powers.iter_mut().zip(powers).for_each(|(total, x)| *total += x);
+            lights.squares.iter_mut().zip(squares).for_each(|(total, x)| *total += x);
+            lights.lit.iter_mut().zip(lit).for_each(|(total, x)| *total += x / (contrast * contrast));
+        }
+        lights
     }
 
     fn columns(&self) -> [&[f32]; UNKNOWNS] {

@@ -12,6 +12,7 @@ use super::band::{Band, Normal, Region, Unknowns};
 use super::flats::Flats;
 use super::outline::Outline;
 use super::rendered::{BLUR, Field};
+use super::scatter;
 use crate::image::{Plane, Sample};
 
 /// Corrections below this share of the blur (and of the pixel) leave the design matrix as it is.
@@ -133,7 +134,12 @@ pub(crate) fn fit<T: Sample>(
         return None;
     }
     let cofactors = invert(&normal)?;
-    let covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
+    let mut covariance = scatter::covariance(&cofactors, &work.band.lights(&cofactors, state.contrast), &flats);
+    // what is left around a disturbance follows no light: the mean of all may tell more of it
+    let mean = cofactors[(0, 0)] + cofactors[(1, 1)];
+    if dropped > 0 && mean * variance > covariance[0] + covariance[2] {
+        covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
+    }
     (covariance[0] > 0.0 && covariance[2] > 0.0).then_some(Fit {
         outline: state.outline,
         blur: state.blur,

@@ -90,6 +90,15 @@ impl Moments {
         sums
     }
 
+    /// Σ z z' (uu, uv, vv) over the pixels, z = c + cx x + cy y with two rows of coefficients.
+    pub fn products(&self, rows: &[[f64; 3]; 2]) -> [f64; 3] {
+        let second = [[self.n, self.x, self.y], [self.x, self.xx, self.xy], [self.y, self.xy, self.yy]];
+        let product = |a: &[f64; 3], b: &[f64; 3]| -> f64 {
+            (0..3).map(|i| (0..3).map(|j| a[i] * second[i][j] * b[j]).sum::<f64>()).sum()
+        };
+        [product(&rows[0], &rows[0]), product(&rows[0], &rows[1]), product(&rows[1], &rows[1])]
+    }
+
     /// Adds the pixels of a span of a row that are neither hidden nor outliers: further than four sigmas from the plane.
     pub fn add<T: Sample>(&mut self, row: &[T], span: std::ops::Range<usize>, y: usize, region: &Region, inside: bool) {
         if span.is_empty() {

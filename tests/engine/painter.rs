@@ -67,9 +67,14 @@ impl Canvas {
 
     /// The picture with noise, rounded to 8 bits.
     pub fn expose(&self, noise: f64, seed: u64) -> Grey {
+        self.expose_with(|_| noise, seed)
+    }
+
+    /// The picture with noise that depends on the level.
+    pub fn expose_with(&self, noise: impl Fn(f64) -> f64, seed: u64) -> Grey {
         let mut source = Noise::new(seed, 0);
-        let samples =
-            self.levels.iter().map(|level| (level + noise * source.normal()).round().clamp(0.0, 255.0) as u8).collect();
+        let sample = |level: &f64| (level + noise(*level) * source.normal()).round().clamp(0.0, 255.0) as u8;
+        let samples = self.levels.iter().map(sample).collect();
         Grey { width: self.width, height: self.height, samples: Samples::U8(samples) }
     }
 }

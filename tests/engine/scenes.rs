@@ -143,6 +143,32 @@ fn out_of_focus_faint_and_flat_targets_reach_the_bound() {
 }
 
 #[test]
+fn noise_that_grows_with_the_light_is_in_the_sigma() {
+    // photons: the variance is linear in the grey; what is bright scatters more, be it the disc or the ground
+    let noise = |level: f64| (1.0 + 0.03 * level).sqrt();
+    let mut all = Vec::new();
+    for (diameter, contrast, level) in [
+        (6.0, 190.0, 12.0),
+        (9.0, 190.0, 12.0),
+        (14.0, 190.0, 12.0),
+        (30.0, 190.0, 12.0),
+        (9.0, -180.0, 205.0),
+        (14.0, -180.0, 205.0),
+    ] {
+        let pitch = diameter + 34.0;
+        let spots = grid(24, pitch, diameter as u64, |_| circle(diameter, contrast));
+        let found = detected(&painted(&spots, 24.0 * pitch, level, 0.8).expose_with(noise, 5));
+        let mut errors = Errors::default();
+        assert_eq!(errors.add(&found, &spots), spots.len(), "{:?}", found.rejected);
+        println!("diameter {diameter}, contrast {contrast}: error/sigma {:.3}", errors.honest());
+        all.push(errors);
+    }
+    let honest = together(&all);
+    println!("error/sigma of all {honest:.3}");
+    assert!((0.95..1.05).contains(&honest), "{honest}");
+}
+
+#[test]
 fn clipped_targets_are_as_good_as_their_sigma() {
     let mut all = Vec::new();
     // exposed for the room, and retro-reflective in a dark one

@@ -1,0 +1,87 @@
+//! Covariance of a fitted centre where the noise of a pixel depends on its grey.
+//!
+//! The noise of light grows with the light: its variance is linear in the grey (EMVA Standard 1288), and a bright disc scatters
+//! more than its dark ground. With I the share of the disc in a pixel, σ²(I) = a + b I is fitted to the squares of the
+//! residuals, E r² = (1 - h) σ² with h the pixel's leverage j' N⁻¹ j, and the covariance of the unweighted unknowns follows by
+//! the law of propagation,
+//!
+//! ```text
+//! Σ = N⁻¹ (Σ j j' σ²(I)) N⁻¹ = a N⁻¹ + b Σ I z z',   z = N⁻¹ j
+//! ```
+//!
+//! with j the row of the design matrix. The mean of all squares would not do: most pixels of the band lie on the ground, what
+//! determines the centre lies half way up the rim.
+
+use super::band::Normal;
+use super::flats::Flats;
+
+/// Sums over the pixels of the band.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Lights {
+    /// Of (1 - h) I^k, k to 2.
+    pub powers: [f64; 3],
+    /// Of r² I^k, k to 1.
+    pub squares: [f64; 2],
+    /// Of I z z' for the centre: uu, uv, vv.
+    pub lit: [f64; 3],
+}
+
+/// Covariance (uu, uv, vv) of the centre with the cofactors of all unknowns.
+pub(crate) fn covariance(cofactors: &Normal, band: &Lights, flats: &Flats) -> [f64; 3] {
+    let [ground, growth] = line(band.powers, band.squares);
+    // Inside, z is linear: the disc's level is that of the ground and the contrast.
+    let row = |i: usize| [cofactors[(i, 6)] + cofactors[(i, 7)], cofactors[(i, 8)], cofactors[(i, 9)]];
+    let disc = flats.inside.products(&[row(0), row(1)]);
+    let own = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place]);
+    std::array::from_fn(|k| ground * own[k] + growth * (band.lit[k] + disc[k]))
+}
+
+/// a and b of the variance a + b I, never negative between ground and disc.
+fn line([n, first, second]: [f64; 3], [all, lit]: [f64; 2]) -> [f64; 2] {
+    let determinant = n * second - first * first;
+    // Where nearly all pixels are alike there is nothing to tell the two apart.
+    if !(determinant > 1e-3 * n * n) {
+        return [all / n, 0.0];
+    }
+    let growth = (n * lit - first * all) / determinant;
+    let ground = (all - growth * first) / n;
+    if ground < 0.0 {
+        [0.0, all / first]
+    } else if ground + growth < 0.0 {
+        [all / (n - first), -all / (n - first)]
+    } else {
+        [ground, growth]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    fn fitted(shares: &[f64], square: impl Fn(f64) -> f64) -> [f64; 2] {
+        let sum = |f: &dyn Fn(f64) -> f64| shares.iter().map(|share| f(*share)).sum::<f64>();
+        let powers = [sum(&|_| 1.0), sum(&|share| share), sum(&|share| share * share)];
+        line(powers, [sum(&square), sum(&|share| share * square(share))])
+    }
+
+    #[test]
+    fn a_straight_line_is_found_and_kept_above_zero() {
+        let shares: Vec<f64> = (0..100).map(|k| (f64::from(k) / 99.0).powi(2)).collect();
+        for [ground, growth] in [[1.5, 4.0], [5.0, -4.0], [2.0, 0.0]] {
+            let found = fitted(&shares, |share| ground + growth * share);
+            assert!((found[0] - ground).abs() < 1e-12 && (found[1] - growth).abs() < 1e-12, "{found:?}");
+        }
+        // Squares that a line through them would make negative at one end: the sum of all stays.
+        let sum = |f: &dyn Fn(f64) -> f64| shares.iter().map(|share| f(*share)).sum::<f64>();
+        let steep = fitted(&shares, |share| share.powi(8));
+        assert_eq!(steep[0], 0.0);
+        assert!((steep[1] * sum(&|s| s) / sum(&|s| s.powi(8)) - 1.0).abs() < 1e-12, "{steep:?}");
+        let steep = fitted(&shares, |share| (1.0 - share).powi(8));
+        assert_eq!(steep[0] + steep[1], 0.0);
+        assert!((steep[0] * sum(&|s| 1.0 - s) / sum(&|s| (1.0 - s).powi(8)) - 1.0).abs() < 1e-12, "{steep:?}");
+        assert_eq!(fitted(&[0.5; 9], |_| 2.0), [2.0, 0.0]);
+    }
+}
