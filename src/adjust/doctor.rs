@@ -177,8 +177,7 @@ pub fn rank_defect(
     }
     let tied = groups(network, 3);
     let defects = if !parameters.is_empty() {
-        let named = parameters.into_iter();
-        named.map(|(camera, parameters)| Defect::ParameterUndetermined { camera, parameters }).collect()
+        undetermined_parameters(parameters, photos, points)
     } else if photos.is_empty() && !points.is_empty() {
         vec![Defect::TooFewRays { points }]
     } else if points.is_empty() && !photos.is_empty() {
@@ -189,6 +188,21 @@ pub fn rank_defect(
         vec![Defect::Combination { points, photos, parameters: Vec::new() }]
     };
     Error::RankDefect { defects }
+}
+
+/// Camera parameters that are undetermined, camera by camera; where they are not alone, what moves with them as well.
+fn undetermined_parameters(
+    parameters: BTreeMap<String, Vec<String>>,
+    photos: Vec<String>,
+    points: Vec<String>,
+) -> Vec<Defect> {
+    let names = |(camera, list): (&String, &Vec<String>)| {
+        list.iter().map(|parameter| format!("{camera}.{parameter}")).collect::<Vec<_>>()
+    };
+    let together: Vec<String> = parameters.iter().flat_map(names).collect();
+    let alone = photos.is_empty() && points.is_empty() && parameters.len() == 1;
+    let each = parameters.into_iter().map(|(camera, parameters)| Defect::ParameterUndetermined { camera, parameters });
+    each.chain((!alone).then_some(Defect::Combination { points, photos, parameters: together })).collect()
 }
 
 /// Vectors that the observations do not determine, each unknown weighted by the effect it has on its own observations.
@@ -271,7 +285,8 @@ fn null_space(
 
 /// Adds the similarity to a vector of the null space that leaves as many photos and points as possible where they are. Pins may lie
 /// on the very photo that is loose, and then everything else moves. The sum of the blocks' lengths is made smallest by
-/// iterated weights (E. Weiszfeld 1937); the vector and the similarity's directions are scaled by √diagonal.
+/// iterated weights (E. Weiszfeld 1937), then that of their logarithms, which prefers many at rest to many that hardly move
+/// (E. Candès, M. Wakin, S. Boyd 2008); the vector and the similarity's directions are scaled by √diagonal.
 fn sparsest(vector: &mut Full, layout: &Layout, state: &State, diagonal: &Full, defect: usize) {
     let turned = |row: Direction, d: f64| SVector::<f64, SIMILARITY>::from(row) * d.sqrt();
     let mut blocks: Vec<Vec<(f64, SVector<f64, SIMILARITY>)>> = Vec::new();
@@ -292,13 +307,14 @@ fn sparsest(vector: &mut Full, layout: &Layout, state: &State, diagonal: &Full, 
         block.iter().map(|(x, g)| (x + g.dot(s)).powi(2)).sum::<f64>().sqrt()
     };
     let mut similarity = SVector::<f64, SIMILARITY>::zeros();
-    for _ in 0..100 {
+    for round in 0..150 {
         let lengths: Vec<f64> = blocks.iter().map(|block| moved(block, &similarity)).collect();
         let least = 1e-9 * lengths.iter().fold(f64::MIN_POSITIVE, |m, l| m.max(*l));
         let mut normal = SMatrix::<f64, SIMILARITY, SIMILARITY>::identity() * 1e-12;
         let mut right = SVector::<f64, SIMILARITY>::zeros();
         for (block, length) in blocks.iter().zip(&lengths) {
-            let weight = 1.0 / length.max(least);
+            let length = length.max(least);
+            let weight = if round < 100 { 1.0 / length } else { (least / length).powi(2) / least };
             for (x, g) in block {
                 normal += g * g.transpose() * weight;
                 right -= g * (x * weight);

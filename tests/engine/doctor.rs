@@ -142,11 +142,10 @@ fn a_hinge_of_three_points_in_line_is_a_combination() {
     assert!(text.contains("combination"), "{text}");
 }
 
-#[test]
-fn parameters_that_the_network_cannot_tell_apart_are_named() {
-    // Photos that look straight at a plane: nothing tells the principal distance from the depth.
-    let mut plane = exact(&Wanted::default(), 17);
-    plane.cameras[0].free = vec![Parameter::C, Parameter::X0, Parameter::Y0];
+/// Photos that look straight at a plane.
+fn over_a_plane(wanted: &Wanted, free: &[Parameter]) -> Project {
+    let mut plane = exact(wanted, 17);
+    plane.cameras.iter_mut().for_each(|camera| camera.free = free.to_vec());
     for photo in &mut plane.photos {
         let [x, y, _] = photo.position.expect("known");
         (photo.position, photo.rotation) = (Some([x / 3.0, y / 3.0, 1500.0]), Some([0.0, 0.0, 0.0]));
@@ -155,10 +154,45 @@ fn parameters_that_the_network_cannot_tell_apart_are_named() {
         point.xyz = point.xyz.map(|[x, y, _]| [x, y, 0.0]);
     }
     observe(&mut plane);
+    plane
+}
+
+#[test]
+fn parameters_that_the_network_cannot_tell_apart_are_named() {
+    // Nothing tells the principal distance from the depth, and the principal point from the place.
+    let plane = over_a_plane(&Wanted::default(), &[Parameter::C, Parameter::X0, Parameter::Y0]);
     let (found, text) = defects(&plane);
-    let [Defect::ParameterUndetermined { camera, parameters }] = &found[..] else { panic!("{found:?}") };
-    assert!(camera == "brown" && parameters.contains(&"c".to_string()), "{found:?}");
-    assert!(text.contains("hold it"), "{text}");
+    let [
+        Defect::ParameterUndetermined { camera, parameters: told },
+        Defect::Combination { points, photos, parameters },
+    ] = &found[..]
+    else {
+        panic!("{found:?}")
+    };
+    assert!(camera == "brown" && told.contains(&"c".to_string()), "{found:?}");
+    assert!(parameters.contains(&"brown.c".to_string()) && parameters.len() == told.len(), "{found:?}");
+    let all: Vec<_> = plane.photos.iter().map(|photo| photo.id.clone()).collect();
+    assert!(*photos == all && points.is_empty(), "{found:?}");
+    assert!(text.contains("hold it") && text.contains("brown.c"), "{text}");
+}
+
+#[test]
+fn a_photo_with_an_interior_orientation_of_its_own_is_named_with_it() {
+    // One photo looks straight at a plane that the others look at from the sides: its own c and height are one.
+    let mut camera = brown(&[Parameter::C]);
+    camera.per_photo = true;
+    let mut project = exact(&Wanted { cameras: vec![camera], ..Wanted::default() }, 17);
+    project.points.iter_mut().for_each(|point| point.xyz = point.xyz.map(|[x, y, _]| [x, y, 0.0]));
+    let [x, y, _] = project.photos[2].position.expect("known");
+    (project.photos[2].position, project.photos[2].rotation) =
+        (Some([x / 3.0, y / 3.0, 1500.0]), Some([0.0, 0.0, 0.4]));
+    observe(&mut project);
+    let (found, text) = defects(&project);
+    let parameter = Defect::ParameterUndetermined { camera: "brown".into(), parameters: vec!["c".into()] };
+    let photos = vec!["f2".to_string()];
+    let together = Defect::Combination { points: Vec::new(), photos, parameters: vec!["brown.c".into()] };
+    assert_eq!(found, [parameter, together]);
+    assert!(text.contains("f2") && text.contains("brown.c"), "{text}");
 }
 
 /// All correlations beyond 0.95 in the matrices of a result, of the interior orientations and with each photo.
