@@ -21,8 +21,12 @@ const NEGLIGIBLE: f64 = 1e-5;
 const KEEPING: f64 = 0.01;
 /// While steps shrink at least by this factor c, what is left after one of length l is about l·c/(1 - c).
 const SHRINKING: f64 = 0.1;
-/// First damping when an undamped step fails.
+/// First damping when an undamped step fails, and below which an undamped step is tried at first.
 const FIRST_DAMPING: f64 = 1e-4;
+/// Every undamped step that fails asks for a damping this much smaller before the next one is tried, else a long way to the
+/// minimum alternates between steps that fail and steps that do not; and the least that is asked for.
+const PATIENCE: f64 = 0.1;
+const LEAST_DAMPING: f64 = 1e-8;
 /// Damping beyond which no step is left to try.
 const LARGEST_DAMPING: f64 = 1e12;
 
@@ -74,7 +78,8 @@ pub fn iterate(
     let rounding = rounding(network);
     let unit = redundancy.max(1) as f64;
     let mut lambda = 0.0;
-    let mut growth = 4.0;
+    let mut growth = 2.0;
+    let mut undamped_below = FIRST_DAMPING;
     let mut flat_steps = 0;
     let mut ready =
         if normal.build(network, layout, &state, weighting, lambda, pins) { Ready::Built } else { Ready::No };
@@ -155,9 +160,10 @@ pub fn iterate(
                 return outcome(state, Termination::Converged, singular);
             }
             if lambda > 0.0 {
-                lambda *= (1.0 - (2.0 * gain - 1.0).powi(3)).clamp(0.1, 1.0);
-                growth = 4.0;
-                if gain > 0.25 && (lambda < FIRST_DAMPING || solution.decrement <= limit) {
+                // Nielsen's rule: by the gain, smoothly from a third to twice.
+                lambda *= (1.0 - (2.0 * gain - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);
+                growth = 2.0;
+                if gain > 0.25 && (lambda < undamped_below || solution.decrement <= limit) {
                     lambda = 0.0;
                 }
             }
@@ -166,6 +172,9 @@ pub fn iterate(
             length = None;
             // A step with a kept factor is tried again with new equations first.
             if !kept {
+                if lambda == 0.0 {
+                    undamped_below = (undamped_below * PATIENCE).max(LEAST_DAMPING);
+                }
                 lambda = if lambda == 0.0 { FIRST_DAMPING } else { lambda * growth };
                 growth *= 2.0;
             }

@@ -176,9 +176,9 @@ fn damaged_documents_give_a_result_or_an_error() {
     assert!(results > 50 && errors > 50, "{results} results, {errors} errors");
 }
 
-#[test]
-fn disturbed_initial_values_lead_to_the_same_minimum() {
-    let mut reached = 0;
+/// How many of 200 networks reach their minimum from attitudes off by `degrees` and places off by a part of the distance.
+fn reached(degrees: f64, part: f64) -> usize {
+    let (mut reached, mut iterations) = (0, 0);
     for seed in 0..200 {
         let wanted = Wanted { photos: 8, points: 20, cameras: vec![brown(&[Parameter::C])], ..Wanted::default() };
         let project = noisy(&exact(&wanted, seed), &mut Noise::new(seed, 0));
@@ -192,17 +192,26 @@ fn disturbed_initial_values_lead_to_the_same_minimum() {
         for photo in &mut disturbed.photos {
             let turned = rotation::turned(
                 &rotation::object_to_camera(photo.rotation.expect("known")),
-                direction(15f64.to_radians()),
+                direction(degrees.to_radians()),
             );
             photo.rotation = Some(rotation::angles(&turned));
-            photo.position = photo.position.map(|p| (Vector3::from(p) + direction(0.2 * 1550.0)).into());
+            photo.position = photo.position.map(|p| (Vector3::from(p) + direction(part * 1550.0)).into());
         }
         for point in &mut disturbed.points {
-            point.xyz = point.xyz.map(|p| (Vector3::from(p) + direction(0.2 * 1550.0)).into());
+            point.xyz = point.xyz.map(|p| (Vector3::from(p) + direction(part * 1550.0)).into());
         }
         if let Ok(adjustment) = adjust(&disturbed, &AdjustOptions::default(), &mut |_| true) {
+            iterations += adjustment.iterations.len();
             reached += usize::from((adjustment.sigma0.expect("redundant") / best - 1.0).abs() < 1e-6);
         }
     }
-    assert!(reached >= 196, "{reached} of 200");
+    println!("{degrees}°, {part} of the distance: {reached} of 200, {iterations} iterations");
+    reached
+}
+
+#[test]
+fn disturbed_initial_values_lead_to_the_same_minimum() {
+    assert!(reached(15.0, 0.2) >= 196);
+    // Twice as far the steps must be damped; with damping that alternates with undamped steps it is 167.
+    assert!(reached(30.0, 0.4) >= 176);
 }
