@@ -74,6 +74,15 @@ struct Reduced {
     e: [f64; 2],
 }
 
+/// What a point's elimination goes on with, ray by ray.
+#[derive(Default)]
+struct Parts {
+    columns: Vec<(u32, u32)>,
+    reduced: Vec<Reduced>,
+    /// Zᵀ = BᵀG over the photo's unknowns.
+    z: Vec<[[f64; 6]; 3]>,
+}
+
 /// All points' contributions. None where a projection does not exist.
 pub fn accumulate<const N: usize>(
     normal: &mut Normal,
@@ -84,7 +93,7 @@ pub fn accumulate<const N: usize>(
 ) -> Option<()> {
     let linearisation = Linearisation::<N>::new(network, state, weighting)?;
     let places = places::<N>(&normal.matrix, network, layout);
-    let (mut room, mut reduced, mut columns) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut room, mut parts) = (Vec::new(), Parts::default());
     let mut behind = 0;
     for (point, block) in network.points.iter().enumerate() {
         let rows = linearisation.point(point, &mut room, &mut behind)?;
@@ -95,17 +104,17 @@ pub fn accumulate<const N: usize>(
             continue;
         }
         factor_point(normal, block, point, n, g);
-        photo_parts(normal, block, point, rows, &places, &mut columns, &mut reduced);
+        photo_parts(normal, block, point, rows, &places, &mut parts);
         if N > 0 {
             let single = rows.windows(2).all(|pair| pair[0].interior == pair[1].interior);
             match rows.first() {
                 Some(row) if single => {
-                    let u = interior_parts(normal, rows, &places, &reduced);
+                    let u = interior_parts(normal, rows, &places, &parts.reduced);
                     if !network.interiors[row.interior].estimated.is_empty() {
                         normal.eliminated.set_u(point, 0, &u);
                     }
                 }
-                _ => mixed_interiors(normal, network, layout, point, rows, &reduced),
+                _ => mixed_interiors(normal, layout, point, rows, &parts),
             }
         }
     }
@@ -179,17 +188,18 @@ fn photo_parts<const N: usize>(
     point: usize,
     rows: &[Row<N>],
     places: &[Place],
-    columns: &mut Vec<(u32, u32)>,
-    reduced: &mut Vec<Reduced>,
+    Parts { columns, reduced, z }: &mut Parts,
 ) {
     let Normal { matrix, rhs, reference, eliminated, .. } = normal;
     let factor = &eliminated.factors[point];
-    let z = &mut eliminated.z[block.rays.clone()];
+    let by_shift = &mut eliminated.by_shift[block.rays.clone()];
     columns.clear();
     reduced.clear();
-    for (i, row) in rows.iter().enumerate() {
+    z.resize(rows.len().max(z.len()), [[0.0; 6]; 3]);
+    for (i, (row, by_shift)) in rows.iter().zip(by_shift).enumerate() {
         let place = &places[row.photo];
         let vectors = (&mut rhs[place.row..], &mut reference[place.row..]);
+        *by_shift = row.pose.map(|[_, _, _, x, y, z]| [x, y, z]);
         reduced.push(photo_part(factor, row, &mut z[i], &mut matrix.data_mut()[place.own..], vectors));
         // Rays are sorted by place, so that the later one of a pair is the row.
         subtract_pairs(matrix, place.line, columns, &z[..=i]);
@@ -279,11 +289,10 @@ fn subtract_pairs(matrix: &mut TileMatrix, line: Line, columns: &[(u32, u32)], z
 /// -U_qᵀZ_i with all photos.
 fn mixed_interiors<const N: usize>(
     normal: &mut Normal,
-    network: &Network,
     layout: &Layout,
     point: usize,
     rows: &[Row<N>],
-    reduced: &[Reduced],
+    Parts { reduced, z, .. }: &Parts,
 ) {
     for (row, Reduced { e, .. }) in rows.iter().zip(reduced) {
         let (photo, interior) = (layout.photo[row.photo], layout.interior[row.interior]);
@@ -306,7 +315,7 @@ fn mixed_interiors<const N: usize>(
         normal.eliminated.set_u(point, n, u);
     }
     let block = |q: usize| (layout.interior[own[q].interior], own[q].length);
-    let Normal { matrix, eliminated, .. } = normal;
+    let matrix = &mut normal.matrix;
     for (q, u) in sums.iter().enumerate() {
         for (other, v) in sums.iter().enumerate() {
             // Each pair once, the one that stands later as the row.
@@ -314,7 +323,7 @@ fn mixed_interiors<const N: usize>(
                 add_outer_part(matrix, -1.0, block(q), block(other), u, v);
             }
         }
-        for (row, z) in rows.iter().zip(&eliminated.z[network.points[point].rays.clone()]) {
+        for (row, z) in rows.iter().zip(z) {
             add_outer_part(matrix, -1.0, block(q), (layout.photo[row.photo], 6), u, z);
         }
     }

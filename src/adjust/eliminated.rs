@@ -1,10 +1,15 @@
 //! What the elimination of the points leaves for back-substitution, gradients and cofactors: per point the factor of its
-//! normal matrix, per ray Z = GᵀB for its photo, per interior orientation of a point U = CᵀB; see [`super::normal`].
+//! normal matrix, per interior orientation of a point U = CᵀB, per ray its rows A by the point, or rather by the photo's
+//! shift, -A; see [`super::normal`].
+//!
+//! Z = GᵀB for the ray's photo is three times as large as A and is not kept: a turn t and a shift s of the photo act on the ray
+//! as the shift Mᵀt × (X - XL) - s of the point, so that Zᵀ(t, s) = L⁻¹AᵀA(Mᵀt × (X - XL) - s).
 
 use std::ops::Range;
 
 use super::layout::Layout;
 use super::network::Network;
+use super::parameters::{Pose, State};
 use super::triple::{PointFactor, backward3, forward3};
 
 /// An interior orientation that sees a point.
@@ -23,13 +28,40 @@ pub struct Own {
 pub struct Eliminated {
     /// Per point; unused for kept ones.
     pub factors: Vec<PointFactor>,
-    /// Per ray; unused for rays of kept points.
-    pub z: Vec<[[f64; 6]; 3]>,
+    /// Per ray its weighted rows by the photo's shift, which are -A, held axes included; unused for rays of kept points.
+    pub by_shift: Vec<[[f64; 3]; 2]>,
     /// Points that their rays do not determine, as far as the numbers can tell.
     pub lost: Vec<usize>,
     own: Vec<Own>,
     own_of: Vec<Range<usize>>,
     u: Vec<f64>,
+    /// Where the rows were taken.
+    poses: Vec<Pose>,
+    points: Vec<[f64; 3]>,
+}
+
+/// What a change of a photo does to its rays: its turn in the object frame, its shift.
+#[derive(Clone, Copy)]
+struct Motion {
+    turn: [f64; 3],
+    shift: [f64; 3],
+}
+
+fn cross([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// Zeros on held axes.
+fn free(x: [f64; 3], fixed: &[bool; 3]) -> [f64; 3] {
+    std::array::from_fn(|a| if fixed[a] { 0.0 } else { x[a] })
 }
 
 impl Eliminated {
@@ -50,12 +82,21 @@ impl Eliminated {
         }
         Self {
             factors: vec![PointFactor::default(); network.points.len()],
-            z: vec![[[0.0; 6]; 3]; network.rays.len()],
+            by_shift: vec![[[0.0; 3]; 2]; network.rays.len()],
             lost: Vec::new(),
             own,
             own_of,
             u: vec![0.0; at],
+            poses: Vec::new(),
+            points: Vec::new(),
         }
+    }
+
+    /// Starts anew at a state.
+    pub fn start(&mut self, state: &State) {
+        self.lost.clear();
+        self.poses.clone_from(&state.poses);
+        self.points.clone_from(&state.points);
     }
 
     /// The interior orientations of a point that have unknowns.
@@ -85,15 +126,34 @@ impl Eliminated {
         }
     }
 
+    /// Gᵀ over the photo for a ray's pull on its point, u = Aᵀv: (M((X - XL) × u), -u).
+    fn at_photo(&self, photo: usize, point: usize, u: [f64; 3]) -> [f64; 6] {
+        let pose = &self.poses[photo];
+        let w = cross(difference(self.points[point], pose.centre), u);
+        let [a, b, c] = pose.m.map(|row| dot(row, w));
+        [a, b, c, -u[0], -u[1], -u[2]]
+    }
+
+    /// Z of ray number `ray`, transposed: three rows over the photo's unknowns.
+    pub fn z(&self, network: &Network, point: usize, ray: usize) -> [[f64; 6]; 3] {
+        let (a, photo) = (&self.by_shift[ray], network.rays[ray].photo);
+        let fixed = &network.points[point].fixed;
+        let b = a.map(|a| forward3(&self.factors[point].l, free(a, fixed)));
+        std::array::from_fn(|m| {
+            self.at_photo(photo, point, std::array::from_fn(|k| a[0][k] * b[0][m] + a[1][k] * b[1][m]))
+        })
+    }
+
     /// x -= Z d over the reduced unknowns, d of one point.
-    #[inline(always)]
     pub fn subtract(&self, network: &Network, layout: &Layout, point: usize, d: &[f64; 3], x: &mut [f64]) {
-        let rays = network.points[point].rays.clone();
-        for (ray, z) in network.rays[rays.clone()].iter().zip(&self.z[rays]) {
+        let block = &network.points[point];
+        let step = free(backward3(&self.factors[point].l, *d), &block.fixed);
+        let rays = block.rays.clone();
+        for (ray, a) in network.rays[rays.clone()].iter().zip(&self.by_shift[rays]) {
+            let [v, w] = a.map(|a| dot(a, step));
+            let z = self.at_photo(ray.photo, point, std::array::from_fn(|k| a[0][k] * v + a[1][k] * w));
             let place = layout.photo[ray.photo];
-            for (k, x) in x[place..place + 6].iter_mut().enumerate() {
-                *x -= z[0][k] * d[0] + z[1][k] * d[1] + z[2][k] * d[2];
-            }
+            x[place..place + 6].iter_mut().zip(z).for_each(|(x, z)| *x -= z);
         }
         for own in self.own(point) {
             let place = layout.interior[own.interior];
@@ -104,17 +164,30 @@ impl Eliminated {
         }
     }
 
-    /// Zᵀx of one point.
+    /// What a vector over the reduced unknowns does to the photos' rays.
+    fn motions(&self, layout: &Layout, x: &[f64]) -> Vec<Motion> {
+        let motion = |(pose, &at): (&Pose, &usize)| {
+            let [t, shift]: [[f64; 3]; 2] = [at, at + 3].map(|at| [x[at], x[at + 1], x[at + 2]]);
+            let m = &pose.m;
+            let turn = std::array::from_fn(|k| m[0][k] * t[0] + m[1][k] * t[1] + m[2][k] * t[2]);
+            Motion { turn, shift }
+        };
+        self.poses.iter().zip(&layout.photo).map(motion).collect()
+    }
+
+    /// Zᵀx of one point, from `motions` by x.
     #[inline(always)]
-    pub fn product(&self, network: &Network, layout: &Layout, point: usize, x: &[f64]) -> [f64; 3] {
-        let rays = network.points[point].rays.clone();
-        let mut sum = [0.0; 3];
-        for (ray, z) in network.rays[rays.clone()].iter().zip(&self.z[rays]) {
-            let x = &x[layout.photo[ray.photo]..][..6];
-            for (sum, z) in sum.iter_mut().zip(z) {
-                *sum += z.iter().zip(x).map(|(z, x)| z * x).sum::<f64>();
-            }
+    fn product(&self, network: &Network, layout: &Layout, point: usize, motions: &[Motion], x: &[f64]) -> [f64; 3] {
+        let block = &network.points[point];
+        let (place, rays) = (self.points[point], block.rays.clone());
+        let mut pull = [0.0; 3];
+        for (ray, a) in network.rays[rays.clone()].iter().zip(&self.by_shift[rays]) {
+            let Motion { turn, shift } = motions[ray.photo];
+            let moved = difference(cross(turn, difference(place, self.poses[ray.photo].centre)), shift);
+            let [v, w] = a.map(|a| dot(a, moved));
+            (0..3).for_each(|k| pull[k] += a[0][k] * v + a[1][k] * w);
         }
+        let mut sum = forward3(&self.factors[point].l, free(pull, &block.fixed));
         for own in self.own(point) {
             let x = &x[layout.interior[own.interior]..][..own.length];
             for (m, sum) in sum.iter_mut().enumerate() {
@@ -126,15 +199,16 @@ impl Eliminated {
 
     /// Steps of the points from the solution of the reduced equations: δX = -L⁻ᵀ(h + Zᵀδ); 0 on held axes.
     pub fn back_substitute(&self, network: &Network, layout: &Layout, x: &[f64]) -> Vec<[f64; 3]> {
+        let motions = self.motions(layout, x);
         let step = |point: usize| {
             let block = &network.points[point];
             if block.kept {
                 return std::array::from_fn(|a| x[layout.point[point] + a]);
             }
             let PointFactor { l, h, .. } = &self.factors[point];
-            let t = self.product(network, layout, point, x);
+            let t = self.product(network, layout, point, &motions, x);
             let step = backward3(l, std::array::from_fn(|m| -h[m] - t[m]));
-            std::array::from_fn(|a| if block.fixed[a] { 0.0 } else { step[a] })
+            free(step, &block.fixed)
         };
         (0..network.points.len()).map(step).collect()
     }
@@ -183,11 +257,92 @@ impl Full {
 
     /// The points' part of a solution, after the reduced part.
     pub fn backward(&mut self, network: &Network, layout: &Layout, eliminated: &Eliminated) {
+        let motions = eliminated.motions(layout, &self.reduced);
         for (point, block) in network.points.iter().enumerate().filter(|(_, block)| !block.kept) {
-            let sum = eliminated.product(network, layout, point, &self.reduced);
+            let sum = eliminated.product(network, layout, point, &motions, &self.reduced);
             let d = self.points[point];
             let x = backward3(&eliminated.factors[point].l, std::array::from_fn(|m| d[m] - sum[m]));
-            self.points[point] = std::array::from_fn(|a| if block.fixed[a] { 0.0 } else { x[a] });
+            self.points[point] = free(x, &block.fixed);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::given::LeftOut;
+    use super::super::layout::layout;
+    use super::super::normal::Normal;
+    use super::super::rows::{Linearisation, Weighting};
+    use super::*;
+    use crate::adjustment::ResidualPlace;
+    use crate::network::{NetworkPoint, Station, simulate};
+    use crate::project::{Camera, DatumKind, Interior, Role, Sigma};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    /// Five turned photos of twelve points far from the origin, of which the first is held in one axis.
+    fn network() -> (Network, State) {
+        let camera = Camera { pixel_pitch: Some([0.005; 2]), ..Camera::new("c", 2000, 1600, Interior::brown(12.0)) };
+        let point = |k: u32| NetworkPoint {
+            id: k.to_string(),
+            xyz: [5000.0 + f64::from(k % 4) * 100.0, f64::from(k / 4) * 100.0, f64::from(k * 7 % 5) * 40.0],
+            ..NetworkPoint::default()
+        };
+        let station = |k: u32| {
+            let turn = f64::from(k) * 1.3;
+            let position = [5150.0 + 900.0 * turn.cos(), 100.0 + 900.0 * turn.sin(), 900.0];
+            Station::aimed(format!("s{k}"), "c", position, [5150.0, 100.0, 80.0], turn)
+        };
+        let mut project = simulate(&crate::network::Network {
+            cameras: vec![camera],
+            stations: (0..5).map(station).collect(),
+            points: (0..12).map(point).collect(),
+            sigma: Sigma::One(0.1),
+            ..crate::network::Network::default()
+        })
+        .unwrap();
+        project.datum.kind = DatumKind::Control;
+        project.points[0].role = Role::Control;
+        project.points[0].sigma = Some([Some(1.0), Some(0.0), Some(1.0)]);
+        Network::new(&project, &LeftOut::nothing(&project)).unwrap()
+    }
+
+    #[test]
+    fn what_is_kept_acts_as_the_products_of_the_rows_do() {
+        let (mut network, state) = network();
+        let layout = layout(&mut network);
+        assert_eq!(network.points.iter().filter(|p| p.fixed == [false, true, false]).count(), 1);
+        let weighting = Weighting { place: ResidualPlace::Corrected, robust: &[], shift: &[] };
+        let mut normal = Normal::new(&network, &layout);
+        assert!(normal.build(&network, &layout, &state, weighting, 0.0, &[]));
+        let eliminated = &normal.eliminated;
+        let linearisation = Linearisation::<0>::new(&network, &state, weighting).unwrap();
+        let x: Vec<f64> = (0..layout.size).map(|k| (k as f64 * 0.7).sin()).collect();
+        let motions = eliminated.motions(&layout, &x);
+        let near = |a: f64, b: f64, size: f64| assert!((a - b).abs() < 1e-12 * size, "{a} {b}");
+        for (point, block) in network.points.iter().enumerate() {
+            let (mut room, mut behind) = (Vec::new(), 0);
+            let rows = linearisation.point(point, &mut room, &mut behind).unwrap();
+            let d = [0.3, -0.8, 0.5];
+            let (mut product, mut moved, mut size) = ([0.0; 3], vec![0.0; layout.size], 0.0);
+            for (row, ray) in rows.iter().zip(block.rays.clone()) {
+                let b = row.point.map(|a| forward3(&eliminated.factors[point].l, a));
+                let z = eliminated.z(&network, point, ray);
+                let length = b.as_flattened().iter().chain(row.pose.as_flattened()).fold(0.0, |s, x| s + x * x);
+                size += length;
+                for (m, k) in (0..18).map(|n| (n / 6, n % 6)) {
+                    let plain = b[0][m] * row.pose[0][k] + b[1][m] * row.pose[1][k];
+                    near(z[m][k], plain, length);
+                    let at = layout.photo[row.photo] + k;
+                    product[m] += plain * x[at];
+                    moved[at] -= plain * d[m];
+                }
+            }
+            let got = eliminated.product(&network, &layout, point, &motions, &x);
+            (0..3).for_each(|m| near(got[m], product[m], size));
+            let mut got = vec![0.0; layout.size];
+            eliminated.subtract(&network, &layout, point, &d, &mut got);
+            got.iter().zip(&moved).for_each(|(a, b)| near(*a, *b, size));
         }
     }
 }

@@ -91,7 +91,7 @@ impl Normal {
         self.matrix.clear();
         self.rhs.fill(0.0);
         self.reference.fill(0.0);
-        self.eliminated.lost.clear();
+        self.eliminated.start(state);
         self.cost = 0.0;
         self.behind = 0;
         self.lambda = lambda;

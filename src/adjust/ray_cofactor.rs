@@ -166,10 +166,10 @@ pub fn at_photo<const N: usize>(
 ) -> [[f64; 6]; 3] {
     let mut t = [[0.0; 6]; 3];
     let here = (layout.photo[photo], 6);
-    let rays = network.points[point].rays.clone();
-    for (ray, z) in network.rays[rays.clone()].iter().zip(&eliminated.z[rays]) {
-        let block: [[f64; 6]; 6] = gathered(inverse, here, (layout.photo[ray.photo], 6));
-        t.iter_mut().zip(z).for_each(|(t, z)| add_rows::<false, 6, 6>(t, z, &block));
+    for ray in network.points[point].rays.clone() {
+        let z = eliminated.z(network, point, ray);
+        let block: [[f64; 6]; 6] = gathered(inverse, here, (layout.photo[network.rays[ray].photo], 6));
+        t.iter_mut().zip(&z).for_each(|(t, z)| add_rows::<false, 6, 6>(t, z, &block));
     }
     for q in eliminated.own(point) {
         let block: [[f64; 6]; N] = gathered(inverse, here, (layout.interior[q.interior], q.length));
