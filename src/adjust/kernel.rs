@@ -173,6 +173,20 @@ pub fn factor(a: &mut Tile, mut pivot: impl FnMut(usize, f64) -> f64) {
     }
 }
 
+/// Σ a·b in sums side by side: one alone would wait for every addition.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
+    let mut sums = [0.0; 8];
+    for (a, b) in a.iter().zip(b) {
+        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+            *sum += a * b;
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    let [a, b, c, d, e, f, g, h] = sums;
+    ((a + b) + (c + d)) + ((e + f) + (g + h)) + rest
+}
+
 /// Transposed copy.
 pub fn transpose(from: &Tile, to: &mut Tile) {
     for (j, column) in from.chunks_exact(TILE).enumerate() {
@@ -250,6 +264,15 @@ mod tests {
         plain::subtract_product(&mut c, &a, &a);
         c.iter_mut().for_each(|x| *x = -*x);
         c
+    }
+
+    #[test]
+    fn sums_side_by_side_agree_with_one() {
+        let (a, b) = (tile(1), tile(2));
+        for length in [0, 1, 7, 8, 13, TILE] {
+            let plain: f64 = (0..length).map(|k| a[k] * b[k]).sum();
+            assert!((dot(&a[..length], &b[..length]) - plain).abs() < 1e-14, "{length}");
+        }
     }
 
     fn negative(a: &Tile) -> Box<Tile> {

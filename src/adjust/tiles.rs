@@ -209,12 +209,11 @@ impl TileMatrix {
             for (n, &i) in rows.iter().enumerate().skip(1) {
                 let x_i = &rest[(i - k - 1) * TILE..(i - k) * TILE];
                 for (column, x) in tile(&self.data, first + n).chunks_exact(TILE).zip(x_k.iter_mut()) {
-                    *x -= column.iter().zip(x_i).map(|(l, x)| l * x).sum::<f64>();
+                    *x -= kernel::dot(column, x_i);
                 }
             }
             for (j, column) in tile(&self.data, first).chunks_exact(TILE).enumerate().rev() {
-                let sum: f64 = column[j + 1..].iter().zip(&x_k[j + 1..]).map(|(l, x)| l * x).sum();
-                x_k[j] = (x_k[j] - sum) / column[j];
+                x_k[j] = (x_k[j] - kernel::dot(&column[j + 1..], &x_k[j + 1..])) / column[j];
             }
         }
     }
