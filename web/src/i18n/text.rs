@@ -372,6 +372,7 @@ texts! {
     worst_observations: "Worst observations", "큰 잔차 관측값";
     baarda: "Baarda's w, α 0.1 %", "Baarda w, α 0.1 %";
     over(limit): "over {limit}", "{limit} 초과";
+    unchecked: "unchecked", "검증 불가";
     other_observations: "Other observations", "그 밖의 관측값";
     kind_of_observation: "kind", "종류";
     detectable: "detectable", "검출 한계";

@@ -176,6 +176,13 @@ impl Desk {
         self.selection.update(|s| s.point = Some(point));
     }
 
+    /// Leaves the chosen target without a name.
+    pub fn ask_no_more(self) {
+        if self.selection.with_untracked(|s| s.target.is_some()) {
+            self.selection.update(|s| s.target = None);
+        }
+    }
+
     /// Measures at a place of the photo; where there is nothing to measure, the place itself is taken.
     pub fn measure_at(self, photo: &str, u: f64, v: f64) {
         let file = self.files.with_untracked(|f| f.get(photo).map(|f| (f.content.clone(), f.digest)));

@@ -50,7 +50,7 @@ pub fn Identities() -> impl IntoView {
         <main class="identities">
             <Strip/>
             <NamedPhoto/>
-            <div class="columns">
+            <div class="columns" on:pointerdown=move |_| desk.ask_no_more()>
                 <PointsTable/>
                 <MarksPanel/>
                 <PointPanel/>
@@ -185,10 +185,14 @@ fn Question() -> impl IntoView {
             let name = typed.get_untracked();
             let name = if name.trim().is_empty() { desk.free_name() } else { name };
             desk.name_target(&photo, target, &name);
-            desk.selection.update(|s| s.target = None);
-            typed.set(String::new());
+            desk.ask_no_more();
         }
     };
+    // What was typed for one target is not offered for the next.
+    Effect::new(move |_| {
+        asked.track();
+        typed.set(String::new());
+    });
     view! {
         <Show when=move || asked.with(Option::is_some)>
             <form class="question" on:submit=move |e| {
@@ -201,6 +205,7 @@ fn Question() -> impl IntoView {
                         prop:value=typed on:input=move |e| typed.set(event::value(&e))/>
                 </label>
                 <button class="button small" type="submit">{text::take_name}</button>
+                <button class="button small cancel" type="button" on:click=move |_| desk.ask_no_more()>{text::cancel}</button>
             </form>
         </Show>
     }

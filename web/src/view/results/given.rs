@@ -11,6 +11,10 @@ use crate::view::adjust::{parameter_name, parameter_unit};
 use crate::view::advice::CRITICAL_W;
 use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 
+/// Redundancy numbers below this are rounding: nothing else determines what was observed, and its residual is 0 whatever it
+/// says.
+const UNCHECKED: f64 = 1e-6;
+
 /// What was observed, by name: a point or photo with its axis, the ends of a distance, a parameter of a camera.
 pub fn given_name(what: &Given) -> String {
     let axis = |axis: usize| ["X", "Y", "Z"].get(axis).copied().unwrap_or_default();
@@ -69,6 +73,13 @@ pub(super) fn GivenTable() -> impl IntoView {
                 let mut size = Cell::number(test.w, 2).class(if over { "bad" } else { "" });
                 size.order = test.w.map(f64::abs);
                 let redundancy = given.reliability.map(|r| r.redundancy);
+                let unchecked = redundancy.is_some_and(|r| r < UNCHECKED);
+                let number = |value: Option<f64>, decimals| Cell::number(value.filter(|_| !unchecked), decimals);
+                let mut checked = Cell::number(redundancy, redundancy.map_or(2, |r| format::decimals_of(r, 2)));
+                if unchecked {
+                    checked.shown = text::unchecked().to_owned();
+                    size = Cell::number(None, 2);
+                }
                 let effect = given.effect.map_or(3, format::decimals_for);
                 Row {
                     key: k.to_string(),
@@ -76,13 +87,13 @@ pub(super) fn GivenTable() -> impl IntoView {
                         Cell::id(&given_name(&given.what)),
                         Cell::words(given_kind(&given.what)),
                         Cell::words(unit),
-                        Cell::number(Some(given.residual), format::decimals_of(given.residual, decimals)),
+                        number(Some(given.residual), format::decimals_of(given.residual, decimals)),
                         Cell::number(Some(given.sigma), decimals),
-                        Cell::number(redundancy, redundancy.map_or(2, |r| format::decimals_of(r, 2))),
+                        checked,
                         size,
-                        Cell::number(test.mdb, decimals),
-                        Cell::number(given.effect, effect),
-                        Cell::words(given.effect_point.clone().unwrap_or_default()),
+                        number(test.mdb, decimals),
+                        number(given.effect, effect),
+                        Cell::words(given.effect_point.clone().filter(|_| !unchecked).unwrap_or_default()),
                     ],
                     off: !given.enabled,
                 }
