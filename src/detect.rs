@@ -20,10 +20,12 @@ mod fit;
 mod flats;
 mod look;
 mod measure;
+mod median;
 mod noise;
 pub(crate) mod outline;
 mod propagation;
 mod quality;
+mod rays;
 mod rendered;
 mod scan;
 mod scatter;
@@ -37,6 +39,7 @@ use census::Census;
 use code::{DotLevels, Family, Reading};
 use measure::Measure;
 use outline::Outline;
+use search::Candidate;
 
 /// Finds and measures the targets of a picture.
 ///
@@ -123,10 +126,12 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         if !census.is_new(candidate) {
             continue;
         }
-        let measured = measure.find(&candidate.outline, candidate.bright);
-        match measured.and_then(|found| measure.finish(&found, options.method)) {
-            Ok(target) => census.accept(target, candidate.bright),
-            Err(reason) => census.reject(candidate, reason),
+        let Candidate { outline, bright, look } = candidate;
+        let look = look.unwrap_or_else(|| look::first(&plane, &levels, outline, *bright));
+        let found = look.and_then(|()| measure.confirm(outline, *bright));
+        match found.and_then(|found| measure.finish(&found, options.method)) {
+            Ok(target) => census.accept(target, *bright),
+            Err(reason) => census.reject(*outline, *bright, reason),
         }
     }
     let mut detection = census.finish();

@@ -1,6 +1,6 @@
 //! Grey pictures of 8 or 16 bits, owned or borrowed, row by row from the top left.
 
-use wide::{u8x16, u16x8};
+use wide::{bytemuck, f32x4, i32x4, u8x16, u16x8, u32x4};
 
 use crate::error::{Error, Place, Result};
 
@@ -92,10 +92,10 @@ pub(crate) trait Sample: Copy + Ord + Default {
     fn level(self) -> u32;
     /// Grey level from a number that fits.
     fn of(level: u32) -> Self;
-    /// Absolute difference.
-    fn distance(self, other: Self) -> Self;
     /// Where two rows of samples differ by more than the threshold: bit k for the k-th of them.
     fn differing(left: &[Self; LANES], right: &[Self; LANES], threshold: Self) -> u32;
+    /// The absolute differences, and where the right row is the brighter one.
+    fn differences(left: &[Self; LANES], right: &[Self; LANES]) -> ([Self; LANES], u32);
     /// Rounded mean of four samples above and four below.
     fn mean_of_eight(upper: [Self; 4], lower: [Self; 4]) -> Self;
 }
@@ -114,14 +114,16 @@ impl Sample for u8 {
         level as u8
     }
     #[inline(always)]
-    fn distance(self, other: Self) -> Self {
-        self.abs_diff(other)
-    }
-    #[inline(always)]
     fn differing(left: &[Self; LANES], right: &[Self; LANES], threshold: Self) -> u32 {
         let (left, right) = (u8x16::new(*left), u8x16::new(*right));
         let distance = left.saturating_sub(right) | right.saturating_sub(left);
         distance.simd_gt(u8x16::splat(threshold)).to_bitmask()
+    }
+    #[inline(always)]
+    fn differences(left: &[Self; LANES], right: &[Self; LANES]) -> ([Self; LANES], u32) {
+        let (left, right) = (u8x16::new(*left), u8x16::new(*right));
+        let above = right.saturating_sub(left);
+        ((left.saturating_sub(right) | above).to_array(), above.simd_gt(u8x16::ZERO).to_bitmask())
     }
     #[inline(always)]
     fn mean_of_eight(upper: [Self; 4], lower: [Self; 4]) -> Self {
@@ -146,10 +148,6 @@ impl Sample for u16 {
         level as u16
     }
     #[inline(always)]
-    fn distance(self, other: Self) -> Self {
-        self.abs_diff(other)
-    }
-    #[inline(always)]
     fn differing(left: &[Self; LANES], right: &[Self; LANES], threshold: Self) -> u32 {
         let half = |samples: &[u16; LANES], from: usize| u16x8::new(std::array::from_fn(|k| samples[from + k]));
         let bits = |from: usize| {
@@ -158,6 +156,11 @@ impl Sample for u16 {
             distance.simd_gt(u16x8::splat(threshold)).to_bitmask()
         };
         bits(0) | bits(8) << 8
+    }
+    #[inline(always)]
+    fn differences(left: &[Self; LANES], right: &[Self; LANES]) -> ([Self; LANES], u32) {
+        let rising = (0..LANES).fold(0, |bits, k| bits | u32::from(right[k] > left[k]) << k);
+        (std::array::from_fn(|k| left[k].abs_diff(right[k])), rising)
     }
     #[inline(always)]
     fn mean_of_eight(upper: [Self; 4], lower: [Self; 4]) -> Self {
@@ -199,6 +202,57 @@ impl<'a, T: Sample> Plane<'a, T> {
         // the conversion makes 0 of what is negative
         let (x, y) = ((u as usize).min(self.width - 1), (v as usize).min(self.height - 1));
         self.row(y)[x].level() as f32
+    }
+
+    /// Levels of the pixels at four places, counted from the pixel `from` and clamped to the picture, and which of the places
+    /// lie in it.
+    #[inline(always)]
+    pub fn nearest_four(&self, from: [i32; 2], x: f32x4, y: f32x4) -> (f32x4, f32x4) {
+        let (_, levels, inside) = self.pixels_four(from, x, y);
+        (levels, inside)
+    }
+
+    /// The same with the pixels' columns and rows, counted from `from`.
+    #[inline(always)]
+    pub fn pixels_four(&self, from: [i32; 2], x: f32x4, y: f32x4) -> ([f32x4; 2], f32x4, f32x4) {
+        let cell = |places: f32x4| {
+            let whole = places.fast_trunc_int();
+            // what is negative was rounded up
+            let below: i32x4 = bytemuck::cast(places.simd_lt(whole.round_float()));
+            whole + below
+        };
+        let in_picture = |place: i32x4, from: i32, size: usize| {
+            let place = place + i32x4::splat(from);
+            let kept = place.max(i32x4::ZERO).min(i32x4::splat(size as i32 - 1));
+            (kept, place.simd_eq(kept))
+        };
+        let cells = [cell(x), cell(y)];
+        let (x, in_x) = in_picture(cells[0], from[0], self.width);
+        let (y, in_y) = in_picture(cells[1], from[1], self.height);
+        let at = (y * i32x4::splat(self.width as i32) + x).to_array();
+        let levels = at.map(|at| self.samples.get(at as u32 as usize).map_or(0, |sample| sample.level() as i32));
+        (cells.map(i32x4::round_float), i32x4::new(levels).round_float(), bytemuck::cast(in_x & in_y))
+    }
+
+    /// Bilinear samples at four places, given in 2^-16 pixels from the centre of the first pixel; 0 where they lie further than
+    /// that from the last pixels.
+    #[inline(always)]
+    pub fn bilinear_four(&self, x: i32x4, y: i32x4) -> f32x4 {
+        let (column, row): (i32x4, i32x4) = (x >> 16, y >> 16);
+        let at = (row * i32x4::splat(self.width as i32) + column).to_array();
+        let pair = |at: usize| match self.samples.get(at..at + 2) {
+            Some([left, right]) => left.level() | right.level() << 16,
+            _ => 0,
+        };
+        let upper = u32x4::new(at.map(|at| pair(at as u32 as usize)));
+        let lower = u32x4::new(at.map(|at| pair(at as u32 as usize + self.width)));
+        let level = |pair: u32x4| bytemuck::cast::<_, i32x4>(pair).round_float();
+        let low = u32x4::splat(0xffff);
+        let [a, b, c, d] = [level(upper & low), level(upper >> 16), level(lower & low), level(lower >> 16)];
+        let share = |place: i32x4| (place & i32x4::splat(0xffff)).round_float() * f32x4::splat(1.0 / 65536.0);
+        let (fx, fy) = (share(x), share(y));
+        let (top, bottom) = (a + fx * (b - a), c + fx * (d - c));
+        top + fy * (bottom - top)
     }
 
     /// Bilinear samples at equal steps from a place on.

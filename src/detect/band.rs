@@ -1,12 +1,13 @@
 //! The pixels of a fit along the rim; those inside and outside of them are [`flats`](super::flats).
 //!
-//! Band pixels are gathered into one array a column, so that products of columns run over contiguous memory in eight
+//! Band pixels are gathered into one array a column, so that products of columns run over contiguous memory in four
 //! independent sums: the compiler makes vector code of them, and the order of the additions is the same on every machine.
 
 use nalgebra::{SMatrix, SVector};
 use wide::{f32x4, f32x8};
 
 use super::flats::Flats;
+use super::median;
 use super::outline::Outline;
 use super::rendered::{DERIVATIVES, Field, Span, normal_distribution};
 use super::scatter::Lights;
@@ -18,8 +19,8 @@ pub(crate) const UNKNOWNS: usize = 10;
 pub(crate) type Normal = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
 pub(crate) type Unknowns = SVector<f64, UNKNOWNS>;
 
-/// Columns that are multiplied with one other at a time.
-const BLOCK: usize = 4;
+/// Columns that are multiplied with as many others at a time: nine sums stay in the processor's registers.
+const BLOCK: usize = 3;
 
 /// Which pixels are used.
 pub(crate) struct Region<'a> {
@@ -43,21 +44,17 @@ pub(crate) struct Band {
     x: Vec<f32>,
     y: Vec<f32>,
     kept: Vec<f32>,
-    /// Whether all of them count.
-    whole: bool,
     share: Vec<f32>,
     /// After u, v and s as rendered, then after p, q and r.
     derivatives: [Vec<f32>; 2 * DERIVATIVES],
     residual: Vec<f32>,
+    sizes: Vec<u32>,
 }
 
 impl Band {
     /// Chooses the pixels around the region's outline. None when they are too few for ten unknowns.
     pub fn collect<T: Sample>(&mut self, plane: &Plane<T>, field: &Field, region: &Region) -> Option<Flats> {
         self.spans.clear();
-        for column in [&mut self.grey, &mut self.x, &mut self.y, &mut self.kept] {
-            column.clear();
-        }
         let outline = &region.outline;
         let reach = region.half_band.min(region.surround.outer.max(1.0)) + 0.3;
         let rings = [
@@ -66,15 +63,14 @@ impl Band {
             outline.grown(reach.max(region.surround.outer)),
         ];
         let hollow = outline.semi_axes().1 > region.half_band + 0.3;
-        let saturation = region.saturation as f32;
         let mut flats = Flats::default();
         let (half_u, half_v) = rings[2].half_box();
         let rows = clipped(outline.v - half_v, outline.v + half_v + 1.0, plane.height);
         if outline.u + half_u < 0.0 || rows.is_empty() {
             return None;
         }
-        for y in rows {
-            let height = y as f64 + 0.5;
+        for line in rows {
+            let height = line as f64 + 0.5;
             let columns = |ring: &Outline| {
                 ring.chord(height).map_or(0..0, |(from, to)| clipped(from + 0.5, to + 0.5, plane.width))
             };
@@ -82,15 +78,15 @@ impl Band {
             if !hollow || inner.start < outer.start || inner.end > outer.end {
                 inner = outer.start..outer.start;
             }
-            let row = plane.row(y);
+            let row = plane.row(line);
             if outer.is_empty() {
-                flats.outside.add(row, far, y, region, false);
+                flats.outside.add(row, far, line, region, false);
                 continue;
             }
-            flats.outside.add(row, far.start..outer.start.max(far.start), y, region, false);
-            flats.outside.add(row, outer.end.min(far.end)..far.end, y, region, false);
-            flats.inside.add(row, inner.clone(), y, region, true);
-            let field_row = y as i64 - field.top;
+            flats.outside.add(row, far.start..outer.start.max(far.start), line, region, false);
+            flats.outside.add(row, outer.end.min(far.end)..far.end, line, region, false);
+            flats.inside.add(row, inner.clone(), line, region, true);
+            let field_row = line as i64 - field.top;
             for span in [outer.start..inner.start, inner.end.max(outer.start)..outer.end] {
                 let column = span.start as i64 - field.left;
                 let end = column + span.len() as i64;
@@ -102,57 +98,68 @@ impl Band {
                     continue;
                 }
                 self.spans.push((field_row as usize, column as usize, span.len()));
-                let first = (span.start as f64 + 0.5 - outline.u) as f32;
-                let dy = (height - outline.v) as f32;
-                for (k, sample) in row[span.clone()].iter().enumerate() {
-                    let level = sample.level() as f32;
-                    let kept = level < saturation && (region.whole || region.counts(span.start + k, y));
-                    let mask = if kept { 1.0 } else { 0.0 };
-                    self.grey.push(mask * level);
-                    self.x.push(mask * (first + k as f32));
-                    self.y.push(mask * dy);
-                    self.kept.push(mask);
-                }
             }
         }
-        let count = self.grey.len();
+        let count = self.fill(plane, field, region);
         let padded = count.next_multiple_of(8);
-        for column in [&mut self.grey, &mut self.x, &mut self.y, &mut self.kept] {
-            column.resize(padded, 0.0);
-        }
         // the pixels themselves are written by the first rendering
         for column in self.derivatives.iter_mut().chain([&mut self.share, &mut self.residual]) {
             column.resize(padded, 0.0);
             column[count..].fill(0.0);
         }
         let used = self.kept.iter().sum::<f32>();
-        self.whole = used == count as f32;
         (used >= 3.0 * UNKNOWNS as f32).then_some(flats)
+    }
+
+    /// Levels and places of the pixels of all spans, in columns padded to eights; how many pixels there are.
+    fn fill<T: Sample>(&mut self, plane: &Plane<T>, field: &Field, region: &Region) -> usize {
+        let count: usize = self.spans.iter().map(|span| span.2).sum();
+        let Self { spans, grey, x, y, kept, .. } = self;
+        for column in [&mut *grey, x, y, kept] {
+            column.resize(count.next_multiple_of(8), 0.0);
+            column[count..].fill(0.0);
+        }
+        let (outline, saturation) = (&region.outline, region.saturation as f32);
+        let mut start = 0;
+        for &(row, column, length) in spans.iter() {
+            let (line, left) = ((row as i64 + field.top) as usize, (column as i64 + field.left) as usize);
+            let first = (left as f64 + 0.5 - outline.u) as f32;
+            let dy = (line as f64 + 0.5 - outline.v) as f32;
+            let part = start..start + length;
+            let levels = grey[part.clone()].iter_mut().zip(&mut kept[part.clone()]);
+            let places = x[part.clone()].iter_mut().zip(&mut y[part]);
+            let samples = &plane.row(line)[left..left + length];
+            for (k, (((grey, kept), (x, y)), sample)) in levels.zip(places).zip(samples).enumerate() {
+                let level = sample.level() as f32;
+                let counts = level < saturation && (region.whole || region.counts(left + k, line));
+                let mask = if counts { 1.0 } else { 0.0 };
+                (*grey, *x, *y, *kept) = (mask * level, mask * (first + k as f32), mask * dy, mask);
+            }
+            start += length;
+        }
+        count
     }
 
     /// Takes the rendered values from the field, and the derivatives if there is an outline for which they are wanted;
     /// `origin` is the place that x and y are counted from.
     pub fn gather(&mut self, field: &Field, origin: [f64; 2], derivatives: Option<&Outline>) {
+        let Self { spans, kept, share, derivatives: columns, .. } = self;
+        // multiplied as it is copied: a span is too short for a call that copies memory
+        let copy = |from: &[f32], to: &mut [f32], start: usize| {
+            let to = &mut to[start..start + from.len()];
+            for ((to, from), kept) in to.iter_mut().zip(from).zip(&kept[start..]) {
+                *to = from * kept;
+            }
+        };
         let mut start = 0;
-        for &(row, column, count) in &self.spans {
-            let copy = |from: &[f32], to: &mut [f32]| {
-                to[start..start + count].copy_from_slice(&from[column..column + count]);
-            };
-            copy(field.share(row), &mut self.share);
+        for &(row, column, count) in spans.iter() {
+            copy(&field.share(row)[column..column + count], share, start);
             if derivatives.is_some() {
-                for (which, to) in self.derivatives.iter_mut().take(DERIVATIVES).enumerate() {
-                    copy(field.derivative(which, row), to);
+                for (which, to) in columns.iter_mut().take(DERIVATIVES).enumerate() {
+                    copy(&field.derivative(which, row)[column..column + count], to, start);
                 }
             }
             start += count;
-        }
-        if !self.whole {
-            mask(&mut self.share, &self.kept);
-            if derivatives.is_some() {
-                for column in self.derivatives.iter_mut().take(DERIVATIVES) {
-                    mask(column, &self.kept);
-                }
-            }
         }
         if let Some(outline) = derivatives {
             self.reshape(outline, origin);
@@ -184,33 +191,43 @@ impl Band {
         }
     }
 
-    /// Nearly the derivatives, without rendering: across the rim an edge of variance s² + 1/12 (the pixel's own), with the
-    /// light of a curved rim, sqrt(radius / r). Good to a few percent, enough to show the way.
+    /// Nearly the share and the derivatives, without rendering: across the rim an edge of variance s² + 1/12 (the pixel's own),
+    /// with the light of a curved rim. With d the distance from the rim, z = d/σ, r that from the centre of curvature and
+    /// ε = σ/r, a disc's derivative after its radius, φ(z)/σ sqrt(radius/r) (1 + ε²/8 ...), integrates to
+    /// Φ(-z) - φ(z) (ε/2 + ε² z/8) in second order. Good to a few thousandths, enough to show the way.
     #[inline(never)]
     pub fn sketch(&mut self, outline: &Outline, blur: f64, origin: [f64; 2]) {
         let det = outline.p * outline.q - outline.r * outline.r;
-        let [p, q, r] = [outline.p, outline.q, outline.r].map(|x| f32x8::splat((x / det) as f32));
-        let [u, v] = [outline.u - origin[0], outline.v - origin[1]].map(|x| f32x8::splat(x as f32));
-        let variance = blur * blur + 1.0 / 12.0;
-        let inverse = f32x8::splat(1.0 / variance.sqrt() as f32);
-        let widening = f32x8::splat((blur / variance.sqrt()) as f32);
-        let tiny = f32x8::splat(1e-12);
+        let [p, q, r] = [outline.p, outline.q, outline.r].map(|x| f32x4::splat((x / det) as f32));
+        let [u, v] = [outline.u - origin[0], outline.v - origin[1]].map(|x| f32x4::splat(x as f32));
+        let deviation = (blur * blur + 1.0 / 12.0).sqrt();
+        let inverse = f32x4::splat(1.0 / deviation as f32);
+        let widening = f32x4::splat((blur / deviation) as f32);
+        // times the third power of the rim's speed over det A, in units of 1 / det A
+        let curved = f32x4::splat((deviation / det / det) as f32);
+        let [tiny, one, most] = [1e-12, 1.0, 4.0].map(f32x4::splat);
+        let [half, eighth] = [0.5, 0.125].map(f32x4::splat);
         let [du, dv, ds, dp, dq, dr] = &mut self.derivatives;
-        let pixels = self.x.as_chunks::<8>().0.iter().zip(self.y.as_chunks::<8>().0).zip(self.kept.as_chunks::<8>().0);
-        let moves = du.as_chunks_mut::<8>().0.iter_mut().zip(dv.as_chunks_mut::<8>().0).zip(ds.as_chunks_mut::<8>().0);
-        let shapes = dp.as_chunks_mut::<8>().0.iter_mut().zip(dq.as_chunks_mut::<8>().0).zip(dr.as_chunks_mut::<8>().0);
-        for ((((x, y), kept), ((du, dv), ds)), ((dp, dq), dr)) in pixels.zip(moves).zip(shapes) {
-            let (x, y) = (f32x8::new(*x) - u, f32x8::new(*y) - v);
+        let [x, y, kept] = [&self.x, &self.y, &self.kept].map(|column| column.as_chunks::<4>().0);
+        let pixels = x.iter().zip(y).zip(kept).zip(self.share.as_chunks_mut::<4>().0);
+        let moves = du.as_chunks_mut::<4>().0.iter_mut().zip(dv.as_chunks_mut::<4>().0).zip(ds.as_chunks_mut::<4>().0);
+        let shapes = dp.as_chunks_mut::<4>().0.iter_mut().zip(dq.as_chunks_mut::<4>().0).zip(dr.as_chunks_mut::<4>().0);
+        for (((((x, y), kept), share), ((du, dv), ds)), ((dp, dq), dr)) in pixels.zip(moves).zip(shapes) {
+            let (x, y, kept) = (f32x4::new(*x) - u, f32x4::new(*y) - v, f32x4::new(*kept));
             let (c, s) = (q * x - r * y, p * y - r * x);
-            let turn = f32x8::ONE / (c * c + s * s + tiny).sqrt();
+            let turn = one / (c * c + s * s + tiny).sqrt();
             let (c, s) = (c * turn, s * turn);
             // the normal, and the distance of the place from the rim along it
             let (nx, ny) = (q * c - r * s, p * s - r * c);
-            let length = f32x8::ONE / (nx * nx + ny * ny + tiny).sqrt();
+            let length = one / (nx * nx + ny * ny + tiny).sqrt();
             let (nx, ny) = (nx * length, ny * length);
-            let z = (f32x8::ONE / turn - f32x8::ONE) * length * inverse;
-            let light = turn.fast_min(f32x8::splat(4.0)).sqrt() * inverse * f32x8::new(*kept);
-            let edge = density(z) * light;
+            let z = (one / turn - one) * length * inverse;
+            let turn = turn.fast_min(most);
+            let bounded = z.fast_max(f32x4::splat(-5.5)).fast_min(f32x4::splat(5.5));
+            let (below, density) = normal_distribution(bounded);
+            let bent = (curved * turn * length * length * length).fast_min(one);
+            *share = (kept * (one - below - density * bent * (half + eighth * bent * bounded))).to_array();
+            let edge = density * turn.sqrt() * inverse * kept;
             let (across, down) = (edge * nx, edge * ny);
             *du = across.to_array();
             *dv = down.to_array();
@@ -250,7 +267,6 @@ impl Band {
             };
             if residual.abs() > limit || residual.abs() > limit / 3.0 && far.iter().any(close) {
                 dropped += 1;
-                self.whole = false;
                 for column in
                     [&mut self.grey, &mut self.x, &mut self.y, &mut self.kept, &mut self.share, &mut self.residual]
                 {
@@ -265,14 +281,9 @@ impl Band {
     }
 
     /// Median of the absolute residuals of the pixels that count, as a standard deviation.
-    pub fn robust_deviation(&self) -> f64 {
-        let mut sizes: Vec<f32> =
-            self.residual.iter().zip(&self.kept).filter(|(_, kept)| **kept > 0.0).map(|(r, _)| r.abs()).collect();
-        if sizes.is_empty() {
-            return 0.0;
-        }
-        let half = sizes.len() / 2;
-        1.4826 * f64::from(*sizes.select_nth_unstable_by(half, f32::total_cmp).1)
+    pub fn robust_deviation(&mut self) -> f64 {
+        let counted = self.residual.iter().zip(&self.kept).filter(|(_, kept)| **kept > 0.0);
+        1.4826 * median::of_sizes(counted.map(|(residual, _)| residual.abs()), &mut self.sizes)
     }
 
     /// Rms of what is left of the residuals when their mean profile across the rim is taken off: what a lens does to an
@@ -291,7 +302,7 @@ impl Band {
     /// Variance of the residuals of the pixels that count, and how many pixels they are.
     pub fn variance(&self) -> (f64, usize) {
         let used = self.kept.iter().filter(|kept| **kept > 0.0).count();
-        let [square] = dots(&self.residual, [&self.residual]);
+        let [[square]] = products([&self.residual], [&self.residual]);
         (square / used.saturating_sub(UNKNOWNS - 2).max(1) as f64, used)
     }
 
@@ -302,25 +313,30 @@ impl Band {
         let scale = |i: usize| if i < 2 * DERIVATIVES { contrast } else { 1.0 };
         let factor = |i: usize, j: usize| f32x8::splat((cofactors[(i, j)] * scale(i) * scale(j)) as f32);
         let factors: [[f32x8; UNKNOWNS]; UNKNOWNS] = std::array::from_fn(|i| std::array::from_fn(|j| factor(i, j)));
-        let mut lights = Lights::default();
+        let [kept, share, residual] = [&self.kept, &self.share, &self.residual].map(|column| column.as_chunks::<8>().0);
+        let mut sums = [f32x8::ZERO; 8];
         for k in 0..columns[0].len() {
             let row = columns.map(|column| f32x8::new(column[k]));
-            let moved = factors.map(|factors| factors.iter().zip(&row).fold(f32x8::ZERO, |sum, (f, x)| sum + *f * *x));
-            let leverage = moved.iter().zip(&row).fold(f32x8::ZERO, |sum, (z, x)| sum + *z * *x);
-            let kept = f32x8::new(self.kept.as_chunks::<8>().0[k]);
-            let free = (kept - leverage).fast_max(f32x8::ZERO);
-            let share = f32x8::new(self.share.as_chunks::<8>().0[k]);
-            let residual = f32x8::new(self.residual.as_chunks::<8>().0[k]);
-            let square = residual * residual;
-            let sum = |x: f32x8| x.to_array().iter().map(|x| f64::from(*x)).sum::<f64>();
-            let powers = [free, free * share, free * share * share].map(sum);
-            let squares = [square, square * share].map(sum);
-            let lit = [moved[0] * moved[0], moved[0] * moved[1], moved[1] * moved[1]].map(|z| sum(z * share));
-            lights.powers.iter_mut().zip(powers).for_each(|(total, x)| *total += x);
-            lights.squares.iter_mut().zip(squares).for_each(|(total, x)| *total += x);
-            lights.lit.iter_mut().zip(lit).for_each(|(total, x)| *total += x / (contrast * contrast));
+            // half the quadratic form: its lower triangle and half its diagonal
+            let mut half = f32x8::ZERO;
+            for i in 0..UNKNOWNS {
+                let below = (0..i).fold(f32x8::ZERO, |sum, j| sum + factors[i][j] * row[j]);
+                half += (below + f32x8::splat(0.5) * factors[i][i] * row[i]) * row[i];
+            }
+            let moved = |i: usize| (0..UNKNOWNS).fold(f32x8::ZERO, |sum, j| sum + factors[i][j] * row[j]);
+            let (u, v) = (moved(0), moved(1));
+            let [kept, share, residual] = [kept[k], share[k], residual[k]].map(f32x8::new);
+            let free = (kept - (half + half)).fast_max(f32x8::ZERO);
+            let (square, lit) = (residual * residual, share * free);
+            let terms = [free, lit, lit * share, square, square * share, u * u * share, u * v * share, v * v * share];
+            for (sum, term) in sums.iter_mut().zip(terms) {
+                *sum += term;
+            }
         }
-        lights
+        let [n, lit, second, all, bright, uu, uv, vv] =
+            sums.map(|sum| sum.to_array().into_iter().map(f64::from).sum::<f64>());
+        let centre = [uu, uv, vv].map(|sum| sum / (contrast * contrast));
+        Lights { powers: [n, lit, second], squares: [all, bright], lit: centre }
     }
 
     fn columns(&self) -> [&[f32]; UNKNOWNS] {
@@ -333,26 +349,37 @@ impl Band {
         let columns = self.columns();
         let scale = |i: usize| if i < 2 * DERIVATIVES { contrast } else { 1.0 };
         let mut normal = Normal::zeros();
-        // blocks of columns share their loads
-        for i in 0..UNKNOWNS {
-            for j in (0..=i).step_by(BLOCK) {
-                let sums = dots(columns[i], std::array::from_fn::<_, BLOCK, _>(|k| columns[(j + k).min(i)]));
-                for (k, sum) in sums.into_iter().enumerate().take(i + 1 - j) {
-                    let sum = sum * scale(i) * scale(j + k);
-                    normal[(i, j + k)] = sum;
-                    normal[(j + k, i)] = sum;
+        let mut enter = |i: usize, j: usize, sum: f64| {
+            let sum = sum * scale(i) * scale(j);
+            (normal[(i, j)], normal[(j, i)]) = (sum, sum);
+        };
+        // blocks of columns share their loads; the last column stands alone
+        let block = |i: usize| [columns[BLOCK * i], columns[BLOCK * i + 1], columns[BLOCK * i + 2]];
+        for i in 0..UNKNOWNS / BLOCK {
+            for j in 0..=i {
+                let sums = products(block(i), block(j));
+                for (row, sums) in sums.into_iter().enumerate() {
+                    for (column, sum) in sums.into_iter().enumerate() {
+                        enter(BLOCK * i + row, BLOCK * j + column, sum);
+                    }
                 }
             }
+            let [sums] = products([columns[UNKNOWNS - 1]], block(i));
+            for (column, sum) in sums.into_iter().enumerate() {
+                enter(UNKNOWNS - 1, BLOCK * i + column, sum);
+            }
         }
+        let [[sum]] = products([columns[UNKNOWNS - 1]], [columns[UNKNOWNS - 1]]);
+        enter(UNKNOWNS - 1, UNKNOWNS - 1, sum);
         normal
     }
 
     /// J'r of the band.
     pub fn right(&self, contrast: f64) -> Unknowns {
         let [u, v, p, q, r, s, share, kept, x, y] = self.columns();
-        let outline = dots(&self.residual, [u, v, p, q, r, s]).map(|sum| sum * contrast);
-        let levels = dots(&self.residual, [share, kept, x, y]);
-        Unknowns::from_iterator(outline.into_iter().chain(levels))
+        let [outline] = products([&self.residual], [u, v, p, q, r, s]);
+        let [levels] = products([&self.residual], [share, kept, x, y]);
+        Unknowns::from_iterator(outline.map(|sum| sum * contrast).into_iter().chain(levels))
     }
 }
 
@@ -379,39 +406,29 @@ fn clipped(from: f64, to: f64, size: usize) -> std::ops::Range<usize> {
     low.min(high)..high
 }
 
-/// Density of the normal distribution.
-#[inline(always)]
-fn density(z: f32x8) -> f32x8 {
-    let z = z.fast_max(f32x8::splat(-5.5)).fast_min(f32x8::splat(5.5)).to_array();
-    let [mut left, mut right] = [[0.0; 4]; 2];
-    left.copy_from_slice(&z[..4]);
-    right.copy_from_slice(&z[4..]);
-    let [left, right] = [left, right].map(|z| normal_distribution(f32x4::new(z)).1.to_array());
-    f32x8::new(std::array::from_fn(|i| if i < 4 { left[i] } else { right[i - 4] }))
-}
-
-fn mask(column: &mut [f32], kept: &[f32]) {
-    for (value, kept) in column.iter_mut().zip(kept) {
-        *value *= kept;
-    }
-}
-
-/// Inner products of one column with others, each in eight sums of single precision, emptied into double precision every
-/// 64 steps. The columns are padded to eights.
-fn dots<const K: usize>(a: &[f32], b: [&[f32]; K]) -> [f64; K] {
-    let a = a.as_chunks::<8>().0;
-    let b = b.map(|column| &column.as_chunks::<8>().0[..a.len()]);
-    let mut totals = [0.0; K];
-    for from in (0..a.len()).step_by(64) {
-        let mut sums = [f32x8::ZERO; K];
-        for i in from..a.len().min(from + 64) {
-            let a = f32x8::new(a[i]);
-            for k in 0..K {
-                sums[k] += a * f32x8::new(b[k][i]);
+/// Inner products of columns with others, each in four sums of single precision, emptied into double precision every
+/// 128 steps.
+#[inline(never)]
+fn products<const A: usize, const B: usize>(a: [&[f32]; A], b: [&[f32]; B]) -> [[f64; B]; A] {
+    let steps = a.first().map_or(0, |column| column.len() / 4);
+    let a = a.map(|column| &column.as_chunks::<4>().0[..steps]);
+    let b = b.map(|column| &column.as_chunks::<4>().0[..steps]);
+    let mut totals = [[0.0; B]; A];
+    for from in (0..steps).step_by(128) {
+        let mut sums = [[f32x4::ZERO; B]; A];
+        for i in from..steps.min(from + 128) {
+            let right = b.map(|column| f32x4::new(column[i]));
+            for (sums, column) in sums.iter_mut().zip(a) {
+                let left = f32x4::new(column[i]);
+                for (sum, right) in sums.iter_mut().zip(right) {
+                    *sum += left * right;
+                }
             }
         }
-        for (total, sums) in totals.iter_mut().zip(&sums) {
-            *total += sums.to_array().iter().map(|sum| f64::from(*sum)).sum::<f64>();
+        for (totals, sums) in totals.iter_mut().zip(&sums) {
+            for (total, sum) in totals.iter_mut().zip(sums) {
+                *total += sum.to_array().into_iter().map(f64::from).sum::<f64>();
+            }
         }
     }
     totals

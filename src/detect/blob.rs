@@ -33,6 +33,13 @@ pub(crate) struct NoBlob {
     pub reason: Reason,
 }
 
+impl NoBlob {
+    /// An outline that is no target's.
+    pub fn of(outline: &Outline, reason: Reason) -> Self {
+        Self { u: outline.u, v: outline.v, diameter: 2.0 * outline.semi_axes().0, reason }
+    }
+}
+
 /// Flattest ellipse that goes on to be measured; the measurement decides at 0.3.
 const FLATTEST: f64 = 0.2;
 

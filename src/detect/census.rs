@@ -20,6 +20,13 @@ struct Entry {
     accepted: bool,
 }
 
+/// An entry that touches a cell, and the next one.
+#[derive(Clone, Copy)]
+struct Link {
+    entry: u32,
+    next: Option<u32>,
+}
+
 /// Whether one outline lies around another, about the same centre.
 fn encloses(outer: &Outline, inner: &Outline) -> bool {
     let distance = (outer.u - inner.u).hypot(outer.v - inner.v);
@@ -31,7 +38,10 @@ fn encloses(outer: &Outline, inner: &Outline) -> bool {
 pub(crate) struct Census {
     pub targets: Vec<Target>,
     pub detection: Detection,
-    cells: Vec<Vec<Entry>>,
+    entries: Vec<Entry>,
+    /// For each cell the last link of its list of entries, if any.
+    cells: Vec<Option<u32>>,
+    links: Vec<Link>,
     columns: usize,
     rows: usize,
 }
@@ -40,8 +50,15 @@ impl Census {
     /// Of a picture of this size, with nothing in it yet.
     pub fn new(width: usize, height: usize) -> Self {
         let [columns, rows] = [width, height].map(|size| size / CELL as usize + 1);
-        let cells = vec![Vec::new(); columns * rows];
-        Self { targets: Vec::new(), detection: Detection::default(), cells, columns, rows }
+        Self {
+            targets: Vec::new(),
+            detection: Detection::default(),
+            entries: Vec::new(),
+            cells: vec![None; columns * rows],
+            links: Vec::new(),
+            columns,
+            rows,
+        }
     }
 
     /// Whether nothing was decided about a candidate yet: it is no decided outline again and lies in no target.
@@ -77,23 +94,24 @@ impl Census {
         }
         let other = |entry: &&Entry| entry.accepted && entry.bright != bright;
         if self.near(&outline).filter(other).any(|entry| encloses(&outline, &entry.outline)) {
-            return self.reject(&Candidate { outline, bright }, Reason::NotAnEllipse);
+            return self.reject(outline, bright, Reason::NotAnEllipse);
         }
         let grounds: Vec<Outline> = self.near(&outline).filter(other).map(|entry| entry.outline).collect();
         for ground in grounds.iter().filter(|ground| encloses(ground, &outline)) {
             self.targets.retain(|target| (target.u, target.v) != (ground.u, ground.v));
-            self.cells.iter_mut().for_each(|cell| cell.retain(|entry| entry.outline != *ground));
-            self.reject(&Candidate { outline: *ground, bright: !bright }, Reason::NotAnEllipse);
+            for entry in self.entries.iter_mut().filter(|entry| entry.outline == *ground) {
+                entry.accepted = false;
+            }
+            self.count(&NoBlob::of(ground, Reason::NotAnEllipse));
         }
         self.enter(Entry { outline, bright, accepted: true });
         self.targets.push(target);
     }
 
-    /// Enters a candidate that is no target.
-    pub fn reject(&mut self, candidate: &Candidate, reason: Reason) {
-        let Candidate { outline, bright } = *candidate;
+    /// Enters an outline that is no target's.
+    pub fn reject(&mut self, outline: Outline, bright: bool, reason: Reason) {
         self.enter(Entry { outline, bright, accepted: false });
-        self.count(&NoBlob { u: outline.u, v: outline.v, diameter: 2.0 * outline.semi_axes().0, reason });
+        self.count(&NoBlob::of(&outline, reason));
     }
 
     /// Counts a rejected blob, and keeps it for showing when it could be mistaken for a target.
@@ -114,7 +132,9 @@ impl Census {
 
     /// Entries that touch the cell in which the outline's centre lies.
     fn near(&self, outline: &Outline) -> impl Iterator<Item = &Entry> {
-        self.cells[self.cell(outline.u, outline.v)].iter()
+        let first = self.cells[self.cell(outline.u, outline.v)];
+        let link = |at: Option<u32>| at.map(|at| self.links[at as usize]);
+        std::iter::successors(link(first), move |found| link(found.next)).map(|link| &self.entries[link.entry as usize])
     }
 
     /// Enters into every cell that the outline's box touches.
@@ -122,9 +142,13 @@ impl Census {
         let (half_u, half_v) = entry.outline.half_box();
         let low = self.cell(entry.outline.u - half_u, entry.outline.v - half_v);
         let high = self.cell(entry.outline.u + half_u, entry.outline.v + half_v);
+        let number = self.entries.len() as u32;
+        self.entries.push(entry);
         for row in low / self.columns..=high / self.columns {
             for column in low % self.columns..=high % self.columns {
-                self.cells[row * self.columns + column].push(entry);
+                let cell = &mut self.cells[row * self.columns + column];
+                self.links.push(Link { entry: number, next: *cell });
+                *cell = Some(self.links.len() as u32 - 1);
             }
         }
     }

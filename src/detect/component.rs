@@ -54,8 +54,11 @@ struct Active {
 /// ends far from there. An outline loses at most its outermost row to this.
 fn alike(run: &Chord, above: &Active) -> bool {
     let (length, other) = (run.x1 - run.x0, above.x1 - above.x0);
-    let moved = (run.x0 - above.x0).abs().max((run.x1 - above.x1).abs());
-    length > 0.35 * other && other > 0.35 * length && (run.cut == above.cut || moved < 4.0 + 0.25 * length.min(other))
+    if !(length > 0.35 * other && other > 0.35 * length) {
+        return false;
+    }
+    let near = 4.0 + 0.25 * if length < other { length } else { other };
+    run.cut == above.cut || (run.x0 - above.x0).abs() < near && (run.x1 - above.x1).abs() < near
 }
 
 /// Links the runs of one polarity, row by row, into chains.

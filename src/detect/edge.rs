@@ -4,21 +4,61 @@
 //! the fall (bright targets) or rise (dark ones) over two pixels is steepest, to a fraction of a pixel by the parabola
 //! through the three steepest values. [`refine`] then fits the whole profile of a blurred edge to each ray.
 
-use wide::f32x4;
+use wide::{f32x4, i32x4};
 
+use super::ellipse::Scratch;
 use super::outline::{Outline, RimPoint};
+use super::rays::{FourRims, Rays, quarter};
 use super::rendered::{BLUR, normal_distribution};
 use crate::image::{Plane, Sample};
 
-/// An edge looked for on one ray.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct EdgePoint {
-    pub x: f64,
-    pub y: f64,
+/// Edges looked for on the rays of an outline, one array a quantity. As many as a multiple of four.
+#[derive(Default)]
+pub(crate) struct Edges {
+    /// Place that x and y are counted from.
+    pub origin: [f64; 2],
+    pub x: Vec<f32>,
+    pub y: Vec<f32>,
     /// Grey difference over two pixels across the edge; 0 where no edge was found.
-    pub strength: f64,
-    /// Used by the fit; false for what is hidden or disturbed.
-    pub kept: bool,
+    pub strength: Vec<f32>,
+    /// 1 for what the fit uses, 0 for what is hidden or disturbed.
+    pub kept: Vec<f32>,
+    /// Memory of the fits through them.
+    pub scratch: Scratch,
+}
+
+impl Edges {
+    /// Makes room for `count` rays of an outline.
+    pub fn begin(&mut self, outline: &Outline, count: usize) {
+        self.origin = [outline.u, outline.v];
+        for column in [&mut self.x, &mut self.y, &mut self.strength, &mut self.kept] {
+            column.clear();
+            column.resize(count, 0.0);
+        }
+    }
+
+    /// Number of rays.
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Enters what was found on a ray, at a place of the picture.
+    pub fn set(&mut self, ray: usize, [x, y]: [f64; 2], strength: f64, kept: bool) {
+        self.x[ray] = (x - self.origin[0]) as f32;
+        self.y[ray] = (y - self.origin[1]) as f32;
+        self.strength[ray] = strength as f32;
+        self.kept[ray] = if kept { 1.0 } else { 0.0 };
+    }
+
+    /// Place of an edge in the picture.
+    pub fn place(&self, ray: usize) -> [f64; 2] {
+        [self.origin[0] + f64::from(self.x[ray]), self.origin[1] + f64::from(self.y[ray])]
+    }
+
+    /// Whether the fit uses a ray.
+    pub fn is_kept(&self, ray: usize) -> bool {
+        self.kept[ray] > 0.0
+    }
 }
 
 /// Longest ray, in samples.
@@ -51,47 +91,137 @@ pub(crate) fn search<T: Sample>(
     reach: f64,
     count: usize,
     threshold: f64,
-    found: &mut Vec<EdgePoint>,
+    found: &mut Edges,
 ) {
-    found.clear();
+    found.begin(outline, count);
     let side = (reach.ceil() as usize).clamp(2, LONGEST / 2 - 2);
     let sign = if bright { 1.0 } else { -1.0 };
-    let samples = 2 * side + 3;
-    // of two edges alike the nearer one counts
-    let mut weights = [0f32; LONGEST];
-    for (i, weight) in weights[1..samples - 1].iter_mut().enumerate() {
-        let distance = (i as f32 - side as f32) / (side as f32 + 1.0);
-        *weight = sign * (1.0 - 0.4 * distance * distance);
-    }
-    let mut profile = [0f32; LONGEST];
-    for rim in rim_points(outline, count) {
-        let back = side as f64 + 1.0;
-        let start = [rim.x - back * rim.normal[0], rim.y - back * rim.normal[1]];
-        plane.profile(start, rim.normal, &mut profile[..samples]);
-        let mut best = (f32::NEG_INFINITY, side + 1);
-        for (i, (three, weight)) in profile[..samples].windows(3).zip(&weights[1..]).enumerate() {
-            let weighted = (three[0] - three[2]) * weight;
-            if weighted > best.0 {
-                best = (weighted, i + 1);
+    let (half_u, half_v) = outline.half_box();
+    let room = side as f64 + 3.0;
+    // walking is in numbers of 32 bits, of which 16 are behind the point
+    let walks = |middle: f64, half: f64, size: usize| {
+        middle - half >= room && middle + half + room <= (size as f64).min(32000.0)
+    };
+    let walks = walks(outline.u, half_u, plane.width) && walks(outline.v, half_v, plane.height);
+    let rays = Rays::new(outline);
+    for (k, [c, s]) in quarter(count).enumerate() {
+        let rims = rays.at(c, s);
+        let (t, strength) =
+            if walks { walk(plane, outline, &rims, side, sign) } else { at_border(plane, outline, &rims, side, sign) };
+        let is_edge = strength.simd_gt(f32x4::splat(threshold as f32));
+        let t = is_edge & t;
+        let places = [rims.x + t * rims.nx, rims.y + t * rims.ny, is_edge & strength, is_edge & f32x4::ONE];
+        let Edges { x, y, strength, kept, .. } = &mut *found;
+        for (column, values) in [x, y, strength, kept].into_iter().zip(places) {
+            for (turn, value) in values.to_array().into_iter().enumerate() {
+                column[k + turn * count / 4] = value;
             }
         }
-        let fall = |i: usize| sign * (profile[i - 1] - profile[i + 1]);
-        let (middle, at) = (fall(best.1), best.1);
-        let mut point = EdgePoint { x: rim.x, y: rim.y, strength: 0.0, kept: false };
-        if f64::from(middle) > threshold {
-            let before = if at > 1 { fall(at - 1) } else { middle };
-            let after = if at + 2 < samples { fall(at + 1) } else { middle };
-            let bend = before - 2.0 * middle + after;
-            let fraction = if bend < 0.0 { (0.5 * (before - after) / bend).clamp(-0.5, 0.5) } else { 0.0 };
-            let t = f64::from(at as f32 + fraction) - (side as f64 + 1.0);
-            point = EdgePoint {
-                x: rim.x + t * rim.normal[0],
-                y: rim.y + t * rim.normal[1],
-                strength: f64::from(middle),
-                kept: true,
-            };
+    }
+}
+
+/// Of two edges alike the nearer one counts: the weight of a step at a distance from the outline.
+fn weight(distance: f32, side: usize) -> f32 {
+    let share = distance / (side as f32 + 1.0);
+    1.0 - 0.4 * share * share
+}
+
+/// Steepest place on each of four rays, from the rim outwards, and the fall over two pixels there.
+#[inline(always)]
+fn walk<T: Sample>(plane: &Plane<T>, outline: &Outline, rims: &FourRims, side: usize, sign: f32) -> (f32x4, f32x4) {
+    let one = f32x4::splat(65536.0);
+    let back = f32x4::splat(side as f32 + 1.0);
+    let start = |middle: f64, rim: f32x4, normal: f32x4| {
+        i32x4::splat(((middle - 0.5) * 65536.0) as i32) + ((rim - back * normal) * one).fast_trunc_int()
+    };
+    let (mut x, mut y) = (start(outline.u, rims.x, rims.nx), start(outline.v, rims.y, rims.ny));
+    let (dx, dy) = ((rims.nx * one).fast_trunc_int(), (rims.ny * one).fast_trunc_int());
+    let sign = f32x4::splat(sign);
+    let (mut first, mut second) = (f32x4::ZERO, f32x4::ZERO);
+    let mut best = Steepest::default();
+    for i in 0..2 * side + 3 {
+        let third = plane.bilinear_four(x, y);
+        if i >= 2 {
+            let distance = i as f32 - side as f32 - 2.0;
+            best.see(sign * (first - third), weight(distance, side), distance, i == 2);
         }
-        found.push(point);
+        (first, second) = (second, third);
+        (x, y) = (x + dx, y + dy);
+    }
+    best.place()
+}
+
+/// The same where rays leave the picture, or so far from its origin that they cannot be walked: sample by sample.
+#[inline(never)]
+fn at_border<T: Sample>(
+    plane: &Plane<T>,
+    outline: &Outline,
+    rims: &FourRims,
+    side: usize,
+    sign: f32,
+) -> (f32x4, f32x4) {
+    let [x, y, nx, ny] = [rims.x, rims.y, rims.nx, rims.ny].map(f32x4::to_array);
+    let (mut profiles, samples) = ([[0f32; LONGEST]; 4], 2 * side + 3);
+    for (k, profile) in profiles.iter_mut().enumerate() {
+        let normal = [nx[k], ny[k]].map(f64::from);
+        let back = side as f64 + 1.0;
+        let start = [outline.u + f64::from(x[k]) - back * normal[0], outline.v + f64::from(y[k]) - back * normal[1]];
+        plane.profile(start, normal, &mut profile[..samples]);
+    }
+    let level = |i: usize| f32x4::new([0, 1, 2, 3].map(|k| profiles[k][i]));
+    let mut best = Steepest::default();
+    for i in 0..=2 * side {
+        let distance = i as f32 - side as f32;
+        best.see(f32x4::splat(sign) * (level(i) - level(i + 2)), weight(distance, side), distance, i == 0);
+    }
+    best.place()
+}
+
+/// The steepest fall on each of four rays, with its neighbours.
+struct Steepest {
+    weighted: f32x4,
+    at: f32x4,
+    before: f32x4,
+    middle: f32x4,
+    after: f32x4,
+    /// The fall seen last, and whether it was the steepest so far.
+    last: f32x4,
+    fresh: f32x4,
+}
+
+impl Default for Steepest {
+    fn default() -> Self {
+        let zero = f32x4::ZERO;
+        let weighted = f32x4::splat(f32::NEG_INFINITY);
+        Self { weighted, at: zero, before: zero, middle: zero, after: zero, last: zero, fresh: zero }
+    }
+}
+
+impl Steepest {
+    #[inline(always)]
+    fn see(&mut self, fall: f32x4, weight: f32, distance: f32, first: bool) {
+        let weighted = fall * f32x4::splat(weight);
+        let better = weighted.simd_gt(self.weighted);
+        // at either end the missing neighbour is taken to be as steep
+        let before = if first { fall } else { self.last };
+        self.after = self.fresh.select(fall, self.after);
+        self.after = better.select(fall, self.after);
+        self.before = better.select(before, self.before);
+        self.middle = better.select(fall, self.middle);
+        self.at = better.select(f32x4::splat(distance), self.at);
+        self.weighted = better.select(weighted, self.weighted);
+        (self.last, self.fresh) = (fall, better);
+    }
+
+    /// Place by the parabola through the three falls, and the steepest of them.
+    #[inline(always)]
+    fn place(&self) -> (f32x4, f32x4) {
+        let half = f32x4::splat(0.5);
+        let bend = self.before - (self.middle + self.middle) + self.after;
+        let bent = bend.simd_lt(f32x4::ZERO);
+        let fraction = half * (self.before - self.after) / bent.select(bend, f32x4::ONE);
+        let fraction = bent & fraction.fast_max(-half).fast_min(half);
+        (self.at + fraction, self.middle)
     }
 }
 
@@ -106,45 +236,38 @@ pub(crate) fn search_wide<T: Sample>(
     count: usize,
     wide: usize,
     threshold: f64,
-    found: &mut Vec<EdgePoint>,
+    found: &mut Edges,
 ) {
-    found.clear();
+    found.begin(outline, count);
     let wide = wide.clamp(1, LONGEST / 8);
     let side = (reach.ceil() as usize).clamp(2, LONGEST / 2 - 1 - wide);
     let sign = if bright { 1.0 } else { -1.0 };
     let samples = 2 * (side + wide) + 1;
     let back = (side + wide) as f64;
     let mut profile = [0f32; LONGEST];
-    for rim in rim_points(outline, count) {
+    for (ray, rim) in rim_points(outline, count).enumerate() {
         let start = [rim.x - back * rim.normal[0], rim.y - back * rim.normal[1]];
         plane.profile(start, rim.normal, &mut profile[..samples]);
         let mean = |part: &[f32]| part.iter().sum::<f32>() / wide as f32;
         let fall = |i: usize| sign * (mean(&profile[i - wide..i]) - mean(&profile[i + 1..=i + wide]));
         let mut best = (f32::NEG_INFINITY, side + wide);
         for i in wide..samples - wide {
-            // of two edges alike the nearer one counts
-            let distance = (i as f32 - back as f32) / (side as f32 + 1.0);
-            let weighted = fall(i) * (1.0 - 0.4 * distance * distance);
+            let weighted = fall(i) * weight(i as f32 - back as f32, side);
             if weighted > best.0 {
                 best = (weighted, i);
             }
         }
         let (middle, at) = (fall(best.1), best.1);
-        let mut point = EdgePoint { x: rim.x, y: rim.y, strength: 0.0, kept: false };
+        found.set(ray, [rim.x, rim.y], 0.0, false);
         if f64::from(middle) > threshold {
             let before = if at > wide { fall(at - 1) } else { middle };
             let after = if at + wide + 1 < samples { fall(at + 1) } else { middle };
             let bend = before - 2.0 * middle + after;
             let fraction = if bend < 0.0 { (0.5 * (before - after) / bend).clamp(-0.5, 0.5) } else { 0.0 };
             let t = f64::from(at as f32 + fraction) - back;
-            point = EdgePoint {
-                x: rim.x + t * rim.normal[0],
-                y: rim.y + t * rim.normal[1],
-                strength: 2.0 / (wide as f64 + 1.0) * f64::from(middle),
-                kept: true,
-            };
+            let place = [rim.x + t * rim.normal[0], rim.y + t * rim.normal[1]];
+            found.set(ray, place, 2.0 / (wide as f64 + 1.0) * f64::from(middle), true);
         }
-        found.push(point);
     }
 }
 
@@ -202,12 +325,12 @@ pub(crate) fn refine<T: Sample>(
     outline: &Outline,
     profile: &Profile,
     count: usize,
-    found: &mut Vec<EdgePoint>,
+    found: &mut Edges,
 ) {
-    found.clear();
+    found.begin(outline, count);
     let side = refined_side(profile.blur);
     let mut samples: Vec<Drawn> = Vec::with_capacity(2 * side + 1);
-    for rim in rim_points(outline, count) {
+    for (ray, rim) in rim_points(outline, count).enumerate() {
         samples.clear();
         samples.extend((0..=2 * side).map(|i| {
             let t = i as f64 - side as f64;
@@ -228,12 +351,8 @@ pub(crate) fn refine<T: Sample>(
             }
             shift = (shift + sum / weight.max(1e-9)).clamp(-(side as f64), side as f64);
         }
-        found.push(EdgePoint {
-            x: rim.x + shift * rim.normal[0],
-            y: rim.y + shift * rim.normal[1],
-            strength: (weight / profile.blur).sqrt(),
-            kept: shift.abs() < side as f64 * 0.9,
-        });
+        let place = [rim.x + shift * rim.normal[0], rim.y + shift * rim.normal[1]];
+        found.set(ray, place, (weight / profile.blur).sqrt(), shift.abs() < side as f64 * 0.9);
     }
 }
 

@@ -24,6 +24,9 @@ const SLOW: f64 = 0.35;
 /// image of an ellipse is symmetric about its centre, and so is everything that contrast, blur and axes do to it.
 const OVEREXPOSED: f64 = 16.0;
 
+/// Share of that scale from which a bright target is taken to be clipped.
+const CLIPPED: f64 = 0.9;
+
 /// What the fit gives.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fit {
@@ -51,8 +54,9 @@ pub(crate) struct Workspace {
     origin: [f64; 2],
 }
 
-/// Outline, blur and contrast of a fit to all pixels, which only needs to be good enough to choose the pixels of the next
-/// one: corrections below `converged` pixels are expected. None when the steps lead nowhere.
+/// Outline, blur and contrast of a fit of a sketched ellipse ([`Band::sketch`]) to all pixels, which only needs to be good
+/// enough to choose the pixels of the next one: corrections below `converged` pixels are expected. None when the steps lead
+/// nowhere.
 pub(crate) fn approach<T: Sample>(
     plane: &Plane<T>,
     region: &Region,
@@ -61,22 +65,32 @@ pub(crate) fn approach<T: Sample>(
     work: &mut Workspace,
 ) -> Option<(Outline, f64, f64)> {
     let (mut state, flats) = work.begin(plane, region, blur)?;
-    let (mut normal, mut render_all, mut last) = (Normal::zeros(), true, f64::INFINITY);
+    let (mut normal, mut anew, mut last) = (Normal::zeros(), true, state.first());
     for round in 0.. {
         state.may_go_on(round)?;
-        work.residuals(&state, false)?;
-        if render_all {
+        if !work.field.holds(&state.outline, state.blur) {
+            return None;
+        }
+        let clipped = state.is_clipped();
+        if anew || !clipped {
             work.band.sketch(&state.outline, state.blur, work.origin);
+        }
+        if clipped {
+            // only the foot of its profile shows, where a sketch is not good enough
+            work.residuals(&state, false)?;
+        } else {
+            work.band.subtract(state.contrast, state.background);
+        }
+        if anew {
             normal = work.normal(&state, &flats);
         }
         let (size, used) = state.step(&normal, &work.right(&state, &flats))?;
         normal = used;
-        let slow = size > SLOW * last;
-        let near = size <= NEAR * (state.blur + 0.3);
-        render_all = !near || slow;
+        let near = size <= NEAR * state.pixel();
         if near && size * (size / last).min(1.0) < converged && last.is_finite() {
             return Some((state.outline, state.blur, state.contrast));
         }
+        anew = !near || size > SLOW * last;
         last = size;
     }
     None
@@ -94,7 +108,7 @@ pub(crate) fn fit<T: Sample>(
     let (mut state, flats) = work.begin(plane, region, blur)?;
     let mut normal = Normal::zeros();
     let (mut render_all, mut near, mut disturbed, mut dropped) = (true, true, true, 0);
-    let (mut anew, mut last) = (true, f64::INFINITY);
+    let (mut anew, mut last) = (true, state.first());
     let (mut limit, mut rounds) = (f64::INFINITY, 0);
     for round in 0.. {
         state.may_go_on(round)?;
@@ -125,7 +139,7 @@ pub(crate) fn fit<T: Sample>(
         if settled && !disturbed {
             break;
         }
-        near = size <= NEAR * (state.blur + 0.3);
+        near = size <= NEAR * state.pixel();
         render_all = !near || slow;
     }
     let (variance, used) = work.band.variance();
@@ -181,7 +195,7 @@ impl Workspace {
     }
 
     /// Residual beyond which, near the end, a pixel is not the target's.
-    fn outlier_limit(&self, state: &State, region: &Region) -> f64 {
+    fn outlier_limit(&mut self, state: &State, region: &Region) -> f64 {
         // an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel
         let sharp = if state.blur <= BLUR.0 { 0.1 * state.contrast.abs() } else { 0.0 };
         let noise = self.band.robust_deviation().max(region.surround.noise).max(0.5);
@@ -213,6 +227,23 @@ struct State {
 }
 
 impl State {
+    /// Blur and pixel together: corrections that are small against it change the profile in proportion.
+    fn pixel(&self) -> f64 {
+        self.blur + 0.3
+    }
+
+    /// Whether a bright target seems to go on beyond the scale.
+    fn is_clipped(&self) -> bool {
+        self.contrast > CLIPPED * self.shown
+    }
+
+    /// What the first correction is compared with: Newton's steps shrink in the ratio of the correction to the profile's
+    /// width. Where it is clipped, contrast and blur nearly stand for each other and may go on for long, which the centre
+    /// does not notice: two corrections of an approach, and one of a fit that follows it, are enough.
+    fn first(&self) -> f64 {
+        if self.is_clipped() { f64::INFINITY } else { self.pixel() }
+    }
+
     /// Whether the blur is at an end of its range and the correction would take it out.
     fn blur_leaves(&self, correction: f64) -> bool {
         (self.blur <= BLUR.0 && correction < 0.0) || (self.blur >= BLUR.1 && correction > 0.0)
@@ -240,7 +271,7 @@ impl State {
         if !size.is_finite() {
             return None;
         }
-        let limit = 0.8 * (self.blur + 0.3);
+        let limit = 0.8 * self.pixel();
         let whole = (limit / size).min(0.6 * self.contrast.abs() / step[6].abs()).min(1.0);
         self.add(&(step * if whole > 0.0 { whole } else { 1.0 }));
         self.contrast = self.contrast.clamp(-self.brightest, self.brightest);

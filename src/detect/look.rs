@@ -8,7 +8,11 @@ use wide::f32x4;
 
 use super::code::DotLevels;
 use super::edge::rim_points;
+use super::noise::Levels;
 use super::outline::{Outline, RimPoint};
+use super::quality;
+use super::rays::Rays;
+use crate::detection::Reason;
 use crate::image::{Plane, Sample};
 
 /// Directions that are looked at.
@@ -18,7 +22,7 @@ pub(crate) const OUTSIDE: f64 = 2.5;
 
 /// What was seen.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Look {
+struct Look {
     /// Directions with a step of the right sign, at least two fifths of the typical one.
     pub agree: u32,
     /// Mean step of the better three quarters: single pixels, so it is good to a quarter of their noise.
@@ -29,33 +33,65 @@ pub(crate) struct Look {
     pub even: bool,
 }
 
-/// Looks at a blob; none as soon as more than `missing` directions have no step above the threshold.
-#[inline(never)]
-pub(crate) fn look<T: Sample>(
+/// The first look at a blob, before anything is known of it but a rough outline.
+pub(crate) fn first<T: Sample>(
     plane: &Plane<T>,
+    levels: &Levels,
     outline: &Outline,
     bright: bool,
-    threshold: f32,
+) -> Result<(), Reason> {
+    let small = 2.0 * outline.semi_axes().1 < 0.8 * quality::GAP_MINOR;
+    stands_out(plane, levels, outline, bright, if small { 3 } else { 7 }, 5)
+}
+
+/// Whether a blob stands out: as many directions as `missing` may be without a step, `open` may lead out of the shape.
+pub(crate) fn stands_out<T: Sample>(
+    plane: &Plane<T>,
+    levels: &Levels,
+    outline: &Outline,
+    bright: bool,
     missing: u32,
-) -> Option<Look> {
-    let b = outline.semi_axes().1;
-    let sign = if bright { 1.0 } else { -1.0 };
-    let inner = (1.0 - 2.0 / b.max(1.0)).clamp(0.2, 0.85);
-    let (mut steps, mut insides) = ([0f32; DIRECTIONS as usize], [0f32; DIRECTIONS as usize]);
-    let mut without = 0;
-    for ((rim, step), level) in around(outline).zip(&mut steps).zip(&mut insides) {
-        let [nx, ny] = rim.normal;
-        let (x, y) = (rim.x + OUTSIDE * nx, rim.y + OUTSIDE * ny);
-        let [dx, dy] = [rim.x - outline.u, rim.y - outline.v];
-        *level = plane.nearest(outline.u + inner * dx, outline.v + inner * dy);
-        if plane.holds(x, y, 0.0) {
-            *step = sign * (*level - plane.nearest(x, y));
+    open: u32,
+) -> Result<(), Reason> {
+    match look(plane, outline, bright, levels.step() as f32, missing) {
+        Some(look) if f64::from(look.step) < 3.3 * levels.noise => Err(Reason::LowContrast),
+        Some(look) if look.even && look.agree + missing >= DIRECTIONS => {
+            if look.open > open {
+                Err(Reason::Touching)
+            } else {
+                Ok(())
+            }
         }
-        without += u32::from(*step <= threshold);
+        _ => Err(Reason::NotAnEllipse),
+    }
+}
+
+/// Looks at a blob; none as soon as more than `missing` directions have no step above the threshold.
+#[inline(never)]
+fn look<T: Sample>(plane: &Plane<T>, outline: &Outline, bright: bool, threshold: f32, missing: u32) -> Option<Look> {
+    let b = outline.semi_axes().1;
+    let sign = f32x4::splat(if bright { 1.0 } else { -1.0 });
+    let inner = f32x4::splat((1.0 - 2.0 / b.max(1.0)).clamp(0.2, 0.85) as f32);
+    let outside = f32x4::splat(OUTSIDE as f32);
+    let from = [outline.u.floor(), outline.v.floor()];
+    let [u, v] = [outline.u - from[0], outline.v - from[1]].map(|rest| f32x4::splat(rest as f32));
+    let from = from.map(|whole| whole as i32);
+    let rays = Rays::new(outline);
+    let (mut steps, mut insides) = ([[0f32; 4]; 4], [[0f32; 4]; 4]);
+    let mut without = 0;
+    for (([c, s], steps), insides) in QUARTER.into_iter().zip(&mut steps).zip(&mut insides) {
+        let rim = rays.at(c, s);
+        let (inside, _) = plane.nearest_four(from, u + inner * rim.x, v + inner * rim.y);
+        let (beyond, held) = plane.nearest_four(from, u + rim.x + outside * rim.nx, v + rim.y + outside * rim.ny);
+        let step = held & (sign * (inside - beyond));
+        without += step.simd_le(f32x4::splat(threshold)).to_bitmask().count_ones();
         if without > missing {
             return None;
         }
+        (*steps, *insides) = (step.to_array(), inside.to_array());
     }
+    let (steps, insides) = (steps.as_flattened(), insides.as_flattened());
+    let sign = sign.to_array()[0];
     let mut pairs = std::array::from_fn(|k| f32x4::new([steps[k], insides[k], 0.0, 0.0]));
     sort(&mut pairs);
     let sorted = pairs.map(|pair| pair.to_array()[0]);
@@ -64,7 +100,7 @@ pub(crate) fn look<T: Sample>(
     let typical = sorted[11];
     let least = (0.4 * typical).max(threshold);
     let own = |level: f32| (level - levels[8]).abs() < 0.3 * typical;
-    let open = steps.iter().zip(&insides).filter(|(step, inside)| own(**inside) && own(**inside - sign * **step));
+    let open = steps.iter().zip(insides).filter(|(step, inside)| own(**inside) && own(**inside - sign * **step));
     Some(Look {
         agree: steps.iter().filter(|step| **step > least).count() as u32,
         step: sorted[4..].iter().sum::<f32>() / 12.0,
@@ -109,7 +145,7 @@ const NETWORK: [(usize, usize); 63] = {
 /// Median difference between the inside and what lies `outside` pixels beyond the rim; positive for bright targets.
 pub(crate) fn contrast<T: Sample>(plane: &Plane<T>, outline: &Outline, outside: f64) -> f64 {
     let mut steps = [0f32; DIRECTIONS as usize];
-    for (rim, step) in around(outline).zip(&mut steps) {
+    for (rim, step) in rim_points(outline, DIRECTIONS as usize).zip(&mut steps) {
         let [nx, ny] = rim.normal;
         let [dx, dy] = [rim.x - outline.u, rim.y - outline.v];
         *step = plane.nearest(outline.u + 0.2 * dx, outline.v + 0.2 * dy)
@@ -118,26 +154,11 @@ pub(crate) fn contrast<T: Sample>(plane: &Plane<T>, outline: &Outline, outside: 
     f64::from(*steps.select_nth_unstable_by(DIRECTIONS as usize / 2, f32::total_cmp).1)
 }
 
-/// Rim points in the directions. The sides were found by the search; above and below is where what is no blob shows.
-fn around(outline: &Outline) -> impl Iterator<Item = RimPoint> + use<> {
-    let outline = *outline;
-    [4, 12, 5, 11, 3, 13, 6, 10, 2, 14, 7, 9, 1, 15, 8, 0].into_iter().map(move |k| {
-        let [c, s] = CIRCLE[k];
-        outline.rim(c, s)
-    })
-}
-
-/// Cosine and sine of the directions.
-const CIRCLE: [[f64; 2]; DIRECTIONS as usize] = {
-    const C: [f64; 5] = [1.0, 0.923_879_532_511_286_7, std::f64::consts::FRAC_1_SQRT_2, 0.382_683_432_365_089_8, 0.0];
-    let mut circle = [[0.0; 2]; DIRECTIONS as usize];
-    let mut k = 0;
-    while k < 4 {
-        let [c, s] = [C[k], C[4 - k]];
-        (circle[k], circle[k + 4], circle[k + 8], circle[k + 12]) = ([c, s], [-s, c], [-c, -s], [s, -c]);
-        k += 1;
-    }
-    circle
+/// Cosine and sine of the directions of the first quarter; those above and below come first, with the sides, as they show
+/// best what is no blob.
+pub(crate) const QUARTER: [[f32; 2]; 4] = {
+    const C: [f32; 4] = [1.0, 0.923_879_5, std::f32::consts::FRAC_1_SQRT_2, 0.382_683_43];
+    [[C[0], 0.0], [C[2], C[2]], [C[1], C[3]], [C[3], C[1]]]
 };
 
 /// Directions in which the inside's level comes back outside of the rim, within about the semi-minor axis: nearly all of

@@ -3,10 +3,11 @@
 use super::band::Region;
 use super::centroid::{self, Centre};
 use super::code::DotLevels;
-use super::edge::{self, EdgePoint, Profile};
+use super::edge::{self, Edges, Profile};
 use super::ellipse::{self, EllipseFit, Start};
 use super::fit::{self, Workspace};
 use super::look;
+use super::median;
 use super::noise::Levels;
 use super::outline::Outline;
 use super::propagation;
@@ -30,9 +31,10 @@ const UNEXPLAINED: f64 = 0.2;
 const SAMPLED: f64 = 0.25;
 
 /// Which rays count: a single edge out of place is chance, two in a row are something in front of the target.
-fn undisturbed(edges: &[EdgePoint]) -> Vec<bool> {
+fn undisturbed(edges: &Edges) -> Vec<bool> {
     let count = edges.len();
-    (0..count).map(|k| edges[k].kept || edges[(k + 1) % count].kept && edges[(k + count - 1) % count].kept).collect()
+    let kept = |k: usize| edges.is_kept(k % count);
+    (0..count).map(|k| kept(k) || kept(k + 1) && kept(k + count - 1)).collect()
 }
 
 /// Rings of a first look at the surround.
@@ -74,7 +76,7 @@ pub(crate) struct Measure<'a, T> {
     pub plane: Plane<'a, T>,
     pub levels: Levels,
     pub options: &'a DetectOptions,
-    pub edges: Vec<EdgePoint>,
+    pub edges: Edges,
     pub work: Workspace,
 }
 
@@ -106,18 +108,17 @@ fn blur_of(strength: f64, contrast: f64) -> f64 {
 impl<'a, T: Sample> Measure<'a, T> {
     /// Nothing measured yet.
     pub fn new(plane: Plane<'a, T>, levels: Levels, options: &'a DetectOptions) -> Self {
-        Self { plane, levels, options, edges: Vec::new(), work: Workspace::default() }
-    }
-
-    /// Smallest contrast of an edge that counts.
-    pub fn threshold(&self) -> f64 {
-        (3.0 * self.levels.noise).max(0.015 * self.levels.range).max(2.5)
+        Self { plane, levels, options, edges: Edges::default(), work: Workspace::default() }
     }
 
     /// Edges, ellipse and surround of a target whose outline is known to a fraction of its size.
     pub fn find(&mut self, start: &Outline, bright: bool) -> Result<Found, Reason> {
-        let small = 2.0 * start.semi_axes().1 < 0.8 * quality::GAP_MINOR;
-        self.stands_out(start, bright, if small { 3 } else { 7 }, 5)?;
+        look::first(&self.plane, &self.levels, start, bright)?;
+        self.confirm(start, bright)
+    }
+
+    /// The same of what has passed its first look.
+    pub fn confirm(&mut self, start: &Outline, bright: bool) -> Result<Found, Reason> {
         let mut outline = *start;
         let mut fitted: Option<EllipseFit> = None;
         let mut focus = SHARP;
@@ -160,7 +161,11 @@ impl<'a, T: Sample> Measure<'a, T> {
                 if outline.semi_axes().1 < 0.85 * FLATTEST * outline.semi_axes().0 {
                     return Err(Reason::TooFlat);
                 }
-                self.stands_out(&outline, bright, if found.gap <= quality::SMALL_GAP { 2 } else { 7 }, 3)?;
+                if !quality::size_may_allow(&found) {
+                    return Err(Reason::NotAnEllipse);
+                }
+                let missing = if found.gap <= quality::SMALL_GAP { 2 } else { 7 };
+                look::stands_out(&self.plane, &self.levels, &outline, bright, missing, 3)?;
             }
             fitted = Some(found);
         }
@@ -192,14 +197,15 @@ impl<'a, T: Sample> Measure<'a, T> {
         let kept = undisturbed(&self.edges);
         let rough =
             surround::measure(&self.plane, &outline, focus.max(SHARP), &kept, NEARBY).ok_or(Reason::AtBorder)?;
-        let blur = blur_of(self.strength(), rough.contrast.abs());
+        let strength = self.strength();
+        let blur = blur_of(strength, rough.contrast.abs());
         let surround = if blur > BLURRED {
             surround::measure(&self.plane, &outline, blur, &kept, NEARBY).ok_or(Reason::AtBorder)?
         } else {
             rough
         };
         let signed = if bright { surround.contrast } else { -surround.contrast };
-        if signed < (4.0 * surround.noise.min(4.0 * self.levels.noise + 2.0)).max(self.threshold()) {
+        if signed < (4.0 * surround.noise.min(4.0 * self.levels.noise + 2.0)).max(self.levels.step()) {
             return Err(Reason::LowContrast);
         }
         if !quality::has_shape(&ellipse, self.noise(&surround), signed) {
@@ -215,28 +221,12 @@ impl<'a, T: Sample> Measure<'a, T> {
         if surround.uneven > UNEVEN || !quality::outline_allows(&ellipse, self.noise(&surround), signed, focus) {
             return Err(Reason::NotAnEllipse);
         }
-        let strength = self.strength();
         Ok(Found { ellipse, surround, kept, blur: blur_of(strength, signed), strength, bright })
-    }
-
-    /// A quick look: as many directions as `missing` may be without a step, `open` may lead out of the shape.
-    fn stands_out(&self, outline: &Outline, bright: bool, missing: u32, open: u32) -> Result<(), Reason> {
-        match look::look(&self.plane, outline, bright, self.threshold() as f32, missing) {
-            Some(look) if f64::from(look.step) < 3.3 * self.levels.noise => Err(Reason::LowContrast),
-            Some(look) if look.even && look.agree + missing >= look::DIRECTIONS => {
-                if look.open > open {
-                    Err(Reason::Touching)
-                } else {
-                    Ok(())
-                }
-            }
-            _ => Err(Reason::NotAnEllipse),
-        }
     }
 
     /// Edges on `count` rays, of a target of about this blur.
     fn search(&mut self, outline: &Outline, bright: bool, reach: f64, count: usize, focus: f64) {
-        let threshold = self.threshold();
+        let threshold = self.levels.step();
         let (plane, edges) = (&self.plane, &mut self.edges);
         if focus > DEFOCUSED {
             let (wide, reach) = (focus.round() as usize, reach.max(1.5 * focus));
@@ -247,11 +237,12 @@ impl<'a, T: Sample> Measure<'a, T> {
     }
 
     /// Rough blur of a target whose edges were searched; the contrast is looked up where the blur ends.
-    fn focus(&self, outline: &Outline, bright: bool) -> f64 {
+    fn focus(&mut self, outline: &Outline, bright: bool) -> f64 {
+        let strength = self.strength();
         let mut blur = SHARP;
         for _ in 0..4 {
             let contrast = look::contrast(&self.plane, outline, (2.0 * blur).max(look::OUTSIDE));
-            blur = blur_of(self.strength(), if bright { contrast } else { -contrast });
+            blur = blur_of(strength, if bright { contrast } else { -contrast });
             if blur <= DEFOCUSED {
                 return SHARP;
             }
@@ -260,11 +251,10 @@ impl<'a, T: Sample> Measure<'a, T> {
     }
 
     /// Median difference over two pixels across the kept edges.
-    fn strength(&self) -> f64 {
-        let mut strengths = Vec::with_capacity(self.edges.len());
-        strengths.extend(self.edges.iter().filter(|edge| edge.kept).map(|edge| edge.strength));
-        let half = strengths.len() / 2;
-        if strengths.is_empty() { 0.0 } else { *strengths.select_nth_unstable_by(half, f64::total_cmp).1 }
+    fn strength(&mut self) -> f64 {
+        let Edges { strength, kept, scratch, .. } = &mut self.edges;
+        let kept = strength.iter().zip(kept).filter(|(_, kept)| **kept > 0.0);
+        median::of_sizes(kept.map(|(strength, _)| *strength), &mut scratch.sizes)
     }
 
     /// The whole surround of an outline of about this blur.

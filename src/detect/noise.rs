@@ -19,6 +19,13 @@ pub(crate) struct Levels {
     pub saturation: f64,
 }
 
+impl Levels {
+    /// Smallest step of an edge that counts.
+    pub fn step(&self) -> f64 {
+        (3.0 * self.noise).max(0.015 * self.range).max(2.5)
+    }
+}
+
 /// Noise from second differences along rows: |g(x-1) - 2 g(x) + g(x+1)| has the median 0.6745 sqrt(6) sigma where the
 /// picture is plane, and edges are too few to move a median. Quantiles of integers are interpolated inside their bin.
 pub(crate) fn levels<T: Sample>(plane: &Plane<T>) -> Levels {

@@ -7,7 +7,7 @@
 
 use nalgebra::SMatrix;
 
-use super::edge::{EdgePoint, Profile, rim_points, slopes};
+use super::edge::{Edges, Profile, rim_points, slopes};
 use super::outline::Outline;
 
 /// What a centre owes to its pixels.
@@ -27,7 +27,7 @@ pub(crate) struct Influence {
 pub(crate) fn influence(
     cast: &Outline,
     profile: &Profile,
-    points: &[EdgePoint],
+    points: &Edges,
     fitted: &Outline,
     cofactors: &SMatrix<f64, 5, 5>,
 ) -> Influence {
@@ -40,7 +40,7 @@ pub(crate) fn influence(
     let mut weights = vec![[0.0; 2]; width * height];
     let (mut edges, mut used) = (0.0, 0usize);
     let mut shares: Vec<(usize, f64)> = Vec::with_capacity(4 * slopes.len());
-    for (rim, point) in rim_points(cast, points.len()).zip(points).filter(|(_, point)| point.kept) {
+    for (ray, rim) in rim_points(cast, points.len()).enumerate().filter(|(ray, _)| points.is_kept(*ray)) {
         shares.clear();
         for (i, slope) in slopes.iter().enumerate() {
             let t = i as f64 - side;
@@ -55,7 +55,8 @@ pub(crate) fn influence(
             }
         }
         shares.sort_unstable_by_key(|share| share.0);
-        let moves = fitted.nearest(point.x, point.y).0.moves;
+        let [x, y] = points.place(ray);
+        let moves = fitted.nearest(x, y).0.moves;
         let moved = cofactors * SMatrix::<f64, 5, 1>::from(moves);
         for pixel in shares.chunk_by(|a, b| a.0 == b.0) {
             let share: f64 = pixel.iter().map(|share| share.1).sum();

@@ -45,6 +45,11 @@ pub(crate) fn size_allows(ellipse: &EllipseFit) -> bool {
     gap(ellipse) <= SMALL_GAP || 2.0 * ellipse.outline.semi_axes().1 >= GAP_MINOR
 }
 
+/// Whether that may still come true of a first outline from few rays.
+pub(crate) fn size_may_allow(ellipse: &EllipseFit) -> bool {
+    gap(ellipse) <= 2.0 * SMALL_GAP || 2.0 * ellipse.outline.semi_axes().1 >= 0.9 * GAP_MINOR
+}
+
 /// Whether noise leaves enough of the shape to tell a target by.
 pub(crate) fn has_shape(ellipse: &EllipseFit, noise: f64, contrast: f64) -> bool {
     contrast * 2.0 * ellipse.outline.semi_axes().1 > SHAPELY * noise

@@ -26,6 +26,9 @@ const FAINT: f32 = 3e-6;
 /// Pixels of a row: row and first column in the field, how many.
 pub(crate) type Span = (usize, usize, usize);
 
+/// Pixels of a field that is cleared as a whole: span by span takes longer.
+const SMALL: usize = 1 << 13;
+
 /// Number of derivatives: u and v of the outline and the blur s.
 pub(crate) const DERIVATIVES: usize = 3;
 
@@ -88,6 +91,10 @@ impl Field {
         self.planes[..size].fill(0.0);
         if derivatives {
             for plane in self.planes[size..].chunks_exact_mut(size).take(DERIVATIVES) {
+                if size < SMALL {
+                    plane.fill(0.0);
+                    continue;
+                }
                 for &(row, column, count) in spans {
                     let from = row * self.width + column;
                     plane[from..from + count].fill(0.0);

@@ -2,8 +2,8 @@
 //!
 //! Where |g(x + 3) - g(x)| exceeds the threshold there is an edge; a run of such places of one sign is one edge, placed
 //! at its centroid. Three pixels bridge the blur of a sharp photograph, so that an edge shows its whole contrast, and are
-//! short enough to keep the two sides of a target of five pixels apart. Sixteen places are compared at a time; only the few
-//! where there is a difference are looked at one by one.
+//! short enough to keep the two sides of a target of five pixels apart. Sixteen places are compared at a time; only where
+//! there is a difference they are looked at one by one.
 
 use crate::image::{LANES, Plane, Sample};
 
@@ -32,33 +32,49 @@ pub(crate) fn edges<T: Sample>(row: &[T], threshold: T, found: &mut Vec<Edge>) {
     for (block, (left, right)) in row.as_chunks().0.iter().zip(blocks).enumerate() {
         let bits = T::differing(left, right, threshold);
         if bits != 0 {
-            extend(row, LANES * block, bits, &mut open, found);
+            let (differences, rising) = T::differences(left, right);
+            extend(&differences, rising, bits, LANES * block, &mut open, found);
         }
     }
-    let last = (rest..row.len() - BASE).enumerate();
-    let bits = last.fold(0, |bits, (k, x)| bits | u32::from(row[x].distance(row[x + BASE]) > threshold) << k);
-    extend(row, rest, bits, &mut open, found);
+    // the last places, as a block that goes on with what does not differ
+    let (mut left, mut right) = ([T::default(); LANES], [T::default(); LANES]);
+    left[..remainder.len()].copy_from_slice(&row[rest..row.len() - BASE]);
+    right[..remainder.len()].copy_from_slice(remainder);
+    let (differences, rising) = T::differences(&left, &right);
+    extend(&differences, rising, T::differing(&left, &right, threshold), rest, &mut open, found);
     if let Some(edge) = open {
         found.push(edge.close());
     }
 }
 
-/// Adds the places of a block, given as bits, to the open edge, or closes it and opens the next.
+/// Adds the places of a block, given as bits, to the open edge, or closes it and opens the next: one run of places of the same
+/// direction at a time.
 #[inline(never)]
-fn extend<T: Sample>(row: &[T], from: usize, mut bits: u32, open: &mut Option<Open>, found: &mut Vec<Edge>) {
+fn extend<T: Sample>(
+    differences: &[T; LANES],
+    rising: u32,
+    mut bits: u32,
+    from: usize,
+    open: &mut Option<Open>,
+    found: &mut Vec<Edge>,
+) {
     while bits != 0 {
-        let x = from + bits.trailing_zeros() as usize;
-        bits &= bits - 1;
-        let (left, right) = (row[x].level(), row[x + BASE].level());
-        let (rising, weight) = (right > left, left.abs_diff(right));
-        if let Some(edge) = open {
-            if edge.next == x && edge.rising == rising {
-                edge.add(weight);
-                continue;
+        let first = bits.trailing_zeros();
+        let up = rising >> first & 1 == 1;
+        let alike = if up { bits & rising } else { bits & !rising };
+        let count = (alike >> first).trailing_ones();
+        bits &= !(((1 << count) - 1) << first);
+        let start = from + first as usize;
+        let edge = match open {
+            Some(edge) if edge.next == start && edge.rising == up => edge,
+            _ => {
+                if let Some(edge) = open {
+                    found.push(edge.close());
+                }
+                open.insert(Open { first: start, next: start, rising: up, strength: 0, sum: 0, moment: 0 })
             }
-            found.push(edge.close());
-        }
-        *open = Some(Open { first: x, next: x + 1, rising, strength: weight, sum: weight.into(), moment: 0 });
+        };
+        edge.add(differences, first as usize, count as usize);
     }
 }
 
@@ -69,24 +85,41 @@ struct Open {
     next: usize,
     rising: bool,
     strength: u32,
-    sum: u64,
-    moment: u64,
+    // signed, as floating point is made of that in one instruction
+    sum: i64,
+    moment: i64,
 }
 
 impl Open {
-    #[inline]
-    fn add(&mut self, weight: u32) {
-        self.sum += u64::from(weight);
-        self.strength = self.strength.max(weight);
-        self.moment += u64::from(weight) * (self.next - self.first) as u64;
-        self.next += 1;
+    /// Adds `count` places of a block, from its `first` on.
+    #[inline(always)]
+    fn add<T: Sample>(&mut self, differences: &[T; LANES], first: usize, count: usize) {
+        let (mut strength, mut sum, mut moment) = (self.strength, 0, 0);
+        // backwards: the moment is the sum of the sums from each place to the end
+        let mut left = count;
+        while left > 0 {
+            let difference = differences[(first + left - 1) % LANES].level();
+            strength = strength.max(difference);
+            left -= 1;
+            moment += sum;
+            sum += difference;
+        }
+        let before = (self.next - self.first) as i64;
+        self.moment += i64::from(moment) + before * i64::from(sum);
+        self.sum += i64::from(sum);
+        self.strength = strength;
+        self.next += count;
     }
 
     #[inline]
     fn close(self) -> Edge {
         let inside = self.moment as f32 / self.sum as f32;
         // middle of the two samples, pixel centres at one half
-        Edge { x: self.first as f32 + inside + (BASE as f32 + 1.0) / 2.0, rising: self.rising, strength: self.strength }
+        Edge {
+            x: self.first as i32 as f32 + inside + (BASE as f32 + 1.0) / 2.0,
+            rising: self.rising,
+            strength: self.strength,
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 
 use super::blob::{self, Limits, NoBlob};
 use super::component::{self, Chord, Linker};
+use super::look;
 use super::noise::Levels;
 use super::outline::Outline;
 use super::scan;
@@ -19,6 +20,8 @@ use crate::image::{Plane, Sample};
 pub(crate) struct Candidate {
     pub outline: Outline,
     pub bright: bool,
+    /// The first look at it, taken while its rows are still near the processor; none where they were not those of the photo.
+    pub look: Option<Result<(), Reason>>,
 }
 
 /// Blobs that passed their tests, strong edges first, and the others.
@@ -47,7 +50,8 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
         height: plane.height,
         step: 2,
     };
-    let mut blobs = pass(plane, threshold(levels), levels.range, options.polarity, &limits);
+    let look = |outline: &Outline, bright| Some(look::first(plane, levels, outline, bright));
+    let mut blobs = pass(plane, threshold(levels), levels.range, options.polarity, &limits, look);
     if options.max_diameter > LARGE && plane.width >= 32 && plane.height >= 32 {
         let (width, height, samples) = scan::quartered(plane);
         let limits = Limits {
@@ -58,7 +62,8 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
             step: 1,
         };
         let threshold = (3.0 * levels.noise).max(0.03 * levels.range).max(4.0);
-        let found = pass(&Plane::new(width, height, &samples), threshold, levels.range, options.polarity, &limits);
+        let quarter = Plane::new(width, height, &samples);
+        let found = pass(&quarter, threshold, levels.range, options.polarity, &limits, |_, _| None);
         blobs.candidates.extend(found.candidates.iter().map(|candidate| {
             let outline = candidate.outline.scaled(4.0);
             Candidate { outline: Outline { u: 4.0 * outline.u, v: 4.0 * outline.v, ..outline }, ..*candidate }
@@ -68,7 +73,14 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
 }
 
 /// One picture, every `limits.step`-th row.
-fn pass<T: Sample>(plane: &Plane<T>, threshold: f64, range: f64, polarity: PolarityChoice, limits: &Limits) -> Blobs {
+fn pass<T: Sample>(
+    plane: &Plane<T>,
+    threshold: f64,
+    range: f64,
+    polarity: PolarityChoice,
+    limits: &Limits,
+    look: impl Fn(&Outline, bool) -> Option<Result<(), Reason>>,
+) -> Blobs {
     let wanted: &[bool] = match polarity {
         PolarityChoice::Auto => &[true, false],
         PolarityChoice::Bright => &[true],
@@ -96,14 +108,14 @@ fn pass<T: Sample>(plane: &Plane<T>, threshold: f64, range: f64, polarity: Polar
             edges.retain(|edge| edge.strength > level.threshold);
             for (bright, linker) in &mut level.linkers {
                 component::runs(&edges, *bright, plane.width, y as f32 + 0.5, &mut runs);
-                linker.row(&runs, &mut |chain| level.blobs.judge(chain, *bright, limits));
+                linker.row(&runs, &mut |chain| level.blobs.judge(chain, *bright, limits, &look));
             }
         }
     }
     let mut all = Blobs::default();
     for level in levels.iter_mut().rev() {
         for (bright, linker) in &mut level.linkers {
-            linker.end(&mut |chain| level.blobs.judge(chain, *bright, limits));
+            linker.end(&mut |chain| level.blobs.judge(chain, *bright, limits, &look));
         }
         all.candidates.append(&mut level.blobs.candidates);
         all.rejected.append(&mut level.blobs.rejected);
@@ -119,15 +131,24 @@ struct Level {
 }
 
 impl Blobs {
-    fn judge(&mut self, chain: &[Chord], bright: bool, limits: &Limits) {
+    fn judge(
+        &mut self,
+        chain: &[Chord],
+        bright: bool,
+        limits: &Limits,
+        look: &impl Fn(&Outline, bool) -> Option<Result<(), Reason>>,
+    ) {
+        let candidate = |outline| Candidate { outline, bright, look: look(&outline, bright) };
         match blob::test(chain, limits) {
-            Ok(outline) => self.candidates.push(Candidate { outline, bright }),
+            Ok(outline) => self.candidates.push(candidate(outline)),
             Err(no) => {
                 // two targets, one above the other, that touch: each may still be one
-                if let Some(neck) = blob::neck(chain).filter(|_| no.reason == Reason::NotAnEllipse) {
+                if no.reason == Reason::NotAnEllipse
+                    && let Some(neck) = blob::neck(chain)
+                {
                     let parts = [&chain[..neck], &chain[neck + 1..]];
                     let outlines = parts.into_iter().filter_map(|part| blob::test(part, limits).ok());
-                    self.candidates.extend(outlines.map(|outline| Candidate { outline, bright }));
+                    self.candidates.extend(outlines.map(candidate));
                 }
                 self.rejected.push(no);
             }

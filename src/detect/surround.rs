@@ -6,9 +6,13 @@
 //! told from a shift of the target.
 
 use nalgebra::{Matrix3, Vector3};
+use wide::f32x4;
 
 use super::edge::rim_points;
+use super::look::QUARTER;
+use super::median;
 use super::outline::Outline;
+use super::rays::Rays;
 use crate::image::{Plane, Sample};
 
 /// Grey levels around a target.
@@ -29,7 +33,7 @@ pub(crate) struct Surround {
     pub outer: f64,
 }
 
-/// A sample: place relative to the centre, level.
+/// A sample: place relative to the centre, level less that of the centre.
 type Spot = [f64; 3];
 
 /// Measures the surround in at most so many rings; rays that are not `kept` are left out. None when too little of it lies in
@@ -41,24 +45,12 @@ pub(crate) fn measure<T: Sample>(
     kept: &[bool],
     rings: u32,
 ) -> Option<Surround> {
-    // the pixel of a place, relative to the centre, with its level
-    let [wide, high] = [plane.width, plane.height].map(|size| size as f64);
-    let pixel = |x: f64, y: f64| {
-        (x >= 0.0 && y >= 0.0 && x < wide && y < high).then(|| {
-            let (x, y) = (x as usize, y as usize);
-            [x as f64 + 0.5 - outline.u, y as f64 + 0.5 - outline.v, f64::from(plane.row(y)[x].level())]
-        })
-    };
+    let rims = Rims::of(plane, outline, kept);
     let (a, b) = outline.semi_axes();
     let start = 3.0 * blur + 0.6;
     let width = (a * b).sqrt() + 6.0;
     let spacing = (width / 24.0).max(1.0);
-    let mut rims = Vec::with_capacity(kept.len());
-    let counted = rim_points(outline, kept.len()).zip(kept).filter(|(_, kept)| **kept);
-    rims.extend(counted.map(|(rim, _)| [rim.x, rim.y, rim.normal[0], rim.normal[1]]));
-    let ring =
-        |distance: f64| rims.iter().filter_map(move |[x, y, nx, ny]| pixel(x + distance * nx, y + distance * ny));
-    let mut spots: Vec<Spot> = Vec::with_capacity(2 * rims.len());
+    let mut spots: Vec<Spot> = Vec::with_capacity(2 * kept.len());
     let mut sums = Sums::default();
     let mut found: Option<(Vector3<f64>, f64)> = None;
     let mut outer = start;
@@ -69,14 +61,14 @@ pub(crate) fn measure<T: Sample>(
         match &mut found {
             None => {
                 // two rings for the first plane
-                spots.extend(ring(distance));
+                rims.spots(distance, &mut spots);
                 if step == 1 {
                     found = Some(robust_plane(&mut spots)?);
                     sums = Sums::of(spots.iter().copied());
                 }
             }
             Some((coefficients, noise)) => {
-                let next = Sums::of(ring(distance));
+                let next = rims.sums(distance);
                 if next.n * 10.0 < kept.len() as f64 * 6.0 {
                     break;
                 }
@@ -95,21 +87,13 @@ pub(crate) fn measure<T: Sample>(
         step += 1;
     }
     let (coefficients, noise) = if outer > start + 1.5 * spacing { sums.plane()? } else { found? };
-    let mut inside = Vec::with_capacity(33);
-    inside.extend(pixel(outline.u, outline.v).map(|spot| spot[2]));
-    for radius in [0.25, 0.5, 0.7] {
-        let rims = rim_points(&outline.scaled(radius), 16);
-        inside.extend(rims.filter_map(|rim| pixel(rim.x, rim.y)).map(|spot| spot[2]));
-    }
-    let middle = inside.len() / 2;
-    if inside.is_empty() {
-        return None;
-    }
-    let (_, &mut median, _) = inside.select_nth_unstable_by(middle, f64::total_cmp);
-    let contrast = median - coefficients.x;
-    let far = inside.iter().filter(|level| (**level - median).abs() > contrast.abs() / 3.0).count();
+    let inside = rims.inside();
+    let median = median::of_sizes(inside.iter().copied(), &mut Vec::with_capacity(inside.len()));
+    let level = coefficients.x + rims.reference;
+    let contrast = median - level;
+    let far = inside.iter().filter(|inside| (f64::from(**inside) - median).abs() > contrast.abs() / 3.0).count();
     Some(Surround {
-        level: coefficients.x,
+        level,
         slope: [coefficients.y, coefficients.z],
         slope_covariance: sums.slope_cofactors()?.map(|cofactor| cofactor * noise * noise),
         noise,
@@ -117,6 +101,89 @@ pub(crate) fn measure<T: Sample>(
         uneven: far as f64 / inside.len() as f64,
         outer,
     })
+}
+
+/// Rim points and normals of the rays that count, four at a time, and how to read pixels there.
+struct Rims<'a, T> {
+    plane: &'a Plane<'a, T>,
+    rays: Rays,
+    /// Pixel of the outline's centre, and the centre's place in it.
+    from: [i32; 2],
+    centre: [f32x4; 2],
+    /// Level of that pixel: levels are taken less this, so that their squares stay small.
+    reference: f64,
+    /// Places, normals, and 1 for a ray, 0 for what fills up the last four.
+    fours: Vec<[[f32; 4]; 5]>,
+}
+
+impl<'a, T: Sample> Rims<'a, T> {
+    fn of(plane: &'a Plane<'a, T>, outline: &Outline, kept: &[bool]) -> Self {
+        let whole = [outline.u.floor(), outline.v.floor()];
+        let centre = [outline.u - whole[0], outline.v - whole[1]].map(|rest| f32x4::splat(rest as f32));
+        let mut fours = Vec::with_capacity(kept.len() / 4 + 1);
+        let mut counted = rim_points(outline, kept.len()).zip(kept).filter(|(_, kept)| **kept).map(|(rim, _)| rim);
+        while let Some(rim) = counted.next() {
+            let mut four = [[0.0; 4]; 5];
+            for (k, rim) in std::iter::once(rim).chain(counted.by_ref().take(3)).enumerate() {
+                let [x, y] = [rim.x - whole[0], rim.y - whole[1]];
+                for (column, value) in four.iter_mut().zip([x, y, rim.normal[0], rim.normal[1], 1.0]) {
+                    column[k] = value as f32;
+                }
+            }
+            fours.push(four);
+        }
+        let reference = f64::from(plane.nearest(outline.u, outline.v));
+        Self { plane, rays: Rays::new(outline), from: whole.map(|whole| whole as i32), centre, reference, fours }
+    }
+
+    /// Pixels on a ring, `distance` beyond the rim: places relative to the centre, levels, 1 or 0.
+    #[inline(always)]
+    fn ring(&self, distance: f64) -> impl Iterator<Item = [f32x4; 4]> {
+        let (distance, half) = (f32x4::splat(distance as f32), f32x4::splat(0.5));
+        let reference = f32x4::splat(self.reference as f32);
+        self.fours.iter().map(move |four| {
+            let [x, y, nx, ny, one] = four.map(f32x4::new);
+            let ([x, y], level, inside) = self.plane.pixels_four(self.from, x + distance * nx, y + distance * ny);
+            [x + half - self.centre[0], y + half - self.centre[1], level - reference, inside & one]
+        })
+    }
+
+    fn spots(&self, distance: f64, spots: &mut Vec<Spot>) {
+        for four in self.ring(distance) {
+            let [x, y, level, one] = four.map(f32x4::to_array);
+            let counted = (0..4).filter(|k| one[*k] > 0.0);
+            spots.extend(counted.map(|k| [x[k], y[k], level[k]].map(f64::from)));
+        }
+    }
+
+    fn sums(&self, distance: f64) -> Sums {
+        let mut sums = [f32x4::ZERO; 10];
+        for [x, y, g, one] in self.ring(distance) {
+            let [x, y, g] = [x * one, y * one, g * one];
+            for (sum, term) in sums.iter_mut().zip([one, x, y, x * x, x * y, y * y, g, g * x, g * y, g * g]) {
+                *sum += term;
+            }
+        }
+        let [n, x, y, xx, xy, yy, g, gx, gy, gg] =
+            sums.map(|sum| sum.to_array().into_iter().map(f64::from).sum::<f64>());
+        Sums { n, x, y, xx, xy, yy, g, gx, gy, gg }
+    }
+
+    /// Levels of pixels inside: the middle, and 16 directions at three distances from it.
+    fn inside(&self) -> Vec<f32> {
+        let mut levels = Vec::with_capacity(49);
+        levels.push(self.reference as f32);
+        for radius in [0.25, 0.5, 0.7].map(f32x4::splat) {
+            for [c, s] in QUARTER {
+                let rim = self.rays.at(c, s);
+                let (x, y) = (self.centre[0] + radius * rim.x, self.centre[1] + radius * rim.y);
+                let (level, inside) = self.plane.nearest_four(self.from, x, y);
+                let inside = (inside & f32x4::ONE).to_array();
+                levels.extend(level.to_array().into_iter().zip(inside).filter(|(_, one)| *one > 0.0).map(|(l, _)| l));
+            }
+        }
+        levels
+    }
 }
 
 fn residual(coefficients: &Vector3<f64>, [x, y, level]: &Spot) -> f64 {
