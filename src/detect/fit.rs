@@ -27,6 +27,9 @@ const OVEREXPOSED: f64 = 16.0;
 /// Share of that scale from which a bright target is taken to be clipped.
 const CLIPPED: f64 = 0.9;
 
+/// Share of the contrast by which the profile of an edge may differ from the rendered one all around.
+const LENS: f64 = 0.06;
+
 /// What the fit gives.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fit {
@@ -199,7 +202,7 @@ impl Workspace {
         // an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel
         let sharp = if state.blur <= BLUR.0 { 0.1 * state.contrast.abs() } else { 0.0 };
         let noise = self.band.robust_deviation().max(region.surround.noise).max(0.5);
-        (5.0 * noise).max(sharp)
+        (5.0 * noise).max(sharp).max(LENS * state.contrast.abs())
     }
 
     fn normal(&self, state: &State, flats: &Flats) -> Normal {

@@ -44,7 +44,7 @@ pub(crate) fn levels<T: Sample>(plane: &Plane<T>) -> Levels {
     }
     let noise = quantile(&differences, 0.5).unwrap_or(0.0) / (0.6745 * 6f64.sqrt());
     let range = quantile(&values, 0.999).unwrap_or(0.0) - quantile(&values, 0.001).unwrap_or(0.0);
-    Levels { noise, range: range.max(0.0), saturation: saturation(&values) }
+    Levels { noise, range: range.max(0.0), saturation: saturation(&values, noise) }
 }
 
 /// Quantile of a histogram of integers; a value stands for the interval of half a step to both sides (from 0 on for 0).
@@ -64,12 +64,12 @@ fn quantile(histogram: &[u32], share: f64) -> Option<f64> {
 }
 
 /// The largest value that occurs is the clipping level when it piles up: more samples than all of the four levels below
-/// it together. Otherwise only the end of the scale clips.
-fn saturation(values: &[u32]) -> f64 {
+/// it together. Otherwise, and where there is no noise to spread what is even, only the end of the scale clips.
+fn saturation(values: &[u32], noise: f64) -> f64 {
     let end = values.len() - 1;
     let Some(top) = values.iter().rposition(|&n| n > 0) else { return end as f64 };
     let below: u32 = values[top.saturating_sub(4)..top].iter().sum();
-    if top > end / 16 && values[top] > 20 && values[top] > 2 * below { top as f64 } else { end as f64 }
+    if noise > 0.5 && top > end / 16 && values[top] > 20 && values[top] > 2 * below { top as f64 } else { end as f64 }
 }
 
 #[cfg(test)]
@@ -121,6 +121,12 @@ mod tests {
             *sample = (*sample).min(80);
         }
         assert_eq!(levels(&Plane::new(200, 200, &samples)).saturation, 80.0);
+    }
+
+    #[test]
+    fn an_even_level_of_a_drawing_is_no_saturation() {
+        let samples: Vec<u8> = (0..200 * 200).map(|k| if k % 200 < 100 { 40 } else { 220 }).collect();
+        assert_eq!(levels(&Plane::new(200, 200, &samples)).saturation, 255.0);
     }
 
     #[test]

@@ -35,3 +35,28 @@ fn sharp_discs_are_measured_by_every_method() {
         }
     }
 }
+
+#[test]
+fn edges_that_rise_along_a_straight_line_are_measured() {
+    // No lens draws like this, and no noise hides it; the brightest level is no end of the scale.
+    for width in [1.0, 1.5, 2.0, 2.5, 3.0] {
+        for (ground, spot, radius) in
+            [(20.0, 220.0, 5.0), (230.0, 10.0, 10.0), (20.0, 220.0, 20.0), (230.0, 10.0, 40.0)]
+        {
+            let size = (2.0 * radius) as usize + 60;
+            let [u, v] = [size as f64 / 2.0 + 0.3, size as f64 / 2.0 - 0.2];
+            let level = |i: usize| {
+                let distance = ((i % size) as f64 + 0.5 - u).hypot((i / size) as f64 + 0.5 - v);
+                let share: f64 = 0.5 - (distance - radius) / width;
+                (ground + (spot - ground) * share.clamp(0.0, 1.0)).round() as u8
+            };
+            let samples: Vec<u8> = (0..size * size).map(level).collect();
+            let view = GreyView::new(size, size, SamplesView::U8(&samples)).expect("a picture");
+            let found = detect(&view, &DetectOptions::default()).expect("valid options");
+            assert_eq!(found.targets.len(), 1, "ramp {width}, radius {radius}: {:?}", found.rejected);
+            let target = &found.targets[0];
+            let off = (target.u - u).hypot(target.v - v);
+            assert!(off < 0.02, "ramp {width}, radius {radius}: off by {off} px");
+        }
+    }
+}
