@@ -56,7 +56,9 @@ fn edges_that_rise_along_a_straight_line_are_measured() {
             assert_eq!(found.targets.len(), 1, "ramp {width}, radius {radius}: {:?}", found.rejected);
             let target = &found.targets[0];
             let off = (target.u - u).hypot(target.v - v);
-            assert!(off < 0.02, "ramp {width}, radius {radius}: off by {off} px");
+            // the rendered edge is not the drawn one: what is left is in the sigma
+            let sigma = target.sigma_u.hypot(target.sigma_v);
+            assert!(off < 0.03 && off < 3.0 * sigma, "ramp {width}, radius {radius}: off by {off} px, sigma {sigma}");
         }
     }
 }
