@@ -34,6 +34,8 @@ pub(crate) struct Region<'a> {
     pub whole: bool,
     /// Grey level from which a sample says nothing.
     pub saturation: f64,
+    /// Whether edges are the stairs of the pixels.
+    pub stairs: bool,
 }
 
 /// Pixels of the band, one array a column; what does not count is zero in all of them.

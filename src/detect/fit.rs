@@ -29,6 +29,8 @@ const CLIPPED: f64 = 0.9;
 
 /// Share of the contrast by which the profile of an edge may differ from the rendered one all around.
 const LENS: f64 = 0.06;
+/// The same where the edge is the stairs of the pixels.
+const STAIRS: f64 = 0.7;
 
 /// What the fit gives.
 #[derive(Clone, Copy, Debug)]
@@ -202,7 +204,8 @@ impl Workspace {
         // an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel
         let sharp = if state.blur <= BLUR.0 { 0.1 * state.contrast.abs() } else { 0.0 };
         let noise = self.band.robust_deviation().max(region.surround.noise).max(0.5);
-        (5.0 * noise).max(sharp).max(LENS * state.contrast.abs())
+        let profile = if region.stairs { STAIRS } else { LENS };
+        (5.0 * noise).max(sharp).max(profile * state.contrast.abs())
     }
 
     fn normal(&self, state: &State, flats: &Flats) -> Normal {

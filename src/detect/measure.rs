@@ -147,7 +147,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             outline = found.outline;
             // out of focus, two pixels see but 0.8 / s of the contrast
             let contrast = self.strength() * if focus > DEFOCUSED { 1.25 * focus } else { 1.0 };
-            let scatter = quality::expected_scatter(b, self.levels.noise, contrast, focus);
+            let scatter = quality::expected_scatter(b, &self.levels, self.levels.noise, contrast, focus);
             // the search knows the height of a small target to two pixels only
             let rough = if round == 0 && b < SMALL { 0.2 } else { 0.0 };
             if found.rms > 0.05 + rough + 1.3 * scatter {
@@ -218,7 +218,9 @@ impl<'a, T: Sample> Measure<'a, T> {
         {
             return Err(Reason::NotAnEllipse);
         }
-        if surround.uneven > UNEVEN || !quality::outline_allows(&ellipse, self.noise(&surround), signed, focus) {
+        if surround.uneven > UNEVEN
+            || !quality::outline_allows(&ellipse, &self.levels, self.noise(&surround), signed, focus)
+        {
             return Err(Reason::NotAnEllipse);
         }
         Ok(Found { ellipse, surround, kept, blur: blur_of(strength, signed), strength, bright })
@@ -373,6 +375,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             kept: &found.kept,
             whole,
             saturation: self.levels.saturation,
+            stairs: self.levels.stairs,
         };
         let (outline, blur, contrast) =
             fit::approach(&self.plane, &region, found.blur, ROUGH, &mut self.work).ok_or(Reason::NoFit)?;
@@ -409,8 +412,8 @@ impl<'a, T: Sample> Measure<'a, T> {
     fn explains(&self, found: &Found, fit: &fit::Fit) -> bool {
         let (noise, contrast) = (self.noise(&found.surround), fit.contrast.abs());
         fit.disturbed <= DISTURBED
-            && fit.rms <= 1.5 * noise + 0.1 * contrast
-            && quality::is_target(&found.ellipse, fit.uneven, noise, contrast, fit.blur)
+            && fit.rms <= 1.5 * noise + if self.levels.stairs { 0.25 } else { 0.1 } * contrast
+            && quality::is_target(&found.ellipse, &self.levels, fit.uneven, noise, contrast, fit.blur)
     }
 
     /// Share of the pixels inside the outline that are at the end of the scale.

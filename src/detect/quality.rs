@@ -7,6 +7,7 @@
 //! as good as noise allows, since the bowl of a letter is an ellipse with a gap too.
 
 use super::ellipse::EllipseFit;
+use super::noise::Levels;
 
 /// Largest share of the outline that may be missing in one piece without further demands.
 pub(crate) const SMALL_GAP: f64 = 0.1;
@@ -22,17 +23,20 @@ pub(crate) const GAP_MINOR: f64 = 12.0;
 /// Largest unexplained share of the contrast of a target with a gap.
 const GAP_MISFIT: f64 = 0.024;
 
+/// Largest unexplained share of the contrast where edges are stairs.
+const STAIRS: f64 = 0.2;
+
 /// Largest rms distance of edge points from a good outline of semi-minor axis b, in pixels.
 ///
 /// Noise n moves an edge of contrast C by about 1.7 n / C pixels; printing, compression and the picture's grid add up
 /// to 1 % of the diameter. Out of focus it is about 4 s n / C ([`search_wide`](super::edge::search_wide)).
-pub(crate) fn expected_scatter(b: f64, noise: f64, contrast: f64, blur: f64) -> f64 {
-    2.8 * blur.max(1.0) * noise / contrast.max(1e-9) + 0.02 * b
+pub(crate) fn expected_scatter(b: f64, levels: &Levels, noise: f64, contrast: f64, blur: f64) -> f64 {
+    2.8 * blur.max(1.0) * noise / contrast.max(1e-9) + 0.02 * b + levels.jag()
 }
 
 /// Rms of the edge points relative to that: below 1 for a good outline.
-fn edge_ratio(ellipse: &EllipseFit, noise: f64, contrast: f64, blur: f64) -> f64 {
-    ellipse.rms / expected_scatter(ellipse.outline.semi_axes().1, noise, contrast, blur)
+fn edge_ratio(ellipse: &EllipseFit, levels: &Levels, noise: f64, contrast: f64, blur: f64) -> f64 {
+    ellipse.rms / expected_scatter(ellipse.outline.semi_axes().1, levels, noise, contrast, blur)
 }
 
 /// Longest gap; many small ones count as a larger one.
@@ -56,17 +60,25 @@ pub(crate) fn has_shape(ellipse: &EllipseFit, noise: f64, contrast: f64) -> bool
 }
 
 /// Whether the outline alone still allows a target.
-pub(crate) fn outline_allows(ellipse: &EllipseFit, noise: f64, contrast: f64, blur: f64) -> bool {
+pub(crate) fn outline_allows(ellipse: &EllipseFit, levels: &Levels, noise: f64, contrast: f64, blur: f64) -> bool {
     let gap_allows = gap(ellipse) <= SMALL_GAP || contrast > 20.0 * noise;
-    size_allows(ellipse) && gap_allows && edge_ratio(ellipse, noise, contrast, blur) < 1.1
+    size_allows(ellipse) && gap_allows && edge_ratio(ellipse, levels, noise, contrast, blur) < 1.1
 }
 
 /// Whether outline and fit together are those of a target; `uneven` is the fit's residual less its mean profile.
-pub(crate) fn is_target(ellipse: &EllipseFit, uneven: f64, noise: f64, contrast: f64, blur: f64) -> bool {
+pub(crate) fn is_target(
+    ellipse: &EllipseFit,
+    levels: &Levels,
+    uneven: f64,
+    noise: f64,
+    contrast: f64,
+    blur: f64,
+) -> bool {
     let minor = 2.0 * ellipse.outline.semi_axes().1;
     let misfit = (uneven * uneven - noise * noise).max(0.0).sqrt() / contrast;
     // large targets show every departure of the printed shape and of the lens; on faint ones noise hides both
     let limit = (0.045 + 0.006 * (minor - 10.0)).clamp(0.045, 0.12) * (contrast / (40.0 * noise)).clamp(0.4, 1.0);
-    let edge = edge_ratio(ellipse, noise, contrast, blur);
+    let limit = if levels.stairs { STAIRS } else { limit };
+    let edge = edge_ratio(ellipse, levels, noise, contrast, blur);
     edge * edge + (misfit / limit).powi(2) < 1.15 && (gap(ellipse) <= SMALL_GAP || misfit < GAP_MISFIT)
 }

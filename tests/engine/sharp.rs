@@ -62,3 +62,19 @@ fn edges_that_rise_along_a_straight_line_are_measured() {
         }
     }
 }
+
+#[test]
+fn discs_of_two_levels_are_found_though_their_edges_are_stairs() {
+    for (ground, spot, radius) in [(20, 220, 6.0), (230, 10, 10.0), (0, 255, 25.0), (255, 0, 40.0)] {
+        let size = (2.0 * radius) as usize + 60;
+        let [u, v] = [size as f64 / 2.0 + 0.3, size as f64 / 2.0 - 0.2];
+        let inside = |i: usize| ((i % size) as f64 + 0.5 - u).hypot((i / size) as f64 + 0.5 - v) < radius;
+        let samples: Vec<u8> = (0..size * size).map(|i| if inside(i) { spot } else { ground }).collect();
+        let view = GreyView::new(size, size, SamplesView::U8(&samples)).expect("a picture");
+        let found = detect(&view, &DetectOptions::default()).expect("valid options");
+        assert_eq!(found.targets.len(), 1, "radius {radius}: {:?}", found.rejected);
+        let target = &found.targets[0];
+        let (off, sigma) = ((target.u - u).hypot(target.v - v), target.sigma_u.hypot(target.sigma_v));
+        assert!(off < 0.25 && off < 4.0 * sigma, "radius {radius}: off by {off} px, sigma {sigma}");
+    }
+}
