@@ -90,13 +90,7 @@ pub fn measure_at(
     #[wasm_bindgen(unchecked_param_type = "number")] v: JsValue,
     #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
 ) -> Thrown {
-    let found = || {
-        let options: DetectOptions = value::options(&options, &[])?;
-        let (u, v) = (value::number(&u, "u")?, value::number(&v, "v")?);
-        let grey = decode::grey(&value::bytes(&bytes, "bytes")?, options.channel)?;
-        detect::measure_at(&grey.view()?, u, v, &options)
-    };
-    found().map(|target| value::write(&target)).map_err(|error| thrown(&error))
+    measured_at(&u, &v, &options, |options| decode::grey(&value::bytes(&bytes, "bytes")?, options.channel))
 }
 
 /// The same in a picture that is decoded already.
@@ -109,11 +103,19 @@ pub fn measure_at_gray(
     #[wasm_bindgen(unchecked_param_type = "number")] v: JsValue,
     #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
 ) -> Thrown {
+    measured_at(&u, &v, &options, |_| grey_of(&width, &height, &samples))
+}
+
+fn measured_at(
+    u: &JsValue,
+    v: &JsValue,
+    options: &JsValue,
+    picture: impl FnOnce(&DetectOptions) -> crate::Result<Grey>,
+) -> Thrown {
     let found = || {
-        let options: DetectOptions = value::options(&options, &[])?;
-        let (u, v) = (value::number(&u, "u")?, value::number(&v, "v")?);
-        let grey = grey_of(&width, &height, &samples)?;
-        detect::measure_at(&grey.view()?, u, v, &options)
+        let options: DetectOptions = value::options(options, &[])?;
+        let (u, v) = (value::number(u, "u")?, value::number(v, "v")?);
+        detect::measure_at(&picture(&options)?.view()?, u, v, &options)
     };
     found().map(|target| value::write(&target)).map_err(|error| thrown(&error))
 }

@@ -205,7 +205,7 @@ impl Band {
         let deviation = (blur * blur + 1.0 / 12.0).sqrt();
         let inverse = f32x4::splat(1.0 / deviation as f32);
         let widening = f32x4::splat((blur / deviation) as f32);
-        // times the third power of the rim's speed over det A, in units of 1 / det A
+        // the rim's curvature is length³ / det² with `length` below, det A over the speed of the rim
         let curved = f32x4::splat((deviation / det / det) as f32);
         let [tiny, one, most] = [1e-12, 1.0, 4.0].map(f32x4::splat);
         let [half, eighth] = [0.5, 0.125].map(f32x4::splat);
@@ -434,4 +434,54 @@ fn products<const A: usize, const B: usize>(a: [&[f32]; A], b: [&[f32]; B]) -> [
         }
     }
     totals
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    #[test]
+    fn a_sketch_is_nearly_what_is_rendered() {
+        let samples = vec![0u8; 80 * 80];
+        let plane = Plane::new(80, 80, &samples);
+        let surround = Surround {
+            level: 0.0,
+            slope: [0.0; 2],
+            slope_covariance: [0.0; 3],
+            noise: 1.0,
+            contrast: 100.0,
+            uneven: 0.0,
+            outer: 8.0,
+        };
+        for (a, b, blur) in [(3.0, 3.0, 0.7), (6.0, 6.0, 0.7), (20.0, 20.0, 0.7), (20.0, 20.0, 2.0), (14.0, 9.0, 0.7)] {
+            let outline = Outline::from_axes(40.3, 39.6, a, b, 0.4);
+            let kept = [true; 20];
+            let half_band = 3.6 * blur + 1.0;
+            let (mut band, mut field) = (Band::default(), Field::default());
+            let region = Region {
+                outline,
+                half_band,
+                surround: &surround,
+                kept: &kept,
+                whole: true,
+                saturation: 255.0,
+                stairs: false,
+            };
+            field.place(&outline, blur, half_band);
+            band.collect(&plane, &field, &region).unwrap();
+            field.render(&outline, blur, true, &band.spans);
+            band.gather(&field, [outline.u, outline.v], Some(&outline));
+            let exact = [&band.share, &band.derivatives[0], &band.derivatives[1]].map(|column| column.to_vec());
+            band.sketch(&outline, blur, [outline.u, outline.v]);
+            let sketched = [&band.share, &band.derivatives[0], &band.derivatives[1]];
+            for ((exact, sketched), limit) in exact.iter().zip(sketched).zip([0.006, 0.02, 0.02]) {
+                assert!(exact.iter().any(|x| *x > 0.1));
+                let worst = exact.iter().zip(sketched).map(|(x, y)| (x - y).abs()).fold(0.0, f32::max);
+                assert!(worst < limit, "{a} {b} {blur}: {worst}");
+            }
+        }
+    }
 }

@@ -373,3 +373,29 @@ fn normal(z: [f32; 4]) -> ([f32; 4], [f32; 4]) {
     let (below, density) = normal_distribution(f32x4::new(z.map(|z| z.clamp(-5.5, 5.5))));
     (below.to_array(), density.to_array())
 }
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    #[test]
+    fn four_rays_walked_are_as_sample_by_sample() {
+        let level = |x: usize, y: usize| ((x * 37 + y * 91 + x * y % 53) % 200) as u16;
+        let samples: Vec<u16> = (0..90 * 90).map(|i| 300 * level(i % 90, i / 90)).collect();
+        let plane = Plane::new(90, 90, &samples);
+        let outline = Outline::from_axes(44.7, 45.2, 17.0, 11.0, 0.7);
+        for (side, sign) in [(2, 1.0), (9, -1.0)] {
+            for [c, s] in quarter(40) {
+                let rims = Rays::new(&outline).at(c, s);
+                let walked = walk(&plane, &outline, &rims, side, sign);
+                let plain = at_border(&plane, &outline, &rims, side, sign);
+                let close = |a: f32x4, b: f32x4, limit: f32| (a - b).abs().simd_lt(f32x4::splat(limit)).all();
+                // places are good to 2^-16 pixels a step, and the levels to that times their steps
+                assert!(close(walked.0, plain.0, 1e-2) && close(walked.1, plain.1, 60.0), "{walked:?} {plain:?}");
+            }
+        }
+    }
+}

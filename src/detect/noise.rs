@@ -77,17 +77,20 @@ fn quantile(histogram: &[u32], share: f64) -> Option<f64> {
     None
 }
 
-/// The largest value that occurs is the clipping level when it piles up: more samples than twice all of the four levels below
-/// it together. Otherwise, and where other levels than black pile up too, as the even ones of a drawing do, only the end of the
-/// scale clips.
+/// The largest value that occurs is the clipping level when it piles up: more samples than twice the four occupied levels next
+/// to it together. Levels between which nothing lies, as those of 12 bits in 16, are neighbours. Otherwise, and where other
+/// levels than black pile up too, as the even ones of a drawing do, only the end of the scale clips.
 fn saturation(values: &[u32]) -> f64 {
     let end = values.len() - 1;
-    let Some(top) = values.iter().rposition(|&n| n > 0) else { return end as f64 };
-    let piles_up = |level: usize| {
-        let around = level.saturating_sub(4)..=(level + 4).min(top);
-        values[level] > 20 && values[level] > 2 * (values[around].iter().sum::<u32>() - values[level])
+    let occupied: Vec<(usize, u32)> = values.iter().copied().enumerate().filter(|(_, n)| *n > 0).collect();
+    let Some(&(top, _)) = occupied.last() else { return end as f64 };
+    let piles_up = |at: usize| {
+        let around = &occupied[at.saturating_sub(4)..(at + 5).min(occupied.len())];
+        let (level, count) = occupied[at];
+        level > 0 && count > 20 && count > 2 * (around.iter().map(|(_, n)| n).sum::<u32>() - count)
     };
-    if top > end / 16 && piles_up(top) && !(1..top.saturating_sub(4)).any(piles_up) { top as f64 } else { end as f64 }
+    let last = occupied.len() - 1;
+    if top > end / 16 && piles_up(last) && !(0..last.saturating_sub(4)).any(piles_up) { top as f64 } else { end as f64 }
 }
 
 #[cfg(test)]
@@ -139,6 +142,15 @@ mod tests {
             *sample = (*sample).min(80);
         }
         assert_eq!(levels(&Plane::new(200, 200, &samples)).saturation, 80.0);
+    }
+
+    #[test]
+    fn twelve_bits_in_sixteen_are_clipped_at_their_own_end() {
+        let spread = |top: u16| noisy(2.0).into_iter().map(|level| (u16::from(level) * 16).min(top) * 16).collect();
+        let clipped: Vec<u16> = spread(80 * 16);
+        assert_eq!(levels(&Plane::new(200, 200, &clipped)).saturation, f64::from(80u16 * 256));
+        let whole: Vec<u16> = spread(4095);
+        assert_eq!(levels(&Plane::new(200, 200, &whole)).saturation, 65535.0);
     }
 
     #[test]

@@ -82,8 +82,9 @@ impl Field {
         &self.planes[start..start + self.width]
     }
 
-    /// Renders the shares and, if wanted, the derivatives. The ellipse must lie inside ([`Field::holds`]). Only the spans (row, first column, length) may be read afterwards: the derivatives elsewhere are
-    /// not even cleared, as the middle of a large ellipse would cost more than its rim.
+    /// Renders the shares and, if wanted, the derivatives. The ellipse must lie inside ([`Field::holds`]). Only the spans (row, first
+    /// column, length) may be read afterwards: in a large field the derivatives elsewhere are not even cleared, as the middle of a
+    /// large ellipse would cost more than its rim.
     pub fn render(&mut self, outline: &Outline, s: f64, derivatives: bool, spans: &[Span]) {
         let planes = if derivatives { 1 + DERIVATIVES } else { 1 };
         let size = self.width * self.height;
