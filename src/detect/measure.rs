@@ -377,8 +377,8 @@ impl<'a, T: Sample> Measure<'a, T> {
             saturation: self.levels.saturation,
             stairs: self.levels.stairs,
         };
-        let (outline, blur, contrast) =
-            fit::approach(&self.plane, &region, found.blur, ROUGH, &mut self.work).ok_or(Reason::NoFit)?;
+        let (plane, work) = (&self.plane, &mut self.work);
+        let (outline, blur, contrast) = fit::approach(plane, &region, found.blur, ROUGH, work).ok_or(Reason::NoFit)?;
         let all = vec![true; edge::ray_count(&outline)];
         let kept = if whole { &all } else { &found.kept };
         let mut surround = self.surround(&outline, blur, kept)?;
