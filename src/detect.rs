@@ -39,7 +39,7 @@ use census::Census;
 use code::{DotLevels, Family, Reading};
 use measure::Measure;
 use outline::Outline;
-use search::Candidate;
+use search::{Blobs, Candidate};
 
 /// Finds and measures the targets of a picture.
 ///
@@ -118,16 +118,20 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let levels = noise::levels(&plane);
     let blobs = search::search(&plane, &levels, options);
     let mut census = Census::new(plane.width, plane.height);
-    for no in &blobs.rejected {
-        census.count(no);
+    census.expect(blobs.iter().map(|blobs| blobs.rejected.len()).sum());
+    for Blobs { rejected, too_small, too_large, .. } in &blobs {
+        census.add(Reason::TooSmall, *too_small);
+        census.add(Reason::TooLarge, *too_large);
+        for no in rejected {
+            census.count(no);
+        }
     }
     let mut measure = Measure::new(plane, levels, options);
-    for candidate in &blobs.candidates {
+    for candidate in blobs.iter().flat_map(|blobs| &blobs.candidates) {
         if !census.is_new(candidate) {
             continue;
         }
         let Candidate { outline, bright, look } = candidate;
-        let look = look.unwrap_or_else(|| look::first(&plane, &levels, outline, *bright));
         let found = look.and_then(|()| measure.confirm(outline, *bright));
         match found.and_then(|found| measure.finish(&found, options.method)) {
             Ok(target) => census.accept(target, *bright),

@@ -114,6 +114,18 @@ impl Census {
         self.count(&NoBlob::of(&outline, reason));
     }
 
+    /// Makes room for so many rejected blobs.
+    pub fn expect(&mut self, rejected: usize) {
+        self.detection.rejected_blobs.reserve(rejected);
+    }
+
+    /// Counts rejected blobs that are not shown.
+    pub fn add(&mut self, reason: Reason, count: usize) {
+        if count > 0 {
+            *self.detection.rejected.entry(reason).or_default() += count;
+        }
+    }
+
     /// Counts a rejected blob, and keeps it for showing when it could be mistaken for a target.
     pub fn count(&mut self, no: &NoBlob) {
         *self.detection.rejected.entry(no.reason).or_default() += 1;

@@ -50,8 +50,8 @@ fn at<T: Sample, R>(
         let part = Plane::new(width, height, &samples);
         let levels = noise::levels(&part);
         let mut candidates: Vec<(f64, Outline, bool)> = search::search(&part, &levels, options)
-            .candidates
             .into_iter()
+            .flat_map(|blobs| blobs.candidates)
             .map(|candidate| {
                 let outline = candidate.outline;
                 let outline = Outline { u: outline.u + left as f64, v: outline.v + top as f64, ..outline };

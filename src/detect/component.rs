@@ -61,6 +61,9 @@ fn alike(run: &Chord, above: &Active) -> bool {
     run.cut == above.cut || (run.x0 - above.x0).abs() < near && (run.x1 - above.x1).abs() < near
 }
 
+/// Runs that a chain has room for at first.
+const FIRST: usize = 32;
+
 /// Links the runs of one polarity, row by row, into chains.
 pub(crate) struct Linker {
     active: Vec<Active>,
@@ -108,7 +111,7 @@ impl Linker {
                 std::mem::replace(&mut self.active[partner].chain, usize::MAX)
             } else {
                 self.free.pop().unwrap_or_else(|| {
-                    self.chains.push(Vec::new());
+                    self.chains.push(Vec::with_capacity(FIRST));
                     self.chains.len() - 1
                 })
             };

@@ -5,7 +5,7 @@
 //! short enough to keep the two sides of a target of five pixels apart. Sixteen places are compared at a time; only where
 //! there is a difference they are looked at one by one.
 
-use crate::image::{LANES, Plane, Sample};
+use crate::image::{LANES, Sample};
 
 /// Distance of the two samples that are compared, in pixels.
 pub(crate) const BASE: usize = 3;
@@ -123,15 +123,13 @@ impl Open {
     }
 }
 
-/// The picture at a quarter of its size: the mean of 4 columns and 2 of 4 rows, for what is large or out of focus.
-pub(crate) fn quartered<T: Sample>(plane: &Plane<T>) -> (usize, usize, Vec<T>) {
-    let (width, height) = (plane.width / 4, plane.height / 4);
-    let mut out = Vec::with_capacity(width * height);
-    for y in 0..height {
-        let (upper, lower) = (plane.row(4 * y + 1).as_chunks::<4>().0, plane.row(4 * y + 2).as_chunks::<4>().0);
-        out.extend(upper.iter().zip(lower).map(|(upper, lower)| T::mean_of_eight(*upper, *lower)));
-    }
-    (width, height, out)
+/// A row of the picture at a quarter of its size, for what is large or out of focus: means of four columns, of the first and
+/// the third of four rows.
+#[inline(never)]
+pub(crate) fn quartered<T: Sample>(first: &[T], third: &[T], out: &mut Vec<T>) {
+    out.clear();
+    let (first, third) = (first.as_chunks::<4>().0, third.as_chunks::<4>().0);
+    out.extend(first.iter().zip(third).map(|(first, third)| T::mean_of_eight(*first, *third)));
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::component::{self, Chord, Linker};
 use super::look;
 use super::noise::Levels;
 use super::outline::Outline;
-use super::scan;
+use super::scan::{self, Edge};
 use crate::detection::{DetectOptions, PolarityChoice, Reason};
 use crate::image::{Plane, Sample};
 
@@ -20,15 +20,17 @@ use crate::image::{Plane, Sample};
 pub(crate) struct Candidate {
     pub outline: Outline,
     pub bright: bool,
-    /// The first look at it, taken while its rows are still near the processor; none where they were not those of the photo.
-    pub look: Option<Result<(), Reason>>,
+    /// The first look at it, taken while its rows are still near the processor.
+    pub look: Result<(), Reason>,
 }
 
-/// Blobs that passed their tests, strong edges first, and the others.
+/// Blobs that passed their tests, and the others. Those that are too small or too large are many, and only counted.
 #[derive(Default)]
 pub(crate) struct Blobs {
     pub candidates: Vec<Candidate>,
     pub rejected: Vec<NoBlob>,
+    pub too_small: usize,
+    pub too_large: usize,
 }
 
 /// Levels of contrast, each three times the one below.
@@ -41,8 +43,9 @@ pub(crate) fn threshold(levels: &Levels) -> f64 {
     (6.5 * levels.noise).max(0.03 * levels.range).max(5.0)
 }
 
-/// Searches a picture at its own and at a quarter of its size.
-pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &DetectOptions) -> Blobs {
+/// Searches a picture at its own and at a quarter of its size, row by row: each is fetched from memory once. Blobs of strong
+/// edges come first, those of the quartered picture last.
+pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &DetectOptions) -> Vec<Blobs> {
     let limits = Limits {
         min_diameter: options.min_diameter,
         max_diameter: options.max_diameter,
@@ -50,77 +53,52 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
         height: plane.height,
         step: 2,
     };
-    let look = |outline: &Outline, bright| Some(look::first(plane, levels, outline, bright));
-    let mut blobs = pass(plane, threshold(levels), levels.range, options.polarity, &limits, look);
-    if options.max_diameter > LARGE && plane.width >= 32 && plane.height >= 32 {
-        let (width, height, samples) = scan::quartered(plane);
-        let limits = Limits {
-            min_diameter: LARGE.max(options.min_diameter) / 4.0,
-            max_diameter: options.max_diameter / 4.0,
-            width,
-            height,
-            step: 1,
-        };
-        let threshold = (3.0 * levels.noise).max(0.03 * levels.range).max(4.0);
-        let quarter = Plane::new(width, height, &samples);
-        let found = pass(&quarter, threshold, levels.range, options.polarity, &limits, |_, _| None);
-        blobs.candidates.extend(found.candidates.iter().map(|candidate| {
-            let outline = candidate.outline.scaled(4.0);
-            Candidate { outline: Outline { u: 4.0 * outline.u, v: 4.0 * outline.v, ..outline }, ..*candidate }
-        }));
+    let look = |outline: &Outline, bright| look::first(plane, levels, outline, bright);
+    let mut whole = Pass::new(threshold(levels), levels.range, options.polarity, limits);
+    let limits = Limits {
+        min_diameter: LARGE.max(options.min_diameter) / 4.0,
+        max_diameter: options.max_diameter / 4.0,
+        width: plane.width / 4,
+        height: plane.height / 4,
+        step: 1,
+    };
+    let large = options.max_diameter > LARGE && plane.width >= 32 && plane.height >= 32;
+    let weak = (3.0 * levels.noise).max(0.03 * levels.range).max(4.0);
+    let mut quarter = large.then(|| Pass::new(weak, levels.range, options.polarity, limits));
+    let mut reduced = Vec::new();
+    let look_enlarged = |outline: &Outline, bright| look(&enlarged(outline), bright);
+    for y in (0..plane.height).step_by(whole.limits.step) {
+        whole.row(plane.row(y), y, &look);
+        if let Some(quarter) = &mut quarter
+            && y % 4 == 2
+            && y / 4 < limits.height
+        {
+            scan::quartered(plane.row(y - 2), plane.row(y), &mut reduced);
+            quarter.row(&reduced, y / 4, &look_enlarged);
+        }
+    }
+    let mut blobs = whole.end(&look);
+    for mut found in quarter.map(|quarter| quarter.end(&look_enlarged)).unwrap_or_default() {
+        for candidate in &mut found.candidates {
+            candidate.outline = enlarged(&candidate.outline);
+        }
+        // what is no blob there is seen in the whole picture
+        blobs.push(Blobs { candidates: found.candidates, ..Blobs::default() });
     }
     blobs
 }
 
-/// One picture, every `limits.step`-th row.
-fn pass<T: Sample>(
-    plane: &Plane<T>,
-    threshold: f64,
-    range: f64,
-    polarity: PolarityChoice,
-    limits: &Limits,
-    look: impl Fn(&Outline, bool) -> Option<Result<(), Reason>>,
-) -> Blobs {
-    let wanted: &[bool] = match polarity {
-        PolarityChoice::Auto => &[true, false],
-        PolarityChoice::Bright => &[true],
-        PolarityChoice::Dark => &[false],
-    };
-    let rows = (1.3 * limits.max_diameter / limits.step as f64).min(1e6) as usize + 8;
-    let lowest = threshold.min(f64::from(T::MAX)) as u32;
-    // a level above half the range would see hardly an edge
-    let thresholds: Vec<u32> = (0..LEVELS)
-        .map(|k| lowest.saturating_mul(3u32.pow(k)))
-        .take_while(|&t| t == lowest || f64::from(t) < 0.5 * range)
-        .collect();
-    let mut levels: Vec<Level> = thresholds
-        .iter()
-        .map(|&threshold| Level {
-            threshold,
-            linkers: wanted.iter().map(|&bright| (bright, Linker::new(rows))).collect(),
-            blobs: Blobs::default(),
-        })
-        .collect();
-    let (mut edges, mut runs) = (Vec::new(), Vec::new());
-    for y in (0..plane.height).step_by(limits.step) {
-        scan::edges(plane.row(y), T::of(lowest), &mut edges);
-        for level in &mut levels {
-            edges.retain(|edge| edge.strength > level.threshold);
-            for (bright, linker) in &mut level.linkers {
-                component::runs(&edges, *bright, plane.width, y as f32 + 0.5, &mut runs);
-                linker.row(&runs, &mut |chain| level.blobs.judge(chain, *bright, limits, &look));
-            }
-        }
-    }
-    let mut all = Blobs::default();
-    for level in levels.iter_mut().rev() {
-        for (bright, linker) in &mut level.linkers {
-            linker.end(&mut |chain| level.blobs.judge(chain, *bright, limits, &look));
-        }
-        all.candidates.append(&mut level.blobs.candidates);
-        all.rejected.append(&mut level.blobs.rejected);
-    }
-    all
+/// An outline in the quartered picture as it is in the whole one: of four rows the first and the third were taken.
+fn enlarged(outline: &Outline) -> Outline {
+    Outline { u: 4.0 * outline.u, v: 4.0 * outline.v - 0.5, ..outline.scaled(4.0) }
+}
+
+/// What one picture shows, row by row.
+struct Pass {
+    limits: Limits,
+    levels: Vec<Level>,
+    edges: Vec<Edge>,
+    runs: Vec<Chord>,
 }
 
 /// What sees the edges above one threshold.
@@ -130,13 +108,62 @@ struct Level {
     blobs: Blobs,
 }
 
+impl Pass {
+    fn new(lowest: f64, range: f64, polarity: PolarityChoice, limits: Limits) -> Self {
+        let wanted: &[bool] = match polarity {
+            PolarityChoice::Auto => &[true, false],
+            PolarityChoice::Bright => &[true],
+            PolarityChoice::Dark => &[false],
+        };
+        let rows = (1.3 * limits.max_diameter / limits.step as f64).min(1e6) as usize + 8;
+        let lowest = lowest.min(65535.0) as u32;
+        // a level above half the range would see hardly an edge
+        let levels = (0..LEVELS)
+            .map(|k| lowest.saturating_mul(3u32.pow(k)))
+            .take_while(|&t| t == lowest || f64::from(t) < 0.5 * range)
+            .map(|threshold| Level {
+                threshold,
+                linkers: wanted.iter().map(|&bright| (bright, Linker::new(rows))).collect(),
+                blobs: Blobs::default(),
+            });
+        Self { limits, levels: levels.collect(), edges: Vec::new(), runs: Vec::new() }
+    }
+
+    /// Takes the next row, the y-th of the picture.
+    #[inline(never)]
+    fn row<T: Sample>(&mut self, samples: &[T], y: usize, look: &impl Fn(&Outline, bool) -> Result<(), Reason>) {
+        let Self { limits, levels, edges, runs } = self;
+        let lowest = levels.first().map_or(T::MAX, |level| level.threshold.min(T::MAX));
+        scan::edges(samples, T::of(lowest), edges);
+        for level in levels {
+            edges.retain(|edge| edge.strength > level.threshold);
+            for (bright, linker) in &mut level.linkers {
+                component::runs(edges, *bright, limits.width, y as f32 + 0.5, runs);
+                linker.row(runs, &mut |chain| level.blobs.judge(chain, *bright, limits, look));
+            }
+        }
+    }
+
+    /// The blobs of each level, strong edges first.
+    fn end(self, look: &impl Fn(&Outline, bool) -> Result<(), Reason>) -> Vec<Blobs> {
+        let Self { limits, levels, .. } = self;
+        let all = levels.into_iter().rev().map(|mut level| {
+            for (bright, linker) in &mut level.linkers {
+                linker.end(&mut |chain| level.blobs.judge(chain, *bright, &limits, look));
+            }
+            level.blobs
+        });
+        all.collect()
+    }
+}
+
 impl Blobs {
     fn judge(
         &mut self,
         chain: &[Chord],
         bright: bool,
         limits: &Limits,
-        look: &impl Fn(&Outline, bool) -> Option<Result<(), Reason>>,
+        look: &impl Fn(&Outline, bool) -> Result<(), Reason>,
     ) {
         let candidate = |outline| Candidate { outline, bright, look: look(&outline, bright) };
         match blob::test(chain, limits) {
@@ -150,7 +177,11 @@ impl Blobs {
                     let outlines = parts.into_iter().filter_map(|part| blob::test(part, limits).ok());
                     self.candidates.extend(outlines.map(candidate));
                 }
-                self.rejected.push(no);
+                match no.reason {
+                    Reason::TooSmall => self.too_small += 1,
+                    Reason::TooLarge => self.too_large += 1,
+                    _ => self.rejected.push(no),
+                }
             }
         }
     }
