@@ -20,6 +20,11 @@ pub(crate) const DIRECTIONS: u32 = 16;
 /// Distance of the outer pixel from the rim: beyond the blur of a sharp photograph.
 pub(crate) const OUTSIDE: f64 = 2.5;
 
+/// Missing directions that are few.
+const FEW: u32 = 3;
+/// Step, in units of the noise, from which chance hardly hides it in a direction: there two pixels differ by 0.4 of it.
+const CLEAR: f64 = 6.0;
+
 /// What was seen.
 #[derive(Clone, Copy, Debug)]
 struct Look {
@@ -27,6 +32,8 @@ struct Look {
     pub agree: u32,
     /// Mean step of the better three quarters: single pixels, so it is good to a quarter of their noise.
     pub step: f32,
+    /// Places, of one direction or several in a row, where that step is missing.
+    pub gaps: u32,
     /// Directions in which the inside goes on outside.
     pub open: u32,
     /// Whether the inside has one level, but for two fifths of the outline that something may hide.
@@ -55,14 +62,19 @@ pub(crate) fn stands_out<T: Sample>(
 ) -> Result<(), Reason> {
     match look(plane, outline, bright, levels.step() as f32, missing) {
         Some(look) if f64::from(look.step) < 3.3 * levels.noise => Err(Reason::LowContrast),
-        Some(look) if look.even && look.agree + missing >= DIRECTIONS => {
-            if look.open > open {
-                Err(Reason::Touching)
-            } else {
-                Ok(())
-            }
+        Some(look) if look.even && look.agree + missing >= DIRECTIONS && !look.is_torn(levels.noise, missing) => {
+            if look.open > open { Err(Reason::Touching) } else { Ok(()) }
         }
         _ => Err(Reason::NotAnEllipse),
+    }
+}
+
+impl Look {
+    /// Whether the step is missing in more places than something in front of a target leaves: one, or two where a cable runs across
+    /// it; of what is so small that `missing` allows a few directions only, in as many. Noise makes holes too.
+    fn is_torn(&self, noise: f64, missing: u32) -> bool {
+        let torn = self.gaps > 2 || missing <= FEW && self.agree + FEW <= DIRECTIONS;
+        torn && f64::from(self.step) > CLEAR * noise
     }
 }
 
@@ -101,8 +113,11 @@ fn look<T: Sample>(plane: &Plane<T>, outline: &Outline, bright: bool, threshold:
     let least = (0.4 * typical).max(threshold);
     let own = |level: f32| (level - levels[8]).abs() < 0.3 * typical;
     let open = steps.iter().zip(insides).filter(|(step, inside)| own(**inside) && own(**inside - sign * **step));
+    let missing = (0..).zip(steps).filter(|(_, step)| **step <= least);
+    let missing: u32 = missing.map(|(k, _)| 1 << (AROUND[k / 4] + 4 * (k % 4))).sum();
     Some(Look {
-        agree: steps.iter().filter(|step| **step > least).count() as u32,
+        agree: DIRECTIONS - missing.count_ones(),
+        gaps: (missing & !(missing << 1 | missing >> (DIRECTIONS - 1))).count_ones(),
         step: sorted[4..].iter().sum::<f32>() / 12.0,
         open: open.count() as u32,
         even: levels[13] - levels[2] < 0.8 * typical,
@@ -160,6 +175,9 @@ pub(crate) const QUARTER: [[f32; 2]; 4] = {
     const C: [f32; 4] = [1.0, 0.923_879_5, std::f32::consts::FRAC_1_SQRT_2, 0.382_683_43];
     [[C[0], 0.0], [C[2], C[2]], [C[1], C[3]], [C[3], C[1]]]
 };
+
+/// Where around the quarter each of them stands.
+const AROUND: [usize; 4] = [0, 2, 1, 3];
 
 /// Directions in which the inside's level comes back outside of the rim, within about the semi-minor axis: nearly all of
 /// them for the inside of a letter's stroke, those of the set bits in a code ring.
