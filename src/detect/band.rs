@@ -54,20 +54,16 @@ pub(crate) struct Band {
 }
 
 impl Band {
-    /// Chooses the pixels around the region's outline, and sums up the flat parts if they are wanted. None when the pixels are too
-    /// few for ten unknowns.
-    pub fn collect<T: Sample>(
-        &mut self,
-        plane: &Plane<T>,
-        field: &Field,
-        region: &Region,
-        flat: bool,
-    ) -> Option<Flats> {
+    /// Chooses the pixels around the region's outline. None when they are too few for ten unknowns.
+    pub fn collect<T: Sample>(&mut self, plane: &Plane<T>, field: &Field, region: &Region) -> Option<Flats> {
         self.spans.clear();
         let outline = &region.outline;
         let reach = region.half_band.min(region.surround.outer.max(1.0)) + 0.3;
-        let far = if flat { reach.max(region.surround.outer) } else { reach };
-        let rings = [outline.grown(-region.half_band - 0.3), outline.grown(reach), outline.grown(far)];
+        let rings = [
+            outline.grown(-region.half_band - 0.3),
+            outline.grown(reach),
+            outline.grown(reach.max(region.surround.outer)),
+        ];
         let hollow = outline.semi_axes().1 > region.half_band + 0.3;
         let mut flats = Flats::default();
         let (half_u, half_v) = rings[2].half_box();
@@ -89,11 +85,9 @@ impl Band {
                 flats.outside.add(row, far, line, region, false);
                 continue;
             }
-            if flat {
-                flats.outside.add(row, far.start..outer.start.max(far.start), line, region, false);
-                flats.outside.add(row, outer.end.min(far.end)..far.end, line, region, false);
-                flats.inside.add(row, inner.clone(), line, region, true);
-            }
+            flats.outside.add(row, far.start..outer.start.max(far.start), line, region, false);
+            flats.outside.add(row, outer.end.min(far.end)..far.end, line, region, false);
+            flats.inside.add(row, inner.clone(), line, region, true);
             let field_row = line as i64 - field.top;
             for span in [outer.start..inner.start, inner.end.max(outer.start)..outer.end] {
                 let column = span.start as i64 - field.left;
@@ -477,7 +471,7 @@ mod tests {
                 stairs: false,
             };
             field.place(&outline, blur, half_band);
-            band.collect(&plane, &field, &region, true).unwrap();
+            band.collect(&plane, &field, &region).unwrap();
             field.render(&outline, blur, true, &band.spans);
             band.gather(&field, [outline.u, outline.v], Some(&outline));
             let exact = [&band.share, &band.derivatives[0], &band.derivatives[1]].map(|column| column.to_vec());

@@ -64,9 +64,9 @@ pub(crate) struct Workspace {
     origin: [f64; 2],
 }
 
-/// Outline, blur and contrast of a fit of a sketched ellipse ([`Band::sketch`]) to the pixels along the rim, which only needs to
-/// be good enough to choose the pixels of the next one: corrections below `converged` pixels are expected. None when the steps
-/// lead nowhere.
+/// Outline, blur and contrast of a fit of a sketched ellipse ([`Band::sketch`]) to all pixels, which only needs to be good
+/// enough to choose the pixels of the next one: corrections below `converged` pixels are expected. None when the steps lead
+/// nowhere.
 pub(crate) fn approach<T: Sample>(
     plane: &Plane<T>,
     region: &Region,
@@ -74,7 +74,7 @@ pub(crate) fn approach<T: Sample>(
     converged: f64,
     work: &mut Workspace,
 ) -> Option<(Outline, f64, f64)> {
-    let (mut state, flats) = work.begin(plane, region, blur, false)?;
+    let (mut state, flats) = work.begin(plane, region, blur)?;
     let (mut normal, mut anew, mut last) = (Normal::zeros(), true, state.first());
     for round in 0.. {
         state.may_go_on(round)?;
@@ -115,7 +115,7 @@ pub(crate) fn fit<T: Sample>(
     converged: f64,
     work: &mut Workspace,
 ) -> Option<Fit> {
-    let (mut state, flats) = work.begin(plane, region, blur, true)?;
+    let (mut state, flats) = work.begin(plane, region, blur)?;
     let mut normal = Normal::zeros();
     let (mut render_all, mut near, mut disturbed, mut dropped) = (true, true, true, 0);
     let (mut anew, mut last) = (true, state.first());
@@ -181,8 +181,8 @@ pub(crate) fn fit<T: Sample>(
 }
 
 impl Workspace {
-    /// Chooses the pixels, with the flat parts if they are wanted, and the first values.
-    fn begin<T: Sample>(&mut self, plane: &Plane<T>, region: &Region, blur: f64, flat: bool) -> Option<(State, Flats)> {
+    /// Chooses the pixels and the first values.
+    fn begin<T: Sample>(&mut self, plane: &Plane<T>, region: &Region, blur: f64) -> Option<(State, Flats)> {
         let surround = region.surround;
         let shown = if surround.contrast > 0.0 { region.saturation - surround.level } else { surround.level };
         let state = State {
@@ -195,8 +195,7 @@ impl Workspace {
         };
         self.origin = [region.outline.u, region.outline.v];
         self.field.place(&region.outline, state.blur, region.half_band);
-        let flat = flat || state.is_clipped();
-        Some((state, self.band.collect(plane, &self.field, region, flat)?))
+        Some((state, self.band.collect(plane, &self.field, region)?))
     }
 
     /// Renders the model at the state and takes it off the pixels; none where it leaves the field.
