@@ -3,8 +3,8 @@
 //! One pass over the rows finds edges ([`scan`]) and links the runs between them into blobs ([`component`]); blob tests
 //! ([`blob`]) leave what may be an ellipse; sub-pixel edges and a robust ellipse ([`edge`], [`ellipse`]) confirm it; the
 //! surround gives levels and noise ([`surround`]); the fit of a rendered ellipse ([`fit`]) or one of the classical operators
-//! measures the centre ([`measure`]); rings around a target are read as codes ([`code`]). A second pass over the picture at a
-//! quarter of its size finds what is large or out of focus.
+//! measures the centre ([`measure`]); rings around a target are read as codes ([`code`]). In the same pass the picture
+//! at a quarter of its size shows what is large or out of focus.
 
 mod band;
 mod blob;

@@ -20,8 +20,6 @@ pub(crate) const DIRECTIONS: u32 = 16;
 /// Distance of the outer pixel from the rim: beyond the blur of a sharp photograph.
 pub(crate) const OUTSIDE: f64 = 2.5;
 
-/// Missing directions that are few.
-const FEW: u32 = 3;
 /// Step, in units of the noise, from which chance hardly hides it in a direction: there two pixels differ by 0.4 of it.
 const CLEAR: f64 = 6.0;
 
@@ -62,7 +60,7 @@ pub(crate) fn stands_out<T: Sample>(
 ) -> Result<(), Reason> {
     match look(plane, outline, bright, levels.step() as f32, missing) {
         Some(look) if f64::from(look.step) < 3.3 * levels.noise => Err(Reason::LowContrast),
-        Some(look) if look.even && look.agree + missing >= DIRECTIONS && !look.is_torn(levels.noise, missing) => {
+        Some(look) if look.even && look.agree + missing >= DIRECTIONS && !look.is_torn(levels.noise) => {
             if look.open > open { Err(Reason::Touching) } else { Ok(()) }
         }
         _ => Err(Reason::NotAnEllipse),
@@ -71,10 +69,9 @@ pub(crate) fn stands_out<T: Sample>(
 
 impl Look {
     /// Whether the step is missing in more places than something in front of a target leaves: one, or two where a cable runs across
-    /// it; of what is so small that `missing` allows a few directions only, in as many. Noise makes holes too.
-    fn is_torn(&self, noise: f64, missing: u32) -> bool {
-        let torn = self.gaps > 2 || missing <= FEW && self.agree + FEW <= DIRECTIONS;
-        torn && f64::from(self.step) > CLEAR * noise
+    /// it. Of a clear step noise makes no holes.
+    fn is_torn(&self, noise: f64) -> bool {
+        self.gaps > 2 && f64::from(self.step) > CLEAR * noise
     }
 }
 
@@ -249,6 +246,21 @@ mod tests {
         let samples = picture(|x, y| x.hypot(y) < 10.0 || x > 0.0 && y.abs() < 9.5);
         let handle = look(&Plane::new(SIZE, SIZE, &samples), &disc(), true, 6.0, 7).unwrap();
         assert_eq!((handle.agree, handle.open), (DIRECTIONS - 5, 5));
+    }
+
+    #[test]
+    fn a_cable_may_cross_a_disc_and_a_star_is_none() {
+        let levels = Levels { noise: 1.0, range: 160.0, saturation: 255.0, stairs: false };
+        let first = |samples: &[u8]| stands_out(&Plane::new(SIZE, SIZE, samples), &levels, &disc(), true, 7, 5);
+        let crossed = picture(|x, y| x.hypot(y) < 10.0 && (x - y).abs() > 2.5);
+        assert_eq!(first(&crossed), Ok(()));
+        // three notches, each as wide as one of the two that the cable leaves
+        let notch = |x: f64, y: f64, c: f64, s: f64| c * x + s * y > 4.0 && (c * y - s * x).abs() < 2.5;
+        let star = picture(|x, y| {
+            let at = |turn: f64| notch(x, y, turn.to_radians().cos(), turn.to_radians().sin());
+            x.hypot(y) < 10.0 && !(at(0.0) || at(135.0) || at(-112.5))
+        });
+        assert_eq!(first(&star), Err(Reason::NotAnEllipse));
     }
 
     #[test]
