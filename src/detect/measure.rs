@@ -219,7 +219,13 @@ impl<'a, T: Sample> Measure<'a, T> {
             return Err(Reason::NotAnEllipse);
         }
         if surround.uneven > UNEVEN
-            || !quality::outline_allows(&ellipse, &self.levels, self.noise(&surround), signed, focus)
+            || !quality::outline_allows(
+                &ellipse,
+                &self.levels,
+                self.noise(&surround),
+                signed,
+                blur_of(strength, signed),
+            )
         {
             return Err(Reason::NotAnEllipse);
         }

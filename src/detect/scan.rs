@@ -1,14 +1,17 @@
 //! Edges along a row: the fast pass over the picture.
 //!
-//! Where |g(x + 3) - g(x)| exceeds the threshold there is an edge; a run of such places of one sign is one edge, placed
-//! at its centroid. Three pixels bridge the blur of a sharp photograph, so that an edge shows its whole contrast, and are
-//! short enough to keep the two sides of a target of five pixels apart. Sixteen places are compared at a time; only where
-//! there is a difference they are looked at one by one.
+//! Where |g(x + 3) - g(x)| exceeds the threshold there is an edge; a run of such places of one sign, in which noise may hide
+//! a place or two, is one edge, placed at its centroid. Three pixels bridge the blur of a sharp photograph, so that an edge
+//! shows its whole contrast, and are short enough to keep the two sides of a target of five pixels apart. Sixteen places are
+//! compared at a time; only where there is a difference they are looked at one by one.
 
 use crate::image::{LANES, Sample};
 
 /// Distance of the two samples that are compared, in pixels.
 pub(crate) const BASE: usize = 3;
+
+/// Most places that noise may hide in the flank of a soft edge.
+const GAP: usize = 2;
 
 /// An edge of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +69,7 @@ fn extend<T: Sample>(
         bits &= !(((1 << count) - 1) << first);
         let start = from + first as usize;
         let edge = match open {
-            Some(edge) if edge.next == start && edge.rising == up => edge,
+            Some(edge) if start - edge.next <= GAP && edge.rising == up => edge,
             _ => {
                 if let Some(edge) = open {
                     found.push(edge.close());
@@ -74,7 +77,7 @@ fn extend<T: Sample>(
                 open.insert(Open { first: start, next: start, rising: up, strength: 0, sum: 0, moment: 0 })
             }
         };
-        edge.add(differences, first as usize, count as usize);
+        edge.add(differences, start, first as usize, count as usize);
     }
 }
 
@@ -91,9 +94,9 @@ struct Open {
 }
 
 impl Open {
-    /// Adds `count` places of a block, from its `first` on.
+    /// Adds `count` places of a block, from its `first` on, of which the row has `start` before.
     #[inline(always)]
-    fn add<T: Sample>(&mut self, differences: &[T; LANES], first: usize, count: usize) {
+    fn add<T: Sample>(&mut self, differences: &[T; LANES], start: usize, first: usize, count: usize) {
         let (mut strength, mut sum, mut moment) = (self.strength, 0, 0);
         // backwards: the moment is the sum of the sums from each place to the end
         let mut left = count;
@@ -104,11 +107,11 @@ impl Open {
             moment += sum;
             sum += difference;
         }
-        let before = (self.next - self.first) as i64;
+        let before = (start - self.first) as i64;
         self.moment += i64::from(moment) + before * i64::from(sum);
         self.sum += i64::from(sum);
         self.strength = strength;
-        self.next += count;
+        self.next = start + count;
     }
 
     #[inline]
