@@ -118,11 +118,11 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let levels = noise::levels(&plane);
     let blobs = search::search(&plane, &levels, options);
     let mut census = Census::new(plane.width, plane.height);
-    census.expect(blobs.iter().map(|blobs| blobs.rejected.len()).sum());
-    for Blobs { rejected, too_small, too_large, .. } in &blobs {
+    census.expect(blobs.iter().map(|blobs| blobs.shapeless.len() + blobs.unlike.len()).sum());
+    for Blobs { shapeless, unlike, too_small, too_large, .. } in &blobs {
         census.add(Reason::TooSmall, *too_small);
         census.add(Reason::TooLarge, *too_large);
-        for no in rejected {
+        for no in shapeless.iter().chain(unlike) {
             census.count(no);
         }
     }
@@ -131,9 +131,8 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         if !census.is_new(candidate) {
             continue;
         }
-        let Candidate { outline, bright, look } = candidate;
-        let found = look.and_then(|()| measure.confirm(outline, *bright));
-        match found.and_then(|found| measure.finish(&found, options.method)) {
+        let Candidate { outline, bright } = candidate;
+        match measure.confirm(outline, *bright).and_then(|found| measure.finish(&found, options.method)) {
             Ok(target) => census.accept(target, *bright),
             Err(reason) => census.reject(*outline, *bright, reason),
         }

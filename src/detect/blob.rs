@@ -41,7 +41,10 @@ impl NoBlob {
 }
 
 /// Flattest ellipse that goes on to be measured; the measurement decides at 0.3.
-const FLATTEST: f64 = 0.2;
+const FLATTEST: f64 = 0.22;
+
+/// Area, in units of that of the runs, from which on an ellipse through their ends is none of theirs but follows a bar.
+const MOST_UNSEEN: f64 = 2.5;
 
 /// Tests a chain of runs: its ellipse, to a fraction of a pixel, or why it has none.
 pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> {
@@ -52,18 +55,20 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
         let (u, diameter) = (f64::from(run.x0 + run.x1) / 2.0, f64::from(run.x1 - run.x0));
         return Err(NoBlob { u, v: f64::from(run.y), diameter, reason: Reason::TooSmall });
     }
-    let extent = Extent::of(chain, limits.step as f64);
-    let no = |reason| NoBlob { u: extent.u, v: extent.v, diameter: extent.longest, reason };
-    if extent.longest > 1.3 * limits.max_diameter + 4.0 {
+    let moments = Moments::of(chain, limits.step as f64);
+    let [u, v] = moments.middle;
+    let no = |reason| NoBlob { u, v, diameter: moments.longest, reason };
+    if moments.longest > 1.3 * limits.max_diameter + 4.0 {
         return Err(no(Reason::TooLarge));
     }
-    if chain.len() < 2 || extent.longest < 0.7 * limits.min_diameter {
+    if chain.len() < 2 || moments.longest < 0.7 * limits.min_diameter {
         return Err(no(Reason::TooSmall));
     }
-    let moments = Moments::of(chain, limits.step as f64);
     let Some(outline) = moments.outline() else { return Err(no(Reason::NotAnEllipse)) };
     let lowest = limits.height.saturating_sub(limits.step) as f32;
-    let cut = chain.iter().any(|chord| chord.cut || chord.y < limits.step as f32 || chord.y > lowest);
+    // the runs stand in the order of their rows
+    let at_border = |chord: &Chord| chord.y < limits.step as f32 || chord.y > lowest;
+    let cut = moments.cut || chain.first().is_some_and(at_border) || chain.last().is_some_and(at_border);
     let (a, b) = outline.semi_axes();
     let fill = moments.area / (std::f64::consts::PI * a * b);
     if chain.len() < 4 {
@@ -71,6 +76,7 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
         return match cut {
             true => Err(no(Reason::AtBorder)),
             false if (fill - 1.0).abs() > 0.45 => Err(no(Reason::NotAnEllipse)),
+            false if fattest(chain, limits.step as f64) < FLATTEST => Err(no(Reason::TooFlat)),
             false => Ok(outline),
         };
     }
@@ -78,9 +84,12 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
         return Err(no(if b < 0.15 * a { Reason::TooFlat } else { Reason::NotAnEllipse }));
     }
     let found = if cut { through_ends(chain, limits) } else { through_runs(chain, &moments) };
-    let Some((outline, rms)) = found else { return Err(no(Reason::NotAnEllipse)) };
+    let Some((fitted, rms)) = found else { return Err(no(Reason::NotAnEllipse)) };
+    let area = |outline: &Outline| outline.p * outline.q - outline.r * outline.r;
+    let unseen = !cut && area(&fitted) > MOST_UNSEEN * area(&outline);
+    let outline = fitted;
     let (a, b) = outline.semi_axes();
-    if rms > 0.3 + 0.05 * b {
+    if unseen || rms > 0.3 + 0.05 * b {
         return Err(no(Reason::NotAnEllipse));
     }
     if cut {
@@ -95,12 +104,32 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
     Ok(outline)
 }
 
+/// Length of the longest run.
+fn widest(chain: &[Chord]) -> f32 {
+    chain.iter().map(|chord| chord.x1 - chord.x0).fold(0.0, |a, b| if a > b { a } else { b })
+}
+
+/// Axis ratio, at most, of an ellipse that a few rows show. With w its widest run, h its height and m the lean of the runs'
+/// middles, a b = w h / 4 and a² + b² = (w² + (1 + m²) h²) / 4; up to one step of height is unknown above and below.
+fn fattest(chain: &[Chord], step: f64) -> f64 {
+    let (Some(first), Some(last)) = (chain.first(), chain.last()) else { return 0.0 };
+    let middle = |chord: &Chord| f64::from(chord.x0 + chord.x1) / 2.0;
+    let lean = (middle(last) - middle(first)) / f64::from(last.y - first.y).max(1.0);
+    let widest = f64::from(widest(chain));
+    let slant = 1.0 + lean * lean;
+    let rows = chain.len() as f64;
+    // the ratio is largest where both terms of the sum are alike
+    let height = (widest / slant.sqrt()).clamp((rows - 1.0) * step, (rows + 1.0) * step);
+    let half = 2.0 * widest * height / (widest * widest + slant * height * height);
+    // r from 2 r / (1 + r²)
+    half / (1.0 + (1.0 - half * half).max(0.0).sqrt())
+}
+
 /// Narrowest run between two wide parts of a chain: at most two thirds of the widest run above and of that below.
 pub(crate) fn neck(chain: &[Chord]) -> Option<usize> {
     let length = |chord: &Chord| chord.x1 - chord.x0;
     let inner = 3..chain.len().checked_sub(3)?;
     let neck = inner.min_by(|&a, &b| length(&chain[a]).total_cmp(&length(&chain[b])))?;
-    let widest = |part: &[Chord]| part.iter().map(length).fold(0.0, f32::max);
     let least = widest(&chain[..neck]).min(widest(&chain[neck + 1..]));
     (1.5 * length(&chain[neck]) < least).then_some(neck)
 }
@@ -168,36 +197,13 @@ fn through_ends(chain: &[Chord], limits: &Limits) -> Option<(Outline, f64)> {
     Some((outline, (sum / ends.len() as f64).sqrt()))
 }
 
-/// How far runs extend, for the first tests.
-struct Extent {
-    u: f64,
-    v: f64,
-    /// The longer side of their box.
-    longest: f64,
-}
-
-impl Extent {
-    fn of(chain: &[Chord], step: f64) -> Self {
-        let (mut left, mut right) = (f32::INFINITY, f32::NEG_INFINITY);
-        for chord in chain {
-            left = if chord.x0 < left { chord.x0 } else { left };
-            right = if chord.x1 > right { chord.x1 } else { right };
-        }
-        let middle = |low: f32, high: f32| (f64::from(low) + f64::from(high)) / 2.0;
-        let (Some(first), Some(last)) = (chain.first(), chain.last()) else {
-            return Self { u: 0.0, v: 0.0, longest: 0.0 };
-        };
-        let (width, height) = (f64::from(right - left), chain.len() as f64 * step);
-        Self {
-            u: middle(left, right),
-            v: middle(first.y, last.y),
-            longest: if width > height { width } else { height },
-        }
-    }
-}
-
-/// Area, centroid and central second moments of runs.
+/// How far runs extend, and their area, centroid and central second moments: all in one walk along the chain.
 struct Moments {
+    /// Middle of their box, and its longer side.
+    middle: [f64; 2],
+    longest: f64,
+    /// Whether the border of the picture ends one of them.
+    cut: bool,
     area: f64,
     u: f64,
     v: f64,
@@ -210,19 +216,29 @@ impl Moments {
     /// Each run stands for a bar of `step` rows. Summed about the first run, where the sums stay small.
     fn of(chain: &[Chord], step: f64) -> Self {
         let (x, y) = chain.first().map_or((0.0, 0.0), |first| (f64::from(first.x0), f64::from(first.y)));
+        let (mut left, mut right, mut cut) = (f32::INFINITY, f32::NEG_INFINITY, false);
         let (mut length, mut u, mut v, mut uu, mut uv, mut vv) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         for chord in chain {
+            left = if chord.x0 < left { chord.x0 } else { left };
+            right = if chord.x1 > right { chord.x1 } else { right };
+            cut |= chord.cut;
             let (x0, x1, dy) = (f64::from(chord.x0) - x, f64::from(chord.x1) - x, f64::from(chord.y) - y);
             let (bar, dx) = (x1 - x0, (x0 + x1) / 2.0);
+            let (first, second) = (bar * dx, bar * dy);
             length += bar;
-            u += bar * dx;
-            v += bar * dy;
-            uu += bar * (dx * dx + bar * bar / 12.0);
-            uv += bar * dx * dy;
-            vv += bar * dy * dy;
+            u += first;
+            v += second;
+            uu += first * dx + bar * bar * bar / 12.0;
+            uv += first * dy;
+            vv += second * dy;
         }
+        let (width, height) = (f64::from(right - left), chain.len() as f64 * step);
+        let last = chain.last().map_or(y, |last| f64::from(last.y));
         (u, v) = (u / length, v / length);
         Self {
+            middle: [f64::from(left + right) / 2.0, (y + last) / 2.0],
+            longest: if width > height { width } else { height },
+            cut,
             area: length * step,
             u: x + u,
             v: y + v,
@@ -289,6 +305,26 @@ mod tests {
         assert!(test(&bars(60, 5.0, 1.0), &LIMITS).is_err());
         assert_eq!(test(&bars(1, 3.0, 0.0), &LIMITS).unwrap_err().reason, Reason::TooSmall);
         assert_eq!(test(&bars(40, 600.0, 0.0), &LIMITS).unwrap_err().reason, Reason::TooLarge);
+    }
+
+    #[test]
+    fn a_few_rows_show_whether_an_ellipse_is_too_flat() {
+        let rows = |count: usize, width: f32, lean: f32| -> Vec<Chord> {
+            let x = |k: usize| 100.0 + lean * 2.0 * k as f32;
+            (0..count).map(|k| Chord { x0: x(k), x1: x(k) + width, y: 20.5 + 2.0 * k as f32, cut: false }).collect()
+        };
+        // two rows stand for up to six: a circle of six pixels, an ellipse of twenty by six upright, a bar, a slanted stroke
+        assert!((fattest(&rows(2, 6.0, 0.0), 2.0) - 1.0).abs() < 1e-9);
+        assert!((fattest(&rows(2, 20.0, 0.0), 2.0) - 0.3).abs() < 1e-9);
+        assert_eq!(test(&rows(2, 40.0, 0.0), &LIMITS).unwrap_err().reason, Reason::TooFlat);
+        assert_eq!(test(&rows(3, 6.0, 4.0), &LIMITS).unwrap_err().reason, Reason::TooFlat);
+        // of an ellipse no rows show less than its own ratio
+        for k in 0..60 {
+            let (turn, v) = (0.1 * f64::from(k), 40.0 + 0.07 * f64::from(k));
+            let truth = Outline::from_axes(60.0, v, 9.0, 3.0, turn);
+            let chain = chain(&truth);
+            assert!(chain.len() > 3 || fattest(&chain, 2.0) > 0.33, "{k}: {chain:?}");
+        }
     }
 
     #[test]

@@ -65,7 +65,7 @@ fn at<T: Sample, R>(
         candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut measure = Measure::new(plane, levels, options);
         for (_, outline, bright) in candidates {
-            let found = measure.find(&outline, bright).ok();
+            let found = measure.confirm(&outline, bright).ok();
             if let Some(result) = found.and_then(|found| finish(&mut measure, &found)) {
                 return Some(result);
             }

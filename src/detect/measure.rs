@@ -111,13 +111,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         Self { plane, levels, options, edges: Edges::default(), work: Workspace::default() }
     }
 
-    /// Edges, ellipse and surround of a target whose outline is known to a fraction of its size.
-    pub fn find(&mut self, start: &Outline, bright: bool) -> Result<Found, Reason> {
-        look::first(&self.plane, &self.levels, start, bright)?;
-        self.confirm(start, bright)
-    }
-
-    /// The same of what has passed its first look.
+    /// Edges, ellipse and surround of a target that has passed its first look, whose outline is known to a fraction of its size.
     pub fn confirm(&mut self, start: &Outline, bright: bool) -> Result<Found, Reason> {
         let mut outline = *start;
         let mut fitted: Option<EllipseFit> = None;

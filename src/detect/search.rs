@@ -20,15 +20,16 @@ use crate::image::{Plane, Sample};
 pub(crate) struct Candidate {
     pub outline: Outline,
     pub bright: bool,
-    /// The first look at it, taken while its rows are still near the processor.
-    pub look: Result<(), Reason>,
 }
 
-/// Blobs that passed their tests, and the others. Those that are too small or too large are many, and only counted.
+/// Blobs that passed their tests and the first look at them, and the others. Those that are too small or too large are many, and
+/// only counted.
 #[derive(Default)]
 pub(crate) struct Blobs {
     pub candidates: Vec<Candidate>,
-    pub rejected: Vec<NoBlob>,
+    /// What had no shape, and what did not stand out.
+    pub shapeless: Vec<NoBlob>,
+    pub unlike: Vec<NoBlob>,
     pub too_small: usize,
     pub too_large: usize,
 }
@@ -60,7 +61,7 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
         max_diameter: options.max_diameter / 4.0,
         width: plane.width / 4,
         height: plane.height / 4,
-        step: 1,
+        step: 2,
     };
     let large = options.max_diameter > LARGE && plane.width >= 32 && plane.height >= 32;
     let weak = (3.0 * levels.noise).max(0.03 * levels.range).max(4.0);
@@ -70,7 +71,7 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
     for y in (0..plane.height).step_by(whole.limits.step) {
         whole.row(plane.row(y), y, &look);
         if let Some(quarter) = &mut quarter
-            && y % 4 == 2
+            && y % (4 * limits.step) == 2
             && y / 4 < limits.height
         {
             scan::quartered(plane.row(y - 2), plane.row(y), &mut reduced);
@@ -82,8 +83,11 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
         for candidate in &mut found.candidates {
             candidate.outline = enlarged(&candidate.outline);
         }
-        // what is no blob there is seen in the whole picture
-        blobs.push(Blobs { candidates: found.candidates, ..Blobs::default() });
+        for no in &mut found.unlike {
+            *no = NoBlob { u: 4.0 * no.u, v: 4.0 * no.v - 0.5, diameter: 4.0 * no.diameter, ..*no };
+        }
+        // what has no shape there is seen in the whole picture
+        blobs.push(Blobs { candidates: found.candidates, unlike: found.unlike, ..Blobs::default() });
     }
     blobs
 }
@@ -165,9 +169,13 @@ impl Blobs {
         limits: &Limits,
         look: &impl Fn(&Outline, bool) -> Result<(), Reason>,
     ) {
-        let candidate = |outline| Candidate { outline, bright, look: look(&outline, bright) };
+        // looked at while its rows are still near the processor
+        let mut enter = |outline| match look(&outline, bright) {
+            Ok(()) => self.candidates.push(Candidate { outline, bright }),
+            Err(reason) => self.unlike.push(NoBlob::of(&outline, reason)),
+        };
         match blob::test(chain, limits) {
-            Ok(outline) => self.candidates.push(candidate(outline)),
+            Ok(outline) => enter(outline),
             Err(no) => {
                 // two targets, one above the other, that touch: each may still be one
                 if no.reason == Reason::NotAnEllipse
@@ -175,12 +183,12 @@ impl Blobs {
                 {
                     let parts = [&chain[..neck], &chain[neck + 1..]];
                     let outlines = parts.into_iter().filter_map(|part| blob::test(part, limits).ok());
-                    self.candidates.extend(outlines.map(candidate));
+                    outlines.for_each(enter);
                 }
                 match no.reason {
                     Reason::TooSmall => self.too_small += 1,
                     Reason::TooLarge => self.too_large += 1,
-                    _ => self.rejected.push(no),
+                    _ => self.shapeless.push(no),
                 }
             }
         }
