@@ -196,9 +196,10 @@ impl Band {
     /// Nearly the share and the derivatives, without rendering: across the rim an edge of variance s² + 1/12 (the pixel's own),
     /// with the light of a curved rim. With d the distance from the rim, z = d/σ, r that from the centre of curvature and
     /// ε = σ/r, a disc's derivative after its radius, φ(z)/σ sqrt(radius/r) (1 + ε²/8 ...), integrates to
-    /// Φ(-z) - φ(z) (ε/2 + ε² z/8) in second order. Good to a few thousandths, enough to show the way.
+    /// Φ(-z) - φ(z) (ε/2 + ε² z/8) in second order. Good to a few thousandths, enough to show the way. Without the derivatives (D) it
+    /// costs half.
     #[inline(never)]
-    pub fn sketch(&mut self, outline: &Outline, blur: f64, origin: [f64; 2]) {
+    pub fn sketch<const D: bool>(&mut self, outline: &Outline, blur: f64, origin: [f64; 2]) {
         let det = outline.p * outline.q - outline.r * outline.r;
         let [p, q, r] = [outline.p, outline.q, outline.r].map(|x| f32x4::splat((x / det) as f32));
         let [u, v] = [outline.u - origin[0], outline.v - origin[1]].map(|x| f32x4::splat(x as f32));
@@ -217,18 +218,22 @@ impl Band {
         for (((((x, y), kept), share), ((du, dv), ds)), ((dp, dq), dr)) in pixels.zip(moves).zip(shapes) {
             let (x, y, kept) = (f32x4::new(*x) - u, f32x4::new(*y) - v, f32x4::new(*kept));
             let (c, s) = (q * x - r * y, p * y - r * x);
-            let turn = one / (c * c + s * s + tiny).sqrt();
+            let root = (c * c + s * s + tiny).sqrt();
+            let turn = one / root;
             let (c, s) = (c * turn, s * turn);
             // the normal, and the distance of the place from the rim along it
             let (nx, ny) = (q * c - r * s, p * s - r * c);
             let length = one / (nx * nx + ny * ny + tiny).sqrt();
             let (nx, ny) = (nx * length, ny * length);
-            let z = (one / turn - one) * length * inverse;
+            let z = (root - one) * length * inverse;
             let turn = turn.fast_min(most);
             let bounded = z.fast_max(f32x4::splat(-5.5)).fast_min(f32x4::splat(5.5));
             let (below, density) = normal_distribution(bounded);
             let bent = (curved * turn * length * length * length).fast_min(one);
             *share = (kept * (one - below - density * bent * (half + eighth * bent * bounded))).to_array();
+            if !D {
+                continue;
+            }
             let edge = density * turn.sqrt() * inverse * kept;
             let (across, down) = (edge * nx, edge * ny);
             *du = across.to_array();
@@ -475,7 +480,7 @@ mod tests {
             field.render(&outline, blur, true, &band.spans);
             band.gather(&field, [outline.u, outline.v], Some(&outline));
             let exact = [&band.share, &band.derivatives[0], &band.derivatives[1]].map(|column| column.to_vec());
-            band.sketch(&outline, blur, [outline.u, outline.v]);
+            band.sketch::<true>(&outline, blur, [outline.u, outline.v]);
             let sketched = [&band.share, &band.derivatives[0], &band.derivatives[1]];
             for ((exact, sketched), limit) in exact.iter().zip(sketched).zip([0.006, 0.02, 0.02]) {
                 assert!(exact.iter().any(|x| *x > 0.1));

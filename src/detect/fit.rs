@@ -82,8 +82,10 @@ pub(crate) fn approach<T: Sample>(
             return None;
         }
         let clipped = state.is_clipped();
-        if anew || !clipped {
-            work.band.sketch(&state.outline, state.blur, work.origin);
+        if anew {
+            work.band.sketch::<true>(&state.outline, state.blur, work.origin);
+        } else if !clipped {
+            work.band.sketch::<false>(&state.outline, state.blur, work.origin);
         }
         if clipped {
             // only the foot of its profile shows, where a sketch is not good enough
@@ -125,7 +127,7 @@ pub(crate) fn fit<T: Sample>(
         // derivatives only show the way
         let sketched = render_all && state.may_be_sketched();
         if sketched {
-            work.band.sketch(&state.outline, state.blur, work.origin);
+            work.band.sketch::<true>(&state.outline, state.blur, work.origin);
         }
         work.residuals(&state, render_all && !sketched)?;
         if near && disturbed {

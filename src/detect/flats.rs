@@ -71,7 +71,8 @@ impl Moments {
     ) -> [i32; 5] {
         let surround = region.surround;
         let (middle, level) = origin(y, region, inside);
-        let (whole, rest) = (level.round() as i32, (level - level.round()) as f32);
+        let near = nearest(level);
+        let (whole, rest) = (near as i32, (level - near) as f32);
         let limit = 4.0 * surround.noise.max(0.6) + if inside { 0.05 * surround.contrast.abs() } else { 0.0 };
         let (limit, slope) = (limit as f32, surround.slope[0] as f32);
         let saturation = region.saturation as i32;
@@ -113,7 +114,7 @@ impl Moments {
         };
         let [n, sx, sxx, sr, srx] = sums.map(f64::from);
         let (middle, level) = origin(y, region, inside);
-        let (sg, sgx) = (sr + level.round() * n, srx + level.round() * sx);
+        let (sg, sgx) = (sr + nearest(level) * n, srx + nearest(level) * sx);
         let dy = y as f64 + 0.5 - region.outline.v;
         // from whole columns to the distance from the outline's centre
         let shift = middle as f64 + 0.5 - region.outline.u;
@@ -128,6 +129,11 @@ impl Moments {
         self.gx += sgx + shift * sg;
         self.gy += sg * dy;
     }
+}
+
+/// A whole number near a level; rounding to even, as the machine does in one instruction.
+fn nearest(level: f64) -> f64 {
+    level.round_ties_even()
 }
 
 /// Middle column of a row, and the level expected there.
