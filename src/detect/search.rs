@@ -3,8 +3,8 @@
 //! A weak edge must not break what strong ones enclose (noise inside a dark dot), and a weak target has no strong edges.
 //! So the edges of a row are found once, with the lowest threshold, and linked several times: every level sees only the
 //! edges above its own threshold, three times that of the level below. Few edges are left after the first step, so that
-//! the levels cost little. The picture at a quarter of its size is searched in the same way for what is large or so far
-//! out of focus that three pixels do not cross its edge.
+//! the levels cost little. The picture at a quarter of its size is searched in the same way, in every second of its rows
+//! too, for what is large or so far out of focus that three pixels do not cross its edge.
 
 use super::blob::{self, Limits, NoBlob};
 use super::component::{self, Chord, Linker};
