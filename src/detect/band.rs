@@ -481,7 +481,10 @@ mod tests {
             band.gather(&field, [outline.u, outline.v], Some(&outline));
             let exact = [&band.share, &band.derivatives[0], &band.derivatives[1]].map(|column| column.to_vec());
             band.sketch::<true>(&outline, blur, [outline.u, outline.v]);
-            let sketched = [&band.share, &band.derivatives[0], &band.derivatives[1]];
+            let whole = band.share.clone();
+            band.sketch::<false>(&outline, blur, [outline.u, outline.v]);
+            assert_eq!(band.share, whole);
+            let sketched = [&whole, &band.derivatives[0], &band.derivatives[1]];
             for ((exact, sketched), limit) in exact.iter().zip(sketched).zip([0.006, 0.02, 0.02]) {
                 assert!(exact.iter().any(|x| *x > 0.1));
                 let worst = exact.iter().zip(sketched).map(|(x, y)| (x - y).abs()).fold(0.0, f32::max);

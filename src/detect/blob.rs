@@ -308,6 +308,18 @@ mod tests {
     }
 
     #[test]
+    fn a_bar_that_bulges_is_no_ellipse() {
+        // h² = 400 - 0.05 t²: an ellipse of 40 by 179 pixels, of which 40 would be seen
+        let bulging: Vec<Chord> = (0..20)
+            .map(|k| {
+                let half = (400.0 - 0.05 * (2.0 * k as f32 - 19.0).powi(2)).sqrt();
+                Chord { x0: 100.0 - half, x1: 100.0 + half, y: 60.5 + 2.0 * k as f32, cut: false }
+            })
+            .collect();
+        assert_eq!(test(&bulging, &LIMITS).unwrap_err().reason, Reason::NotAnEllipse);
+    }
+
+    #[test]
     fn a_few_rows_show_whether_an_ellipse_is_too_flat() {
         let rows = |count: usize, width: f32, lean: f32| -> Vec<Chord> {
             let x = |k: usize| 100.0 + lean * 2.0 * k as f32;

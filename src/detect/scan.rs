@@ -155,6 +155,23 @@ mod tests {
     }
 
     #[test]
+    fn noise_does_not_break_a_soft_edge() {
+        // differences over three pixels of 7, 14, 21, 24, 27, 20 and 13 and, where the edge goes on, of 6, 13 and 12
+        let mut row = [20u8; 48];
+        row[16..26].copy_from_slice(&[27, 34, 41, 51, 61, 61, 64, 67, 74, 76]);
+        row[26..].fill(76);
+        let mut found = Vec::new();
+        edges(&row, 12, &mut found);
+        assert_eq!(found.len(), 1, "{found:?}");
+        // two edges of one direction further apart stay two
+        let mut steps = [20u8; 48];
+        steps[16..24].fill(60);
+        steps[24..].fill(100);
+        edges(&steps, 12, &mut found);
+        assert_eq!(found.iter().map(|edge| edge.x).collect::<Vec<_>>(), [16.0, 24.0]);
+    }
+
+    #[test]
     fn short_rows_and_flat_rows_have_none() {
         let mut found = Vec::new();
         edges(&[0u8, 255, 0], 3, &mut found);

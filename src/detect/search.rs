@@ -84,7 +84,8 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
             candidate.outline = enlarged(&candidate.outline);
         }
         for no in &mut found.unlike {
-            *no = NoBlob { u: 4.0 * no.u, v: 4.0 * no.v - 0.5, diameter: 4.0 * no.diameter, ..*no };
+            let [u, v] = enlarged_place(no.u, no.v);
+            *no = NoBlob { u, v, diameter: 4.0 * no.diameter, ..*no };
         }
         // what has no shape there is seen in the whole picture
         blobs.push(Blobs { candidates: found.candidates, unlike: found.unlike, ..Blobs::default() });
@@ -92,9 +93,15 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
     blobs
 }
 
-/// An outline in the quartered picture as it is in the whole one: of four rows the first and the third were taken.
+/// A place in the quartered picture as it is in the whole one: of four rows the first and the third were taken.
+fn enlarged_place(u: f64, v: f64) -> [f64; 2] {
+    [4.0 * u, 4.0 * v - 0.5]
+}
+
+/// The same of an outline.
 fn enlarged(outline: &Outline) -> Outline {
-    Outline { u: 4.0 * outline.u, v: 4.0 * outline.v - 0.5, ..outline.scaled(4.0) }
+    let [u, v] = enlarged_place(outline.u, outline.v);
+    Outline { u, v, ..outline.scaled(4.0) }
 }
 
 /// What one picture shows, row by row.
