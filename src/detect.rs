@@ -30,6 +30,7 @@ mod rendered;
 mod scan;
 mod scatter;
 mod search;
+mod sketch;
 mod surround;
 
 use crate::detection::{Codes, DetectOptions, Detection, MethodResult, Polarity, Reason, Rejected, Target};
