@@ -269,7 +269,7 @@ export interface Adjustment {
   cameras: AdjustedCamera[];
   photos: AdjustedPhoto[];
   points: AdjustedPoint[];
-  /** In the project's order. */
+  /** In the project's order; the rows are made when they are first read. */
   observations: AdjustedObservation[];
   check_points: { id: string; difference: [number, number, number] | null }[];
   precision: {

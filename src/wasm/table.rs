@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use js_sys::{Array, Float64Array, JsString, Uint32Array};
+use js_sys::{Array, Float64Array, JsString, Object, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::adjustment::{AdjustedObservation, AdjustedPoint};
@@ -34,8 +34,8 @@ extern "C" {
     fn write_observations(numbers: &[f64], places: &[u32], names: &Array) -> Array;
     #[wasm_bindgen(js_name = writePoints)]
     fn write_points(numbers: &[f64], places: &[u32], names: &Array) -> Array;
-    #[wasm_bindgen(js_name = writeAdjustedObservations)]
-    fn write_adjusted_observations(numbers: &[f64], places: &[u32], names: &Array) -> Array;
+    #[wasm_bindgen(js_name = addAdjustedObservations)]
+    fn add_observations(adjustment: &Object, numbers: &[f64], places: &[u32], names: &Array);
     #[wasm_bindgen(js_name = writeRejected)]
     fn write_rejected(numbers: &[f64], reasons: &[u32], names: &Array) -> Array;
     #[wasm_bindgen(js_name = writeAdjustedPoints)]
@@ -122,8 +122,8 @@ pub fn point_rows(points: &[Point]) -> Array {
     write_points(&numbers, &flags, &names)
 }
 
-/// Rows of adjusted observations.
-pub fn adjusted_observation_rows(observations: &[AdjustedObservation]) -> Array {
+/// Gives an adjustment its field of adjusted observations, whose rows are made when they are read.
+pub fn add_adjusted_observations(adjustment: &Object, observations: &[AdjustedObservation]) {
     let mut names = Names::default();
     let (mut last_photo, mut last_point) = (Repeated::default(), Repeated::default());
     let (mut numbers, mut places) =
@@ -155,7 +155,7 @@ pub fn adjusted_observation_rows(observations: &[AdjustedObservation]) -> Array 
             u32::from(*enabled),
         ]);
     }
-    write_adjusted_observations(&numbers, &places, &names.list)
+    add_observations(adjustment, &numbers, &places, &names.list);
 }
 
 /// Rows of adjusted points.

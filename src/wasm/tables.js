@@ -148,8 +148,30 @@ export function writePoints(numbers, places, names) {
   return rows;
 }
 
-/** Columns vx, vy, rx, ry, wx, wy, mdb_x, mdb_y, effect_x, effect_y, weight; photo, point, enabled. A weight of 1 has no field. */
-export function writeAdjustedObservations(numbers, places, names) {
+/** Gives an object a field whose value is made when it is first read: a copy, JSON or a clone read it like any other. */
+function addLater(object, field, make) {
+  let made;
+  const set = (value) => Object.defineProperty(object, field, { value, writable: true, enumerable: true, configurable: true });
+  const get = () => {
+    made ??= make();
+    if (Object.getOwnPropertyDescriptor(object, field)?.configurable) set(made);
+    return made;
+  };
+  Object.defineProperty(object, field, { get, set, enumerable: true, configurable: true });
+}
+
+/**
+ * Columns vx, vy, rx, ry, wx, wy, mdb_x, mdb_y, effect_x, effect_y, weight; photo, point, enabled. A weight of 1 has no field.
+ *
+ * Every number of a row is an object of its own for V8: the rows take four times the room of their columns, and copying them is
+ * most of what its garbage collection does. Who asks for points alone, or keeps many adjustments, goes without.
+ */
+export function addAdjustedObservations(adjustment, numbers, places, names) {
+  const [ownNumbers, ownPlaces] = [numbers.slice(), places.slice()];
+  addLater(adjustment, 'observations', () => adjustedObservations(ownNumbers, ownPlaces, names));
+}
+
+function adjustedObservations(numbers, places, names) {
   const rows = new Array(places.length / 3);
   for (let row = 0; row < rows.length; row++) {
     const [n, p] = [11 * row, 3 * row];

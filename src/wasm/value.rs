@@ -136,7 +136,7 @@ pub fn detection_object(mut detection: Detection) -> JsValue {
 pub fn adjustment_object(mut adjustment: Adjustment) -> JsValue {
     let (observations, points) = (std::mem::take(&mut adjustment.observations), std::mem::take(&mut adjustment.points));
     let object: Object = write(&adjustment).unchecked_into();
-    set(&object, "observations", &table::adjusted_observation_rows(&observations));
+    table::add_adjusted_observations(&object, &observations);
     set(&object, "points", &table::adjusted_point_rows(&points));
     object.into()
 }

@@ -79,6 +79,28 @@ test('a gross error in a distance is taken out by name, with its record', () => 
   assert.ok(robust.given[1].weight < 0.01 && robust.given[1].enabled, JSON.stringify(robust.given[1]));
 });
 
+test('adjusted observations, made when they are read, are a field like any other', () => {
+  const project = sightline.simulate(network());
+  const adjusted = () => sightline.adjust(project);
+  const rows = adjusted().observations;
+  assert.equal(rows.length, 6 * 20);
+  const read = adjusted();
+  assert.ok(Object.keys(read).includes('observations'));
+  assert.equal(read.observations, read.observations);
+  assert.deepEqual(structuredClone(adjusted()).observations, rows);
+  assert.deepEqual(JSON.parse(JSON.stringify(adjusted())).observations, rows);
+  assert.deepEqual({ ...adjusted() }.observations, rows);
+  assert.deepEqual(Object.freeze(adjusted()).observations, rows);
+  assert.deepEqual(Object.seal(adjusted()).observations, rows);
+  const written = adjusted();
+  written.observations = [];
+  assert.deepEqual(written.observations, []);
+  // Other calls in between take the engine's memory that the columns came from.
+  const first = adjusted();
+  sightline.adjust(sightline.simulate(network({ seed: 3 })));
+  assert.deepEqual(first.observations, rows);
+});
+
 test('statistics are left out when they are not wanted', () => {
   const project = sightline.simulate(network());
   const lean = sightline.adjust(project, { statistics: 'none' });
