@@ -36,8 +36,8 @@ extern "C" {
     fn write_points(numbers: &[f64], places: &[u32], names: &Array) -> Array;
     #[wasm_bindgen(js_name = addAdjustedObservations)]
     fn add_observations(adjustment: &Object, numbers: &[f64], places: &[u32], names: &Array);
-    #[wasm_bindgen(js_name = writeRejected)]
-    fn write_rejected(numbers: &[f64], reasons: &[u32], names: &Array) -> Array;
+    #[wasm_bindgen(js_name = addRejected)]
+    fn add_rejected(detection: &Object, numbers: &[f64], reasons: &[u32], names: &Array);
     #[wasm_bindgen(js_name = writeAdjustedPoints)]
     fn write_adjusted_points(numbers: &[f64], places: &[u32], names: &Array) -> Array;
 }
@@ -171,8 +171,8 @@ pub fn adjusted_point_rows(points: &[AdjustedPoint]) -> Array {
     write_adjusted_points(&numbers, &places, &names)
 }
 
-/// Rows of rejected blobs.
-pub fn rejected_rows(blobs: &[Rejected]) -> Array {
+/// Gives a detection its field of rejected blobs, whose rows are made when they are read.
+pub fn add_rejected_blobs(detection: &Object, blobs: &[Rejected]) {
     let mut names: Vec<Reason> = Vec::new();
     let (mut numbers, mut reasons) = (Vec::with_capacity(3 * blobs.len()), Vec::with_capacity(blobs.len()));
     for Rejected { u, v, diameter, reason } in blobs {
@@ -184,7 +184,7 @@ pub fn rejected_rows(blobs: &[Rejected]) -> Array {
         reasons.push(at as u32);
     }
     let names: Array = names.iter().map(super::value::write).collect();
-    write_rejected(&numbers, &reasons, &names)
+    add_rejected(detection, &numbers, &reasons, &names);
 }
 
 /// Identifiers numbered by their first appearance.

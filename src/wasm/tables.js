@@ -215,7 +215,12 @@ export function writeAdjustedPoints(numbers, places, names) {
 }
 
 /** Columns u, v, diameter; reason. */
-export function writeRejected(numbers, reasons, names) {
+export function addRejected(detection, numbers, reasons, names) {
+  const [ownNumbers, ownReasons] = [numbers.slice(), reasons.slice()];
+  addLater(detection, 'rejected_blobs', () => rejected(ownNumbers, ownReasons, names));
+}
+
+function rejected(numbers, reasons, names) {
   const rows = new Array(reasons.length);
   for (let row = 0; row < rows.length; row++) {
     const n = 3 * row;

@@ -128,7 +128,7 @@ pub fn oriented_object(oriented: Oriented) -> JsValue {
 pub fn detection_object(mut detection: Detection) -> JsValue {
     let rejected = std::mem::take(&mut detection.rejected_blobs);
     let object: Object = write(&detection).unchecked_into();
-    set(&object, "rejected_blobs", &table::rejected_rows(&rejected));
+    table::add_rejected_blobs(&object, &rejected);
     object.into()
 }
 
