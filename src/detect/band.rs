@@ -235,10 +235,23 @@ impl Band {
         dropped
     }
 
-    /// Median of the absolute residuals of the pixels that count, as a standard deviation.
-    pub fn robust_deviation(&mut self) -> f64 {
-        let counted = self.residual.iter().zip(&self.kept).filter(|(_, kept)| **kept > 0.0);
-        1.4826 * median::of_sizes(counted.map(|(residual, _)| residual.abs()), &mut self.sizes)
+    /// Median of the absolute residuals of the pixels that count, as a standard deviation; 0 where it does not exceed `least`,
+    /// which a count shows sooner.
+    pub fn robust_deviation(&mut self, least: f64) -> f64 {
+        const PER_SIZE: f64 = 1.4826;
+        let Self { residual, kept, sizes, .. } = self;
+        let small = (least / PER_SIZE) as f32;
+        let (mut counted, mut within) = (0u32, 0u32);
+        for (residual, kept) in residual.iter().zip(&*kept) {
+            let counts = u32::from(*kept > 0.0);
+            counted += counts;
+            within += counts & u32::from(residual.abs() <= small);
+        }
+        if within > counted / 2 {
+            return 0.0;
+        }
+        let counted = residual.iter().zip(&*kept).filter(|(_, kept)| **kept > 0.0);
+        PER_SIZE * median::of_sizes(counted.map(|(residual, _)| residual.abs()), sizes)
     }
 
     /// Rms of what is left of the residuals when their mean profile across the rim is taken off: what a lens does to an
@@ -272,14 +285,15 @@ impl Band {
         let mut sums = [f32x8::ZERO; 8];
         for k in 0..columns[0].len() {
             let row = columns.map(|column| f32x8::new(column[k]));
-            // half the quadratic form: its lower triangle and half its diagonal
-            let mut half = f32x8::ZERO;
-            for i in 0..UNKNOWNS {
-                let below = (0..i).fold(f32x8::ZERO, |sum, j| sum + factors[i][j] * row[j]);
-                half += (below + f32x8::splat(0.5) * factors[i][i] * row[i]) * row[i];
-            }
             let moved = |i: usize| (0..UNKNOWNS).fold(f32x8::ZERO, |sum, j| sum + factors[i][j] * row[j]);
             let (u, v) = (moved(0), moved(1));
+            // half the quadratic form: the lower triangle of what is left without u and v, and half its diagonal
+            let mut half = (u - f32x8::splat(0.5) * factors[0][0] * row[0]) * row[0]
+                + (v - factors[1][0] * row[0] - f32x8::splat(0.5) * factors[1][1] * row[1]) * row[1];
+            for i in 2..UNKNOWNS {
+                let below = (2..i).fold(f32x8::ZERO, |sum, j| sum + factors[i][j] * row[j]);
+                half += (below + f32x8::splat(0.5) * factors[i][i] * row[i]) * row[i];
+            }
             let [kept, share, residual] = [kept[k], share[k], residual[k]].map(f32x8::new);
             let free = (kept - (half + half)).fast_max(f32x8::ZERO);
             let (square, lit) = (residual * residual, share * free);

@@ -215,9 +215,9 @@ impl Workspace {
     fn outlier_limit(&mut self, state: &State, region: &Region) -> f64 {
         // an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel
         let sharp = if state.blur <= BLUR.0 { 0.1 * state.contrast.abs() } else { 0.0 };
-        let noise = self.band.robust_deviation().max(region.surround.noise).max(0.5);
         let profile = if region.stairs { STAIRS } else { LENS };
-        (5.0 * noise).max(sharp).max(profile * state.contrast.abs())
+        let least = (5.0 * region.surround.noise.max(0.5)).max(sharp).max(profile * state.contrast.abs());
+        least.max(5.0 * self.band.robust_deviation(least / 5.0))
     }
 
     fn normal(&self, state: &State, flats: &Flats) -> Normal {
