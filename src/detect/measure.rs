@@ -58,6 +58,8 @@ const CLIPPED: f64 = 0.5;
 const BLURRED: f64 = 1.2;
 /// Blur from which on no place of an edge is the steepest within the noise, so that its edges are searched between means.
 const DEFOCUSED: f64 = 2.0;
+/// Blur from which on a target's edges are refined before they are judged.
+const SOFT: f64 = 1.3;
 const SHARP: f64 = 0.9;
 
 /// Half the width of the band of pixels that the rim's blur reaches.
@@ -90,6 +92,25 @@ pub(crate) struct Found {
     /// Median difference over two pixels across its edges.
     pub strength: f64,
     pub bright: bool,
+    /// Whether its edges are fitted profiles rather than steepest places.
+    pub refined: bool,
+}
+
+impl Found {
+    /// What noise does to its edges, for a blur.
+    fn spread(&self, blur: f64) -> f64 {
+        if self.refined { quality::fitted(blur) } else { quality::steepest(blur) }
+    }
+}
+
+/// A rough blur where it matters.
+fn blurred(focus: f64) -> f64 {
+    if focus > DEFOCUSED { focus } else { SHARP }
+}
+
+/// Rms of edge points from an outline of semi-minor axis b beyond which it is none, in pixels.
+fn uneven(b: f64) -> f64 {
+    0.3 + 0.03 * b
 }
 
 /// Blur from the edges' steepness: over two pixels an edge of contrast C and blur s falls by C (2 Φ(1/s) - 1), where
@@ -103,6 +124,23 @@ fn blur_of(strength: f64, contrast: f64) -> f64 {
     let t = (-2.0 * ((1.0 - ratio) / 2.0).ln()).sqrt();
     let z = t - (2.30753 + 0.27061 * t) / (1.0 + t * (0.99229 + 0.04481 * t));
     ((1.0 / z.max(0.05)).powi(2) - SAMPLED).max(0.09).sqrt().min(6.5)
+}
+
+/// Profile of the edges of an outline, from its surround and the edges' steepness; `blur` is a first estimate.
+fn profile(outline: &Outline, surround: &Surround, strength: f64, mut blur: f64) -> Profile {
+    // half-way to the rim a small target is not as bright as it would be without blur
+    let mut contrast = surround.contrast;
+    for _ in 0..3 {
+        contrast = surround.contrast / edge::half_way(outline.semi_axes().1, blur);
+        blur = blur_of(strength, contrast.abs());
+    }
+    Profile {
+        level: surround.level,
+        slope: surround.slope,
+        origin: [outline.u, outline.v],
+        contrast,
+        blur: (blur * blur + 1.0 / 12.0).sqrt(),
+    }
 }
 
 impl<'a, T: Sample> Measure<'a, T> {
@@ -141,7 +179,8 @@ impl<'a, T: Sample> Measure<'a, T> {
             outline = found.outline;
             // out of focus, two pixels see but 0.8 / s of the contrast
             let contrast = self.strength() * if focus > DEFOCUSED { 1.25 * focus } else { 1.0 };
-            let scatter = quality::expected_scatter(b, &self.levels, self.levels.noise, contrast, focus);
+            let spread = quality::steepest(blurred(focus));
+            let scatter = quality::expected_scatter(b, &self.levels, self.levels.noise, contrast, spread);
             // the search knows the height of a small target to two pixels only
             let rough = if round == 0 && b < SMALL { 0.2 } else { 0.0 };
             if found.rms > 0.05 + rough + 1.3 * scatter {
@@ -163,7 +202,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             }
             fitted = Some(found);
         }
-        let ellipse = fitted.ok_or(Reason::NotAnEllipse)?;
+        let mut ellipse = fitted.ok_or(Reason::NotAnEllipse)?;
         let (a, b) = outline.semi_axes();
         if b < FLATTEST * a {
             return Err(Reason::TooFlat);
@@ -185,12 +224,11 @@ impl<'a, T: Sample> Measure<'a, T> {
         if ellipse.occluded > quality::HIDDEN {
             return Err(Reason::Occluded);
         }
-        if ellipse.rms > 0.3 + 0.03 * b || !quality::size_allows(&ellipse) {
+        if ellipse.rms > uneven(b) && focus <= SOFT || !quality::size_allows(&ellipse) {
             return Err(Reason::NotAnEllipse);
         }
-        let kept = undisturbed(&self.edges);
-        let rough =
-            surround::measure(&self.plane, &outline, focus.max(SHARP), &kept, NEARBY).ok_or(Reason::AtBorder)?;
+        let mut kept = undisturbed(&self.edges);
+        let rough = surround::measure(&self.plane, &outline, blurred(focus), &kept, NEARBY).ok_or(Reason::AtBorder)?;
         let strength = self.strength();
         let blur = blur_of(strength, rough.contrast.abs());
         let surround = if blur > BLURRED {
@@ -205,25 +243,33 @@ impl<'a, T: Sample> Measure<'a, T> {
         if !quality::has_shape(&ellipse, self.noise(&surround), signed) {
             return Err(Reason::LowContrast);
         }
+        let blur = blur_of(strength, signed);
+        let noise = self.noise(&surround);
+        let good = |ellipse: &EllipseFit, levels: &Levels, spread: f64| {
+            ellipse.rms <= uneven(b) && quality::outline_allows(ellipse, levels, noise, signed, spread)
+        };
+        // the steepest places of a soft edge scatter, its whole profile does not, unless it is that of a small blot
+        let refined = blur > SOFT && (focus <= DEFOCUSED || !good(&ellipse, &self.levels, quality::steepest(blur)));
+        if refined {
+            let (count, profile) = (self.edges.len(), profile(&outline, &surround, strength, blur));
+            edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
+            ellipse = ellipse::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Reason::NotAnEllipse)?;
+            outline = ellipse.outline;
+            kept = undisturbed(&self.edges);
+        }
+        let found = Found { ellipse, surround, kept, blur, strength, bright, refined };
+        if surround.uneven > UNEVEN || !good(&ellipse, &self.levels, found.spread(blur)) {
+            return Err(Reason::NotAnEllipse);
+        }
         let levels = DotLevels { dot: surround.level + surround.contrast, background: surround.level };
-        let faint = signed < quality::FAINT * self.noise(&surround);
+        let faint = signed < quality::FAINT * noise;
         if faint && look::stroke(&self.plane, &outline, levels) > STROKE
-            || ellipse.occluded > UNEXPLAINED && look::unexplained(&self.plane, &outline, &kept, levels) > UNEXPLAINED
+            || ellipse.occluded > UNEXPLAINED
+                && look::unexplained(&self.plane, &outline, &found.kept, levels) > UNEXPLAINED
         {
             return Err(Reason::NotAnEllipse);
         }
-        if surround.uneven > UNEVEN
-            || !quality::outline_allows(
-                &ellipse,
-                &self.levels,
-                self.noise(&surround),
-                signed,
-                blur_of(strength, signed),
-            )
-        {
-            return Err(Reason::NotAnEllipse);
-        }
-        Ok(Found { ellipse, surround, kept, blur: blur_of(strength, signed), strength, bright })
+        Ok(found)
     }
 
     /// Edges on `count` rays, of a target of about this blur.
@@ -246,7 +292,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             let contrast = look::contrast(&self.plane, outline, (2.0 * blur).max(look::OUTSIDE));
             blur = blur_of(strength, if bright { contrast } else { -contrast });
             if blur <= DEFOCUSED {
-                return SHARP;
+                break;
             }
         }
         blur
@@ -333,19 +379,7 @@ impl<'a, T: Sample> Measure<'a, T> {
     /// propagated noise, and as much more as the edges scatter more than it explains.
     fn refined_ellipse(&mut self, found: &Found, surround: &Surround) -> Result<(EllipseFit, [f64; 3]), Reason> {
         let outline = found.ellipse.outline;
-        // half-way to the rim a small target is not as bright as it would be without blur
-        let (mut contrast, mut blur) = (surround.contrast, found.blur);
-        for _ in 0..3 {
-            contrast = surround.contrast / edge::half_way(outline.semi_axes().1, blur);
-            blur = blur_of(found.strength, contrast.abs());
-        }
-        let profile = Profile {
-            level: surround.level,
-            slope: surround.slope,
-            origin: [outline.u, outline.v],
-            contrast,
-            blur: (blur * blur + 1.0 / 12.0).sqrt(),
-        };
+        let profile = profile(&outline, surround, found.strength, found.blur);
         let count = (outline.perimeter() / 4.0).round() as usize * 4;
         edge::refine(&self.plane, &outline, &profile, count.clamp(20, 1500), &mut self.edges);
         let fit = ellipse::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
@@ -413,7 +447,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         let (noise, contrast) = (self.noise(&found.surround), fit.contrast.abs());
         fit.disturbed <= DISTURBED
             && fit.rms <= 1.5 * noise + if self.levels.stairs { 0.25 } else { 0.1 } * contrast
-            && quality::is_target(&found.ellipse, &self.levels, fit.uneven, noise, contrast, fit.blur)
+            && quality::is_target(&found.ellipse, &self.levels, fit.uneven, noise, contrast, found.spread(fit.blur))
     }
 
     /// Share of the pixels inside the outline that are at the end of the scale.

@@ -26,19 +26,28 @@ const GAP_MISFIT: f64 = 0.024;
 /// Largest unexplained share of the contrast where edges are stairs.
 const STAIRS: f64 = 0.2;
 
-/// Largest rms distance of edge points from a good outline of semi-minor axis b, in pixels.
-///
-/// Noise n moves an edge of contrast C by about 1.7 n / C pixels; printing, compression and the picture's grid add up
-/// to 1 % of the diameter. With the blur s the fall over two pixels bends less: the place where it is steepest moves by
-/// sqrt(6) n over twice its second derivative, 0.8 C / s³, some 1.2 s³ n / C where samples are drawn from four pixels. Out of focus
-/// it is about 4 s n / C ([`search_wide`](super::edge::search_wide)).
-pub(crate) fn expected_scatter(b: f64, levels: &Levels, noise: f64, contrast: f64, blur: f64) -> f64 {
-    (1.2 * blur.powi(3)).min(4.0 * blur).max(2.8) * noise / contrast.max(1e-9) + 0.02 * b + levels.jag()
+/// What noise n does to the steepest place of an edge of contrast C and blur s, in units of n / C: some 1.7, and as much more as
+/// leaves room for other profiles. With the blur the fall over two pixels bends less: its steepest place moves by sqrt(6) n over
+/// twice its second derivative, 0.8 C / s³, some 1.2 s³ n / C where samples are drawn from four pixels. Out of focus it is about
+/// 4 s n / C ([`search_wide`](super::edge::search_wide)).
+pub(crate) fn steepest(blur: f64) -> f64 {
+    (1.2 * blur.powi(3)).min(4.0 * blur).max(2.8)
+}
+
+/// The same of an edge to whose whole profile the shift is fitted ([`refine`](super::edge::refine)): sqrt(2 sqrt(π) s).
+pub(crate) fn fitted(blur: f64) -> f64 {
+    (1.9 * blur.sqrt()).max(2.8)
+}
+
+/// Largest rms distance of edge points from a good outline of semi-minor axis b, in pixels, where noise n moves an edge of contrast
+/// C by `spread` n / C. Printing, compression and the picture's grid add up to 1 % of the diameter.
+pub(crate) fn expected_scatter(b: f64, levels: &Levels, noise: f64, contrast: f64, spread: f64) -> f64 {
+    spread * noise / contrast.max(1e-9) + 0.02 * b + levels.jag()
 }
 
 /// Rms of the edge points relative to that: below 1 for a good outline.
-fn edge_ratio(ellipse: &EllipseFit, levels: &Levels, noise: f64, contrast: f64, blur: f64) -> f64 {
-    ellipse.rms / expected_scatter(ellipse.outline.semi_axes().1, levels, noise, contrast, blur)
+fn edge_ratio(ellipse: &EllipseFit, levels: &Levels, noise: f64, contrast: f64, spread: f64) -> f64 {
+    ellipse.rms / expected_scatter(ellipse.outline.semi_axes().1, levels, noise, contrast, spread)
 }
 
 /// Longest gap; many small ones count as a larger one.
@@ -62,9 +71,9 @@ pub(crate) fn has_shape(ellipse: &EllipseFit, noise: f64, contrast: f64) -> bool
 }
 
 /// Whether the outline alone still allows a target.
-pub(crate) fn outline_allows(ellipse: &EllipseFit, levels: &Levels, noise: f64, contrast: f64, blur: f64) -> bool {
+pub(crate) fn outline_allows(ellipse: &EllipseFit, levels: &Levels, noise: f64, contrast: f64, spread: f64) -> bool {
     let gap_allows = gap(ellipse) <= SMALL_GAP || contrast > 20.0 * noise;
-    size_allows(ellipse) && gap_allows && edge_ratio(ellipse, levels, noise, contrast, blur) < 1.1
+    size_allows(ellipse) && gap_allows && edge_ratio(ellipse, levels, noise, contrast, spread) < 1.1
 }
 
 /// Whether outline and fit together are those of a target; `uneven` is the fit's residual less its mean profile.
@@ -74,13 +83,13 @@ pub(crate) fn is_target(
     uneven: f64,
     noise: f64,
     contrast: f64,
-    blur: f64,
+    spread: f64,
 ) -> bool {
     let minor = 2.0 * ellipse.outline.semi_axes().1;
     let misfit = (uneven * uneven - noise * noise).max(0.0).sqrt() / contrast;
     // large targets show every departure of the printed shape and of the lens; on faint ones noise hides both
     let limit = (0.045 + 0.006 * (minor - 10.0)).clamp(0.045, 0.12) * (contrast / (40.0 * noise)).clamp(0.4, 1.0);
     let limit = if levels.stairs { STAIRS } else { limit };
-    let edge = edge_ratio(ellipse, levels, noise, contrast, blur);
+    let edge = edge_ratio(ellipse, levels, noise, contrast, spread);
     edge * edge + (misfit / limit).powi(2) < 1.15 && (gap(ellipse) <= SMALL_GAP || misfit < GAP_MISFIT)
 }

@@ -132,11 +132,19 @@ fn out_of_focus_faint_and_flat_targets_reach_the_bound() {
         assert!(worst < 0.25, "{name}: blur off by {worst}");
         all.push(errors);
     }
-    for (a, ratio, contrast) in [(12.0, 0.4, 60.0), (13.0, 0.32, 60.0), (20.0, 0.32, -100.0), (9.0, 0.33, 120.0)] {
-        let name = format!("semi-axis {a}, ratio {ratio}, contrast {contrast}");
+    for (a, ratio, contrast, blur) in [
+        (12.0, 0.4, 60.0, 0.7),
+        (13.0, 0.32, 60.0, 0.7),
+        (20.0, 0.32, -100.0, 0.7),
+        (9.0, 0.33, 120.0, 0.7),
+        // the steepest places of these edges scatter by a third of a pixel
+        (12.0, 0.45, 60.0, 1.7),
+        (16.0, 0.4, -80.0, 1.9),
+    ] {
+        let name = format!("semi-axis {a}, ratio {ratio}, contrast {contrast}, blur {blur}");
         let kind = |random: &mut Uniform| Spot { a, b: a * ratio, angle: random.within(0.0, 3.1), contrast, ..DISC };
-        let (errors, _) = all_found(&name, kind, 120.0, 0.7, 2.0);
-        let limit = bound(&kind(&mut Uniform(1)), 0.7, 2.0, 3);
+        let (errors, _) = all_found(&name, kind, 120.0, blur, 2.0);
+        let limit = bound(&kind(&mut Uniform(1)), blur, 2.0, 3);
         assert!(errors.rms() < 1.15 * limit, "{name}: rms {} for {limit}", errors.rms());
         all.push(errors);
     }
