@@ -66,9 +66,10 @@ pub fn restore_language() {
 }
 
 /// Words that follow a number in the English texts, in the plural and for one; longer ones first.
-const COUNTED: [(&str, &str); 10] = [
+const COUNTED: [(&str, &str); 11] = [
     ("more measurements disagree", "more measurement disagrees"),
     ("observations exceed", "observation exceeds"),
+    ("observations are", "observation is"),
     ("oriented photos", "oriented photo"),
     ("control points", "control point"),
     ("observations", "observation"),
@@ -130,5 +131,6 @@ mod tests {
         assert_eq!(told("1 photos, 1 cameras. Photos"), "1 photo, 1 camera. Photos");
         assert_eq!(told("21 photos, 0.1 points, A1 targets"), "21 photos, 0.1 points, A1 targets");
         assert_eq!(told("1 observations exceed; 11 observations"), "1 observation exceeds; 11 observations");
+        assert_eq!(told("1 observations are, 2 observations are"), "1 observation is, 2 observations are");
     }
 }
