@@ -4,7 +4,7 @@ import { test } from 'node:test';
 import { join } from 'node:path';
 
 import { open } from './browser.mjs';
-import { adjust, data, detect, downloads, drop, figure, files, go, idle, number, parameter, photos, rows } from './desk.mjs';
+import { adjust, data, detect, downloads, drop, figure, files, go, idle, notice, number, parameter, photos, rows } from './desk.mjs';
 
 const folder = data('camcal');
 
@@ -69,7 +69,22 @@ test('21 photos become a calibration', { skip: folder ? false : 'skipped, no dat
     }
     await go(page, 'results');
     assert.ok(Math.abs((await figure(page, 'sigma0')) - 1) < 0.02);
-    assert.ok(Math.abs((await parameter(page, 'C4040Z', 'c')).value - 7.457) <= 0.006);
+    const uncorrected = (await parameter(page, 'C4040Z', 'c')).value;
+    assert.ok(Math.abs(uncorrected - 7.457) <= 0.006);
+
+    // The dots' diameter frees their images of the eccentricity; what is none is refused.
+    await go(page, 'adjust');
+    const diameter = async (typed) => {
+      await page.fill('[name=target-diameter]', typed);
+      await page.press('[name=target-diameter]', 'Tab');
+      return page.inputValue('[name=target-diameter]');
+    };
+    assert.equal(await diameter('-5'), '');
+    assert.match(await notice(page), /no diameter/);
+    assert.equal(await diameter('0.02'), '0.02');
+    await adjust(page);
+    const freed = (await parameter(page, 'C4040Z', 'c')).value;
+    assert.ok(freed !== uncorrected && Math.abs(freed - uncorrected) < 0.001, `c ${freed}, ${uncorrected} before`);
     await idle(page);
     assert.deepEqual(errors, []);
   } finally {

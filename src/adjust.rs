@@ -57,7 +57,8 @@ pub fn adjust(
 ) -> Result<Adjustment> {
     project.validate()?;
     let weighted = unmodelled::weighted(project, options.unmodelled)?;
-    let project = weighted.as_ref();
+    let sized = eccentric::sized(weighted, options.target_diameter)?;
+    let project = sized.as_ref();
     let mut left_out = LeftOut::nothing(project);
     let mut log = Log { iterations: Vec::new(), on_iteration };
     let mut record = Vec::new();

@@ -78,6 +78,9 @@ pub struct AdjustOptions {
     pub residuals: ResidualPlace,
     /// Standard deviation of what is not modelled, added in quadrature to that of every image coordinate, pixels.
     pub unmodelled: f64,
+    /// Diameter of the circular targets that state none of their own, in the project's unit, to free their images of the
+    /// eccentricity.
+    pub target_diameter: Option<f64>,
     /// Points whose full covariance matrix is wanted.
     pub covariance_of: Vec<String>,
 }
@@ -91,6 +94,7 @@ impl Default for AdjustOptions {
             snooping: false,
             residuals: ResidualPlace::Corrected,
             unmodelled: 0.0,
+            target_diameter: None,
             covariance_of: Vec::new(),
         }
     }

@@ -17,9 +17,12 @@
 //! is then small beside what it takes away, and points scattered in space, with s as large as a and b, are far from it. Else
 //! nothing is corrected.
 
+use std::borrow::Cow;
+
 use nalgebra::{DMatrix, Vector3};
 
 use crate::eccentricity::{Circle, pixels};
+use crate::error::{Error, Place, Result};
 use crate::project::{Interior, Project};
 
 use super::network::Network;
@@ -29,6 +32,22 @@ use super::parameters::State;
 const NEIGHBOURS: usize = 6;
 /// Part of the largest eccentricity that the uncertainty of a surface's normal may leave, see above.
 const LEFT: f64 = 0.1;
+
+/// The project with this diameter for every target that states none.
+///
+/// # Errors
+/// [`Error::Invalid`] unless the diameter is a finite number above 0.
+pub fn sized(mut project: Cow<'_, Project>, diameter: Option<f64>) -> Result<Cow<'_, Project>> {
+    let Some(diameter) = diameter else { return Ok(project) };
+    if !(diameter > 0.0 && diameter.is_finite()) {
+        let detail = format!("target_diameter is {diameter}; a finite number above 0 is expected");
+        return Err(Error::Invalid { detail, at: Place::field("target_diameter") });
+    }
+    for point in project.to_mut().points.iter_mut().filter(|point| point.diameter.is_none()) {
+        point.diameter = Some(diameter);
+    }
+    Ok(project)
+}
 
 /// Corrections in the units of the residuals, per ray, to be taken off the measurements; empty where no target has a
 /// diameter.
@@ -281,6 +300,25 @@ mod tests {
             told.sigma0,
             shown.sigma0
         );
+    }
+
+    #[test]
+    fn one_diameter_stands_for_those_that_are_not_stated() {
+        let stated = circles(false);
+        let mut project = stated.clone();
+        // a target of another size states its own
+        project.points.iter_mut().skip(1).for_each(|point| point.diameter = None);
+        let options = AdjustOptions { target_diameter: Some(DIAMETER), ..AdjustOptions::default() };
+        let adjustment = adjust(&project, &options, &mut |_| true).expect("solvable");
+        assert_eq!(adjustment.sigma0, solve(&stated).sigma0);
+        project.points[0].diameter = Some(2.0 * DIAMETER);
+        let own = adjust(&project, &options, &mut |_| true).expect("solvable");
+        assert!(own.sigma0 > adjustment.sigma0.map(|sigma0| 10.0 * sigma0), "{:?}", own.sigma0);
+        for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let options = AdjustOptions { target_diameter: Some(wrong), ..AdjustOptions::default() };
+            let error = adjust(&project, &options, &mut |_| true).expect_err("no diameter");
+            assert!(error.to_string().contains("target_diameter"), "{error}");
+        }
     }
 
     #[test]

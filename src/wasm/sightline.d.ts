@@ -137,6 +137,8 @@ export interface AdjustOptions {
   residuals?: "corrected" | "measured";
   /** Standard deviation of what is not modelled, added in quadrature to that of every image coordinate, pixels [0]. */
   unmodelled?: number;
+  /** Diameter of the circular targets that state none of their own, in the project's unit: frees them of their eccentricity [null]. */
+  target_diameter?: null | number;
   /** Points whose full covariance matrix is wanted [none]. */
   covariance_of?: string[];
   /** Called after every iteration; returning false stops. */

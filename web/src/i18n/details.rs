@@ -2,7 +2,7 @@
 //! words, and the values between them are carried over. A sentence that is not listed stays as the engine wrote it.
 
 /// English as the engine writes it, and Korean; `{}` stands for a value, in the same order in both unless numbered.
-const SENTENCES: [(&str, &str); 72] = [
+const SENTENCES: [(&str, &str); 73] = [
     // The document
     (
         "this is format \"{}\" version {}; \"sightline\" version 1 is read here",
@@ -152,6 +152,10 @@ const SENTENCES: [(&str, &str); 72] = [
     (
         "unmodelled is {}; a number of pixels from 0 is expected",
         "모형화되지 않은 오차가 {}입니다. 0 이상의 화소 수여야 합니다",
+    ),
+    (
+        "target_diameter is {}; a finite number above 0 is expected",
+        "표적 지름이 {}입니다. 0보다 큰 유한한 수여야 합니다",
     ),
     ("{} radii and {} distortions do not determine {} terms", "반경 {}개와 왜곡량 {}개로는 {}개 항을 정할 수 없습니다"),
     (

@@ -5,6 +5,9 @@ use super::texts;
 texts! {
     unmodelled: "not modelled, px", "모형화되지 않은 오차, px";
     unmodelled_why: "added in quadrature to every σ of the image: lens, flatness of targets, light", "렌즈, 표적 평탄도, 조명의 영향. 사진좌표의 각 σ에 제곱합으로 더합니다";
+    target_diameter(unit): "target diameter, {unit}", "표적 지름, {unit}";
+    target_diameter_why: "of all circular targets that state none of their own: frees their images of the eccentricity; empty for none", "지름이 따로 주어지지 않은 모든 원형 표적에 적용하여 편심을 보정합니다. 비워 두면 보정하지 않습니다";
+    no_diameter(typed): "\"{typed}\" is no diameter: type a number above 0, or nothing.", "\"{typed}\" 은(는) 지름이 아닙니다. 0보다 큰 수를 입력하거나 비워 두십시오.";
     gross_errors: "Gross errors", "과대오차";
     gross_left: "Leave everything in", "모두 사용";
     gross_left_body: "Suspicious observations are named; you decide.", "의심되는 관측을 알려 주고, 판단은 사용자가 합니다.";

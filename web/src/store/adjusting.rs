@@ -129,6 +129,18 @@ impl Desk {
         }
     }
 
+    /// Takes the diameter of the targets as typed, in the project's unit; nothing for none.
+    pub fn set_target_diameter(self, typed: &str) {
+        let diameter = format::parse(typed).filter(|diameter| *diameter > 0.0);
+        if diameter.is_some() || typed.trim().is_empty() {
+            self.set_options(|options| options.target_diameter = diameter);
+        } else {
+            let typed = typed.to_owned();
+            self.warn(move || text::no_diameter(&typed));
+            self.document.notify();
+        }
+    }
+
     /// Takes an initial value of a camera's parameter as typed.
     pub fn set_initial(self, camera: &str, parameter: Parameter, typed: &str) {
         let Some(value) = format::parse(typed) else {

@@ -240,6 +240,12 @@ fn FromWhat() -> impl IntoView {
                                 prop:value=move || desk.document.with(|d| format::editable(d.options.unmodelled))
                                 on:change=move |e| desk.set_unmodelled(&event::value(&e))/>
                         </label>
+                        <label class="option" title=text::target_diameter_why>
+                            <span>{move || text::target_diameter(desk.document.with(|d| d.project.unit.clone()))}</span>
+                            <input type="text" class="short" inputmode="decimal" name="target-diameter" aria-description=text::target_diameter_why
+                                prop:value=move || desk.document.with(|d| d.options.target_diameter.map(format::editable).unwrap_or_default())
+                                on:change=move |e| desk.set_target_diameter(&event::value(&e))/>
+                        </label>
                     </td>
                     <td class="large">{move || format::count(counts.get().0)}</td>
                 </tr>
