@@ -8,6 +8,7 @@
 
 mod band;
 mod blob;
+mod blur;
 mod census;
 mod centroid;
 mod click;

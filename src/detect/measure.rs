@@ -1,9 +1,10 @@
 //! One target: from a rough outline to a centre with its covariance, or the reason why there is none.
 
 use super::band::Region;
+use super::blur::{self, BLURRED, DEFOCUSED, SHARP, SOFT};
 use super::centroid::{self, Centre};
 use super::code::DotLevels;
-use super::edge::{self, Edges, Profile};
+use super::edge::{self, Edges};
 use super::ellipse::{self, EllipseFit, Start};
 use super::fit::{self, Workspace};
 use super::look;
@@ -26,9 +27,6 @@ const UNEVEN: f64 = 0.25;
 const STROKE: u32 = 11;
 /// Largest share of the outline that may be missing without anything in front of it.
 const UNEXPLAINED: f64 = 0.2;
-
-/// Variance that the pixel's width (1/12) and bilinear sampling (about 1/6) add to that of the blur, in square pixels.
-const SAMPLED: f64 = 0.25;
 
 /// Which rays count: a single edge out of place is chance, two in a row are something in front of the target.
 fn undisturbed(edges: &Edges) -> Vec<bool> {
@@ -54,13 +52,6 @@ const DISTURBED: f64 = 0.12;
 
 /// Share of clipped pixels that explains why a target has no fit.
 const CLIPPED: f64 = 0.5;
-/// Blur from which on the surround begins further out, and what is assumed below it.
-const BLURRED: f64 = 1.2;
-/// Blur from which on no place of an edge is the steepest within the noise, so that its edges are searched between means.
-const DEFOCUSED: f64 = 2.0;
-/// Blur from which on a target's edges are refined before they are judged.
-const SOFT: f64 = 1.3;
-const SHARP: f64 = 0.9;
 
 /// Half the width of the band of pixels that the rim's blur reaches.
 fn half_band(blur: f64) -> f64 {
@@ -103,44 +94,9 @@ impl Found {
     }
 }
 
-/// A rough blur where it matters.
-fn blurred(focus: f64) -> f64 {
-    if focus > DEFOCUSED { focus } else { SHARP }
-}
-
 /// Rms of edge points from an outline of semi-minor axis b beyond which it is none, in pixels.
-fn uneven(b: f64) -> f64 {
+fn largest_rms(b: f64) -> f64 {
     0.3 + 0.03 * b
-}
-
-/// Blur from the edges' steepness: over two pixels an edge of contrast C and blur s falls by C (2 Φ(1/s) - 1), where
-/// s² includes the pixel's own width (1/12) and that of bilinear sampling (about 1/6).
-fn blur_of(strength: f64, contrast: f64) -> f64 {
-    if strength <= 0.0 {
-        return 1.0;
-    }
-    let ratio = (strength / contrast.max(1e-9)).clamp(0.05, 0.985);
-    // 2 Φ(z) - 1 = ratio, by a rational approximation of Φ^-1 good to 1e-3 (Abramowitz & Stegun 26.2.22)
-    let t = (-2.0 * ((1.0 - ratio) / 2.0).ln()).sqrt();
-    let z = t - (2.30753 + 0.27061 * t) / (1.0 + t * (0.99229 + 0.04481 * t));
-    ((1.0 / z.max(0.05)).powi(2) - SAMPLED).max(0.09).sqrt().min(6.5)
-}
-
-/// Profile of the edges of an outline, from its surround and the edges' steepness; `blur` is a first estimate.
-fn profile(outline: &Outline, surround: &Surround, strength: f64, mut blur: f64) -> Profile {
-    // half-way to the rim a small target is not as bright as it would be without blur
-    let mut contrast = surround.contrast;
-    for _ in 0..3 {
-        contrast = surround.contrast / edge::half_way(outline.semi_axes().1, blur);
-        blur = blur_of(strength, contrast.abs());
-    }
-    Profile {
-        level: surround.level,
-        slope: surround.slope,
-        origin: [outline.u, outline.v],
-        contrast,
-        blur: (blur * blur + 1.0 / 12.0).sqrt(),
-    }
 }
 
 impl<'a, T: Sample> Measure<'a, T> {
@@ -179,7 +135,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             outline = found.outline;
             // out of focus, two pixels see but 0.8 / s of the contrast
             let contrast = self.strength() * if focus > DEFOCUSED { 1.25 * focus } else { 1.0 };
-            let spread = quality::steepest(blurred(focus));
+            let spread = quality::steepest(blur::rough(focus));
             let scatter = quality::expected_scatter(b, &self.levels, self.levels.noise, contrast, spread);
             // the search knows the height of a small target to two pixels only
             let rough = if round == 0 && b < SMALL { 0.2 } else { 0.0 };
@@ -224,13 +180,14 @@ impl<'a, T: Sample> Measure<'a, T> {
         if ellipse.occluded > quality::HIDDEN {
             return Err(Reason::Occluded);
         }
-        if ellipse.rms > uneven(b) && focus <= SOFT || !quality::size_allows(&ellipse) {
+        if ellipse.rms > largest_rms(b) && focus <= SOFT || !quality::size_allows(&ellipse) {
             return Err(Reason::NotAnEllipse);
         }
         let mut kept = undisturbed(&self.edges);
-        let rough = surround::measure(&self.plane, &outline, blurred(focus), &kept, NEARBY).ok_or(Reason::AtBorder)?;
+        let rough =
+            surround::measure(&self.plane, &outline, blur::rough(focus), &kept, NEARBY).ok_or(Reason::AtBorder)?;
         let strength = self.strength();
-        let blur = blur_of(strength, rough.contrast.abs());
+        let blur = blur::of(strength, rough.contrast.abs());
         let surround = if blur > BLURRED {
             surround::measure(&self.plane, &outline, blur, &kept, NEARBY).ok_or(Reason::AtBorder)?
         } else {
@@ -243,19 +200,22 @@ impl<'a, T: Sample> Measure<'a, T> {
         if !quality::has_shape(&ellipse, self.noise(&surround), signed) {
             return Err(Reason::LowContrast);
         }
-        let blur = blur_of(strength, signed);
+        let blur = blur::of(strength, signed);
         let noise = self.noise(&surround);
         let good = |ellipse: &EllipseFit, levels: &Levels, spread: f64| {
-            ellipse.rms <= uneven(b) && quality::outline_allows(ellipse, levels, noise, signed, spread)
+            ellipse.rms <= largest_rms(b) && quality::outline_allows(ellipse, levels, noise, signed, spread)
         };
         // the steepest places of a soft edge scatter, its whole profile does not, unless it is that of a small blot
         let refined = blur > SOFT && (focus <= DEFOCUSED || !good(&ellipse, &self.levels, quality::steepest(blur)));
         if refined {
-            let (count, profile) = (self.edges.len(), profile(&outline, &surround, strength, blur));
+            let (count, profile) = (self.edges.len(), blur::profile(&outline, &surround, strength, blur));
             edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
             ellipse = ellipse::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Reason::NotAnEllipse)?;
             outline = ellipse.outline;
             kept = undisturbed(&self.edges);
+            if ellipse.occluded > quality::HIDDEN {
+                return Err(Reason::Occluded);
+            }
         }
         let found = Found { ellipse, surround, kept, blur, strength, bright, refined };
         if surround.uneven > UNEVEN || !good(&ellipse, &self.levels, found.spread(blur)) {
@@ -290,7 +250,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         let mut blur = SHARP;
         for _ in 0..4 {
             let contrast = look::contrast(&self.plane, outline, (2.0 * blur).max(look::OUTSIDE));
-            blur = blur_of(strength, if bright { contrast } else { -contrast });
+            blur = blur::of(strength, if bright { contrast } else { -contrast });
             if blur <= DEFOCUSED {
                 break;
             }
@@ -379,7 +339,7 @@ impl<'a, T: Sample> Measure<'a, T> {
     /// propagated noise, and as much more as the edges scatter more than it explains.
     fn refined_ellipse(&mut self, found: &Found, surround: &Surround) -> Result<(EllipseFit, [f64; 3]), Reason> {
         let outline = found.ellipse.outline;
-        let profile = profile(&outline, surround, found.strength, found.blur);
+        let profile = blur::profile(&outline, surround, found.strength, found.blur);
         let count = (outline.perimeter() / 4.0).round() as usize * 4;
         edge::refine(&self.plane, &outline, &profile, count.clamp(20, 1500), &mut self.edges);
         let fit = ellipse::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
