@@ -348,6 +348,7 @@ export interface Detection {
   bits: number;
   targets: Target[];
   rejected: Partial<Record<RejectionReason, number>>;
+  /** Made when they are first read. */
   rejected_blobs: { u: number; v: number; diameter: number; reason: RejectionReason }[];
 }
 

@@ -41,6 +41,24 @@ test('a disc is measured where it is, in 8 and in 16 bits, by every method', () 
   assert.equal(sightline.detectGray(80, 60, dark, { polarity: 'bright' }).targets.length, 0);
 });
 
+test('what is rejected is shown where it is, with its reason', () => {
+  const detected = () => {
+    const samples = disc(120, 60, 31.3, 28.8, 9.5, 8);
+    for (let y = 20; y < 40; y++) samples.fill(200, y * 120 + 80, y * 120 + 100);
+    return sightline.detectGray(120, 60, samples);
+  };
+  const found = detected();
+  assert.equal(found.targets.length, 1);
+  const blobs = found.rejected_blobs;
+  assert.ok(blobs.some(({ u, v, reason }) => Math.hypot(u - 90, v - 30) < 1 && reason === 'not_an_ellipse'), JSON.stringify(blobs));
+  for (const { reason, u, v, diameter } of blobs) {
+    assert.ok([u, v, diameter].every(Number.isFinite));
+    assert.ok(blobs.filter((blob) => blob.reason === reason).length <= found.rejected[reason], reason);
+  }
+  assert.deepEqual(structuredClone(detected()).rejected_blobs, blobs);
+  assert.deepEqual(JSON.parse(JSON.stringify(detected())).rejected_blobs, blobs);
+});
+
 test('what is no picture, no size and no option is named', () => {
   const samples = new Uint8Array(12);
   const cases = [
