@@ -36,12 +36,23 @@ const LEFT: f64 = 0.1;
 /// The project with this diameter for every target that states none.
 ///
 /// # Errors
-/// [`Error::Invalid`] unless the diameter is a finite number above 0.
+/// [`Error::Invalid`] unless the diameter is a finite number above 0 and smaller than what the points extend over: a larger one is
+/// in another unit.
 pub fn sized(mut project: Cow<'_, Project>, diameter: Option<f64>) -> Result<Cow<'_, Project>> {
     let Some(diameter) = diameter else { return Ok(project) };
+    let invalid = |detail| Err(Error::Invalid { detail, at: Place::field("target_diameter") });
     if !(diameter > 0.0 && diameter.is_finite()) {
-        let detail = format!("target_diameter is {diameter}; a finite number above 0 is expected");
-        return Err(Error::Invalid { detail, at: Place::field("target_diameter") });
+        return invalid(format!("target_diameter is {diameter}; a finite number above 0 is expected"));
+    }
+    let places = project.points.iter().filter_map(|point| point.xyz);
+    let (low, high) = places.fold(([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]), |(low, high), xyz| {
+        (std::array::from_fn(|k| low[k].min(xyz[k])), std::array::from_fn(|k| high[k].max(xyz[k])))
+    });
+    let extent = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>().sqrt();
+    if extent > 0.0 && diameter > extent {
+        return invalid(format!(
+            "target_diameter is {diameter}, but all points lie within {extent}; give it in their unit"
+        ));
     }
     for point in project.to_mut().points.iter_mut().filter(|point| point.diameter.is_none()) {
         point.diameter = Some(diameter);
@@ -314,7 +325,8 @@ mod tests {
         project.points[0].diameter = Some(2.0 * DIAMETER);
         let own = adjust(&project, &options, &mut |_| true).expect("solvable");
         assert!(own.sigma0 > adjustment.sigma0.map(|sigma0| 10.0 * sigma0), "{:?}", own.sigma0);
-        for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        // the last one is in another unit
+        for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY, 1000.0 * DIAMETER] {
             let options = AdjustOptions { target_diameter: Some(wrong), ..AdjustOptions::default() };
             let error = adjust(&project, &options, &mut |_| true).expect_err("no diameter");
             assert!(error.to_string().contains("target_diameter"), "{error}");

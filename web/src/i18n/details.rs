@@ -2,7 +2,7 @@
 //! words, and the values between them are carried over. A sentence that is not listed stays as the engine wrote it.
 
 /// English as the engine writes it, and Korean; `{}` stands for a value, in the same order in both unless numbered.
-const SENTENCES: [(&str, &str); 73] = [
+const SENTENCES: [(&str, &str); 74] = [
     // The document
     (
         "this is format \"{}\" version {}; \"sightline\" version 1 is read here",
@@ -156,6 +156,10 @@ const SENTENCES: [(&str, &str); 73] = [
     (
         "target_diameter is {}; a finite number above 0 is expected",
         "표적 지름이 {}입니다. 0보다 큰 유한한 수여야 합니다",
+    ),
+    (
+        "target_diameter is {}, but all points lie within {}; give it in their unit",
+        "표적 지름이 {}인데 모든 점이 {} 안에 있습니다. 점 좌표와 같은 단위로 입력하십시오",
     ),
     ("{} radii and {} distortions do not determine {} terms", "반경 {}개와 왜곡량 {}개로는 {}개 항을 정할 수 없습니다"),
     (
