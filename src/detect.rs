@@ -1,46 +1,34 @@
 //! Target detection: from a grey picture to centres with their covariances.
 //!
-//! One pass over the rows finds edges ([`scan`]) and links the runs between them into blobs ([`component`]); blob tests
-//! ([`blob`]) leave what may be an ellipse; sub-pixel edges and a robust ellipse ([`edge`], [`ellipse`]) confirm it; the
-//! surround gives levels and noise ([`surround`]); the fit of a rendered ellipse ([`fit`]) or one of the classical operators
-//! measures the centre ([`measure`]); rings around a target are read as codes ([`code`]). In the same pass the picture
-//! at a quarter of its size shows what is large or out of focus.
+//! [`picture`] takes the levels of the whole picture. [`search`] passes once over its rows and links the runs between edges into
+//! blobs that may be ellipses; in the same pass the picture at a quarter of its size shows what is large or out of focus. [`edges`]
+//! confirms them: sub-pixel edges, a robust ellipse through them ([`ellipse`] is the shape itself), the grey levels around.
+//! [`rendered`] measures the centre by the fit of a rendered ellipse, or [`centroid`] by a classical operator; [`measure`] leads
+//! from one to the next. Rings around a target are read as codes ([`code`]). A room uses those before it, never the reverse.
 
-mod band;
-mod blob;
-mod blur;
-mod census;
 mod centroid;
 mod click;
 mod code;
-mod component;
-pub(crate) mod conic;
-mod edge;
+mod edges;
 mod ellipse;
-mod fit;
-mod flats;
-mod look;
 mod measure;
 mod median;
-mod noise;
-pub(crate) mod outline;
-mod propagation;
-mod quality;
-mod rays;
+mod normal;
+mod picture;
 mod rendered;
-mod scan;
-mod scatter;
 mod search;
-mod sketch;
-mod surround;
+
+use edges::edge;
+pub(crate) use ellipse::{conic, outline};
 
 use crate::detection::{Codes, DetectOptions, Detection, MethodResult, Polarity, Reason, Rejected, Target};
 use crate::error::{Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
-use census::Census;
 use code::{DotLevels, Family, Reading};
 use measure::Measure;
 use outline::Outline;
+use picture::noise;
+use search::census::Census;
 use search::{Blobs, Candidate};
 
 /// Finds and measures the targets of a picture.

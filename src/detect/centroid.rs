@@ -8,9 +8,9 @@
 
 use wide::f32x4;
 
-use super::outline::Outline;
-use super::rendered::normal_distribution;
-use super::surround::Surround;
+use super::edges::surround::Surround;
+use super::ellipse::outline::Outline;
+use super::normal::normal_distribution;
 use crate::image::{Plane, Sample};
 
 /// A centre with its covariance (uu, uv, vv).

@@ -1,7 +1,8 @@
 //! One target at a click: found in a window, at growing sizes, and measured in the photo.
 
 use super::measure::{Found, Measure};
-use super::{Outline, Plane, noise, read_codes, search};
+use super::picture::noise;
+use super::{Outline, Plane, read_codes, search};
 use crate::detection::{DetectOptions, Detection, Method, MethodResult, Target};
 use crate::image::Sample;
 

@@ -1,19 +1,19 @@
 //! One target: from a rough outline to a centre with its covariance, or the reason why there is none.
 
-use super::band::Region;
-use super::blur::{self, BLURRED, DEFOCUSED, SHARP, SOFT};
 use super::centroid::{self, Centre};
 use super::code::DotLevels;
-use super::edge::{self, Edges};
-use super::ellipse::{self, EllipseFit, Start};
-use super::fit::{self, Workspace};
-use super::look;
+use super::edges::blur::{self, BLURRED, DEFOCUSED, SHARP, SOFT};
+use super::edges::edge::{self, Edges};
+use super::edges::look;
+use super::edges::propagation;
+use super::edges::quality;
+use super::edges::surround::{self, Surround};
+use super::edges::through::{self, EllipseFit, Start};
+use super::ellipse::outline::Outline;
 use super::median;
-use super::noise::Levels;
-use super::outline::Outline;
-use super::propagation;
-use super::quality;
-use super::surround::{self, Surround};
+use super::picture::noise::Levels;
+use super::rendered::band::Region;
+use super::rendered::fit::{self, Workspace};
 use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
 use crate::image::{Plane, Sample};
 
@@ -131,7 +131,7 @@ impl<'a, T: Sample> Measure<'a, T> {
                 }
             }
             let from = if round == 0 { Start::Rough } else { Start::Near(NEAR) };
-            let found = ellipse::fit(&mut self.edges, &outline, from).ok_or(Reason::NotAnEllipse)?;
+            let found = through::fit(&mut self.edges, &outline, from).ok_or(Reason::NotAnEllipse)?;
             outline = found.outline;
             // out of focus, two pixels see but 0.8 / s of the contrast
             let contrast = self.strength() * if focus > DEFOCUSED { 1.25 * focus } else { 1.0 };
@@ -210,7 +210,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         if refined {
             let (count, profile) = (self.edges.len(), blur::profile(&outline, &surround, strength, blur));
             edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
-            ellipse = ellipse::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Reason::NotAnEllipse)?;
+            ellipse = through::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Reason::NotAnEllipse)?;
             outline = ellipse.outline;
             kept = undisturbed(&self.edges);
             if ellipse.occluded > quality::HIDDEN {
@@ -342,7 +342,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         let profile = blur::profile(&outline, surround, found.strength, found.blur);
         let count = (outline.perimeter() / 4.0).round() as usize * 4;
         edge::refine(&self.plane, &outline, &profile, count.clamp(20, 1500), &mut self.edges);
-        let fit = ellipse::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
+        let fit = through::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
         let cofactors = fit.normal.cholesky().ok_or(Reason::NoFit)?.inverse();
         let influence = propagation::influence(&outline, &profile, &self.edges, &fit.outline, &cofactors);
         let noise = surround.noise.powi(2).max(1.0 / 12.0);

@@ -6,12 +6,17 @@
 //! the levels cost little. The picture at a quarter of its size is searched in the same way, in every second of its rows
 //! too, for what is large or so far out of focus that three pixels do not cross its edge.
 
-use super::blob::{self, Limits, NoBlob};
-use super::component::{self, Chord, Linker};
-use super::look;
-use super::noise::Levels;
-use super::outline::Outline;
-use super::scan::{self, Edge};
+pub(crate) mod blob;
+pub(crate) mod census;
+mod component;
+mod scan;
+
+use self::blob::{Limits, NoBlob};
+use self::component::{Chord, Linker};
+use self::scan::Edge;
+use super::edges::look;
+use super::ellipse::outline::Outline;
+use super::picture::noise::Levels;
 use crate::detection::{DetectOptions, PolarityChoice, Reason};
 use crate::image::{Plane, Sample};
 

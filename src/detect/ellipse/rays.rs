@@ -58,7 +58,7 @@ mod tests {
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
     use super::*;
-    use crate::detect::edge::rim_points;
+    use crate::detect::edges::edge::rim_points;
 
     #[test]
     fn they_are_the_rim_points_one_by_one() {

@@ -3,8 +3,8 @@
 use wide::f32x4;
 
 use super::band::Band;
-use super::outline::Outline;
-use super::rendered::normal_distribution;
+use crate::detect::ellipse::outline::Outline;
+use crate::detect::normal::normal_distribution;
 
 impl Band {
     /// Nearly the share and the derivatives, without rendering: across the rim an edge of variance s² + 1/12 (the pixel's own),
@@ -65,10 +65,10 @@ mod tests {
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
-    use super::super::band::Region;
-    use super::super::rendered::Field;
-    use super::super::surround::Surround;
     use super::*;
+    use crate::detect::edges::surround::Surround;
+    use crate::detect::rendered::Field;
+    use crate::detect::rendered::band::Region;
     use crate::image::Plane;
 
     #[test]

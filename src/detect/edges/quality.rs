@@ -6,8 +6,8 @@
 //! around); and the longest gap in the outline. A gap is believed to be something in front of a target only when the rest is
 //! as good as noise allows, since the bowl of a letter is an ellipse with a gap too.
 
-use super::ellipse::EllipseFit;
-use super::noise::Levels;
+use super::through::EllipseFit;
+use crate::detect::picture::noise::Levels;
 
 /// Largest share of the outline that may be missing in one piece without further demands.
 pub(crate) const SMALL_GAP: f64 = 0.1;

@@ -7,11 +7,11 @@ use nalgebra::{SMatrix, SVector};
 use wide::{f32x4, f32x8};
 
 use super::flats::Flats;
-use super::median;
-use super::outline::Outline;
-use super::rendered::{DERIVATIVES, Field, Span};
 use super::scatter::Lights;
-use super::surround::Surround;
+use crate::detect::edges::surround::Surround;
+use crate::detect::ellipse::outline::Outline;
+use crate::detect::median;
+use crate::detect::rendered::{DERIVATIVES, Field, Span};
 use crate::image::{Plane, Sample};
 
 /// Unknowns of the fit: u, v, p, q, r, s, C, B, gx, gy.

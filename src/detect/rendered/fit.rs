@@ -10,9 +10,10 @@
 
 use super::band::{Band, Normal, Region, Unknowns};
 use super::flats::Flats;
-use super::outline::Outline;
-use super::rendered::{BLUR, Field};
 use super::scatter;
+use crate::detect::ellipse::outline::Outline;
+use crate::detect::normal::BLUR;
+use crate::detect::rendered::Field;
 use crate::image::{Plane, Sample};
 
 /// Corrections below this share of the blur (and of the pixel) leave the design matrix as it is.

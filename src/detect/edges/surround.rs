@@ -10,9 +10,9 @@ use wide::f32x4;
 
 use super::edge::rim_points;
 use super::look::QUARTER;
-use super::median;
-use super::outline::Outline;
-use super::rays::Rays;
+use crate::detect::ellipse::outline::Outline;
+use crate::detect::ellipse::rays::Rays;
+use crate::detect::median;
 use crate::image::{Plane, Sample};
 
 /// Grey levels around a target.

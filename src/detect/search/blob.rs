@@ -6,8 +6,8 @@
 //! lengths on a parabola. Letters, corners and bars do not fit and go here, at the price of some hundred operations.
 
 use super::component::Chord;
-use super::conic;
-use super::outline::Outline;
+use crate::detect::ellipse::conic;
+use crate::detect::ellipse::outline::Outline;
 use crate::detection::Reason;
 
 /// What the scanned picture allows.

@@ -5,8 +5,8 @@
 //! with its neighbours only. Of concentric outlines the inner one is the target, the outer one is what it is printed on.
 
 use super::blob::NoBlob;
-use super::outline::Outline;
-use super::search::Candidate;
+use crate::detect::ellipse::outline::Outline;
+use crate::detect::search::Candidate;
 use crate::detection::{Detection, Reason, Rejected, Target};
 
 /// Side of a cell in pixels.

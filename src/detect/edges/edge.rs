@@ -6,10 +6,10 @@
 
 use wide::{f32x4, i32x4};
 
-use super::ellipse::Scratch;
-use super::outline::{Outline, RimPoint};
-use super::rays::{FourRims, Rays, quarter};
-use super::rendered::{BLUR, normal_distribution};
+use super::through::Scratch;
+use crate::detect::ellipse::outline::{Outline, RimPoint};
+use crate::detect::ellipse::rays::{FourRims, Rays, quarter};
+use crate::detect::normal::{BLUR, normal_distribution};
 use crate::image::{Plane, Sample};
 
 /// Edges looked for on the rays of an outline, one array a quantity. As many as a multiple of four.

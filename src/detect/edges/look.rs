@@ -6,12 +6,12 @@
 
 use wide::f32x4;
 
-use super::code::DotLevels;
 use super::edge::rim_points;
-use super::noise::Levels;
-use super::outline::{Outline, RimPoint};
 use super::quality;
-use super::rays::Rays;
+use crate::detect::code::DotLevels;
+use crate::detect::ellipse::outline::{Outline, RimPoint};
+use crate::detect::ellipse::rays::Rays;
+use crate::detect::picture::noise::Levels;
 use crate::detection::Reason;
 use crate::image::{Plane, Sample};
 

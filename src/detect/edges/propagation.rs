@@ -8,7 +8,7 @@
 use nalgebra::SMatrix;
 
 use super::edge::{Edges, Profile, rim_points, slopes};
-use super::outline::Outline;
+use crate::detect::ellipse::outline::Outline;
 
 /// What a centre owes to its pixels.
 pub(crate) struct Influence {

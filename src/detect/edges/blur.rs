@@ -1,8 +1,8 @@
 //! How blurred a target's edges are, from how steep they are; and from which blur on that asks for something else.
 
 use super::edge::{self, Profile};
-use super::outline::Outline;
 use super::surround::Surround;
+use crate::detect::ellipse::outline::Outline;
 
 /// What is assumed of a target before its blur is known, sigma in pixels.
 pub(crate) const SHARP: f64 = 0.9;

@@ -1,0 +1,3 @@
+//! What is true of a picture as a whole: its noise, its range, where it is clipped.
+
+pub(crate) mod noise;
