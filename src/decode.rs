@@ -12,7 +12,7 @@ use image::codecs::{jpeg::JpegDecoder, png::PngDecoder, tiff::TiffDecoder};
 use image::{ColorType, DynamicImage, ImageDecoder, ImageError, Limits};
 
 use crate::detection::Channel;
-use crate::error::{Error, Place, Result};
+use crate::error::{Damage, Error, Place, Result};
 use crate::image::{Grey, Samples};
 use signature::{Signature, signature};
 
@@ -152,7 +152,7 @@ fn decoder(bytes: &[u8]) -> Result<Box<dyn ImageDecoder + '_>> {
     let mut decoder: Box<dyn ImageDecoder> = match signature(bytes) {
         Signature::Jpeg => {
             if !bytes::jpeg_is_complete(bytes) {
-                return Err(broken("the file ends early"));
+                return Err(broken(Damage::EndsEarly));
             }
             Box::new(JpegDecoder::new(stream).map_err(decoding_error)?)
         }
@@ -202,8 +202,8 @@ fn too_large(width: u32, height: u32) -> Error {
     Error::ImageSize { width: width.into(), height: height.into(), limit: PIXEL_LIMIT, at: Place::default() }
 }
 
-fn broken(detail: impl Into<String>) -> Error {
-    Error::BrokenImage { detail: detail.into(), at: Place::default() }
+fn broken(reason: Damage) -> Error {
+    Error::BrokenImage { reason, at: Place::default() }
 }
 
 fn decoding_error(error: ImageError) -> Error {
@@ -211,7 +211,7 @@ fn decoding_error(error: ImageError) -> Error {
         ImageError::Unsupported(unsupported) => {
             Error::UnknownImageFormat { recognised: Some(unsupported.to_string()), at: Place::default() }
         }
-        other => broken(other.to_string()),
+        other => broken(Damage::Decoder { message: other.to_string() }),
     }
 }
 

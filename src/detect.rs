@@ -22,7 +22,7 @@ use edges::edge;
 pub(crate) use ellipse::{conic, outline};
 
 use crate::detection::{Codes, DetectOptions, Detection, MethodResult, Polarity, Reason, Rejected, Target};
-use crate::error::{Error, Place, Result};
+use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
 use code::{DotLevels, Family, Reading};
 use measure::Measure;
@@ -75,7 +75,7 @@ fn check_place(image: &GreyView, u: f64, v: f64) -> Result<()> {
     for (name, value, size) in [("u", u, image.width()), ("v", v, image.height())] {
         if !(value >= 0.0 && value <= size as f64) {
             return Err(Error::Invalid {
-                detail: format!("{name} is {value}; a place in the picture lies between 0 and {size}"),
+                reason: error::Reason::OutsidePicture { name: name.into(), value: value.into(), size },
                 at: Place::field(name),
             });
         }
@@ -87,17 +87,17 @@ fn check(options: &DetectOptions) -> Result<()> {
     for (name, value) in [("min_diameter", options.min_diameter), ("max_diameter", options.max_diameter)] {
         if !(value.is_finite() && value > 0.0) {
             return Err(Error::Invalid {
-                detail: format!("{name} is {value}; a positive number of pixels is expected"),
+                reason: error::Reason::NotPixels { name: name.into(), value: value.into() },
                 at: Place::field(name),
             });
         }
     }
     if options.min_diameter > options.max_diameter {
         return Err(Error::Invalid {
-            detail: format!(
-                "min_diameter {} is larger than max_diameter {}",
-                options.min_diameter, options.max_diameter
-            ),
+            reason: error::Reason::DiametersSwapped {
+                min_diameter: options.min_diameter.into(),
+                max_diameter: options.max_diameter.into(),
+            },
             at: Place::field("min_diameter"),
         });
     }

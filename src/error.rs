@@ -3,9 +3,17 @@
 //! The engine speaks English in [`Display`](fmt::Display); the desk matches on the variants and says the same in its
 //! user's language. A variant is never renamed, since its code is part of the JavaScript face.
 
+mod reason;
+
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
+
+use crate::initial::Degeneracy;
+pub use reason::{Expected, Lack, Names, Number, PhotoModelerPart, Reason, Thing};
+
+/// Most characters of a user's text that a sentence quotes.
+const QUOTED: usize = 120;
 
 /// Result of every fallible function of the engine.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -117,6 +125,19 @@ pub enum Defect {
     },
 }
 
+/// What is wrong with a picture's file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Damage {
+    /// The file ends before the picture does.
+    EndsEarly,
+    /// The decoder gave up.
+    Decoder {
+        /// What it says.
+        message: String,
+    },
+}
+
 /// An error of the engine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "code", rename_all = "snake_case")]
@@ -130,8 +151,8 @@ pub enum Error {
     },
     /// The file is damaged or cut short.
     BrokenImage {
-        /// What the decoder says.
-        detail: String,
+        /// What is wrong with it.
+        reason: Damage,
         /// Place.
         at: Place,
     },
@@ -149,14 +170,14 @@ pub enum Error {
     /// A document, option or file holds something that is not allowed there.
     Invalid {
         /// What is wrong with it and what is expected.
-        detail: String,
+        reason: Reason,
         /// Place.
         at: Place,
     },
     /// Something is named that does not exist.
     Unknown {
-        /// Kind of thing: "photo", "point", "camera", "parameter", "format", "experiment".
-        kind: String,
+        /// Kind of thing.
+        kind: Thing,
         /// Its name.
         name: String,
         /// Place.
@@ -165,7 +186,7 @@ pub enum Error {
     /// Two things share one identifier.
     Duplicate {
         /// Kind of thing.
-        kind: String,
+        kind: Thing,
         /// The identifier.
         name: String,
         /// Place.
@@ -173,8 +194,8 @@ pub enum Error {
     },
     /// The project has nothing to work on.
     Empty {
-        /// What is missing: "photos", "points", "observations".
-        what: String,
+        /// What is missing.
+        what: Lack,
     },
     /// Initial values are missing.
     MissingInitialValues {
@@ -192,8 +213,8 @@ pub enum Error {
     },
     /// Initial orientation found no way in.
     CannotOrient {
-        /// What was tried and what is missing.
-        detail: String,
+        /// Why there are no initial values.
+        reason: Degeneracy,
         /// Photos that stay without orientation.
         photos: Vec<String>,
     },
@@ -219,6 +240,16 @@ impl Error {
         }
     }
 
+    /// Why, in a sentence without the place; for errors that carry a reason.
+    pub fn detail(&self) -> Option<String> {
+        match self {
+            Self::BrokenImage { reason, .. } => Some(reason.to_string()),
+            Self::Invalid { reason, .. } => Some(reason.to_string()),
+            Self::CannotOrient { reason, .. } => Some(reason.to_string()),
+            _ => None,
+        }
+    }
+
     /// Where it is, as far as one place can be named.
     pub fn place(&self) -> Place {
         match self {
@@ -236,7 +267,7 @@ impl Error {
             },
             Self::CannotOrient { photos, .. } => Place { photo: photos.first().cloned(), ..Place::default() },
             Self::RankDefect { defects } => defects.first().map(Defect::place).unwrap_or_default(),
-            Self::Empty { what } => Place::field(what.clone()),
+            Self::Empty { what } => Place::field(what.name()),
             Self::Cancelled => Place::default(),
         }
     }
@@ -280,6 +311,14 @@ impl Defect {
     }
 }
 
+/// The beginning of a text that a sentence quotes: someone's file may be one line of megabytes.
+pub fn shortened(text: &str) -> String {
+    match text.char_indices().nth(QUOTED) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{} …", &text[..end]),
+    }
+}
+
 /// At most five names, then how many more there are.
 pub(crate) fn listed(names: &[String]) -> String {
     let shown = names.iter().take(5).cloned().collect::<Vec<_>>().join(", ");
@@ -304,6 +343,15 @@ impl fmt::Display for Place {
         add("line", &self.line.map(|line| line.to_string()));
         add("field", &self.field);
         f.write_str(&parts.join(", "))
+    }
+}
+
+impl fmt::Display for Damage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::EndsEarly => f.write_str("the file ends early"),
+            Self::Decoder { message } => f.write_str(message),
+        }
     }
 }
 
@@ -358,13 +406,13 @@ impl fmt::Display for Error {
             Self::UnknownImageFormat { .. } => {
                 f.write_str("not a picture the engine reads: JPEG, PNG or TIFF of 8 or 16 bits are expected")?;
             }
-            Self::BrokenImage { detail, .. } => {
-                write!(f, "the picture cannot be decoded ({detail}): copy it again from the camera")?;
+            Self::BrokenImage { reason, .. } => {
+                write!(f, "the picture cannot be decoded ({reason}): copy it again from the camera")?;
             }
             Self::ImageSize { width, height, limit, .. } => {
                 write!(f, "the picture has {width} x {height} pixels; from 1 to {limit} pixels are worked on")?;
             }
-            Self::Invalid { detail, .. } => f.write_str(detail)?,
+            Self::Invalid { reason, .. } => reason.fmt(f)?,
             Self::Unknown { kind, name, .. } => write!(f, "there is no {kind} \"{name}\"")?,
             Self::Duplicate { kind, name, .. } => {
                 write!(f, "the {kind} \"{name}\" occurs twice: identifiers are unique")?
@@ -382,8 +430,8 @@ impl fmt::Display for Error {
                 f.write_str("the network cannot be solved: ")?;
                 f.write_str(&defects.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))?;
             }
-            Self::CannotOrient { detail, photos } => {
-                f.write_str(detail)?;
+            Self::CannotOrient { reason, photos } => {
+                reason.fmt(f)?;
                 if !photos.is_empty() {
                     write!(f, " (photos {})", listed(photos))?;
                 }

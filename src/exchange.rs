@@ -28,7 +28,7 @@ mod text;
 use std::collections::BTreeMap;
 
 use crate::adjustment::Adjustment;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
 use crate::project::{DatumKind, Photo, Point, Project};
 
 /// Files by name.
@@ -69,7 +69,7 @@ pub fn import(format: &str, files: &Files) -> Result<Project> {
         return Err(unknown_format(format, |known| known.import));
     }
     if files.is_empty() {
-        return Err(Error::Empty { what: "files".into() });
+        return Err(Error::Empty { what: Lack::Files });
     }
     match format {
         "sightline" => {
@@ -127,31 +127,25 @@ pub fn export(format: &str, project: &Project, adjustment: Option<&Adjustment>) 
 
 /// The document from JSON; its format and version are looked at first, so that a newer one is named as such.
 pub(crate) fn document(bytes: &[u8]) -> Result<Project> {
-    let at = || Place::field("format");
     let text = text::decode(bytes)?;
     let value: serde_json::Value = serde_json::from_str(&text).map_err(|error| Error::Invalid {
-        detail: format!("not a document of Sightline: {error}"),
+        reason: Reason::NotJson { message: error.to_string() },
         at: Place { line: Some(error.line()), ..Place::default() },
     })?;
     if value.get("format").and_then(|format| format.as_str()) != Some("sightline") {
-        return Err(Error::Invalid {
-            detail: "not a document of Sightline: \"format\": \"sightline\" is missing".into(),
-            at: at(),
-        });
+        return Err(Error::Invalid { reason: Reason::NotADocument, at: Place::field("format") });
     }
-    match value.get("version").and_then(serde_json::Value::as_u64) {
-        Some(1) => {}
-        Some(newer) => {
-            let detail =
-                format!("the document has version {newer} and this program reads version 1: open it with a newer one");
-            return Err(Error::Invalid { detail, at: Place::field("version") });
-        }
-        None => {
-            return Err(Error::Invalid { detail: "the document has no version".into(), at: Place::field("version") });
-        }
+    let version = match value.get("version") {
+        Some(version) if version.as_u64() == Some(1) => None,
+        Some(serde_json::Value::String(other)) => Some(Reason::NewerVersion { version: shortened(other) }),
+        Some(serde_json::Value::Number(other)) => Some(Reason::NewerVersion { version: other.to_string() }),
+        _ => Some(Reason::NoVersion),
+    };
+    if let Some(reason) = version {
+        return Err(Error::Invalid { reason, at: Place::field("version") });
     }
     serde_path_to_error::deserialize(value).map_err(|error| Error::Invalid {
-        detail: format!("the document is damaged: {}", error.inner()),
+        reason: Reason::DamagedDocument { message: shortened(&error.inner().to_string()) },
         at: Place::field(error.path().to_string()),
     })
 }
@@ -159,7 +153,7 @@ pub(crate) fn document(bytes: &[u8]) -> Result<Project> {
 fn unknown_format(format: &str, wanted: fn(&Format) -> bool) -> Error {
     let known: Vec<&str> = FORMATS.iter().filter(|known| wanted(known)).map(|known| known.name).collect();
     Error::Unknown {
-        kind: "format".into(),
+        kind: Thing::Format,
         name: format.into(),
         at: Place::field(format!("format: one of {}", known.join(", "))),
     }
@@ -169,10 +163,7 @@ fn only(files: &Files) -> Result<(&String, &Vec<u8>)> {
     let mut all = files.iter();
     match (all.next(), all.next()) {
         (Some(file), None) => Ok(file),
-        _ => Err(Error::Invalid {
-            detail: format!("this format is one file, {} were given", files.len()),
-            at: Place::default(),
-        }),
+        _ => Err(Error::Invalid { reason: Reason::OneFile { given: files.len() }, at: Place::default() }),
     }
 }
 

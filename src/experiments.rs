@@ -22,7 +22,7 @@ mod outcome;
 use serde::{Deserialize, Serialize};
 
 use crate::detection::Method;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result, Thing};
 
 pub use csv::csv;
 pub use film::description as film_description;
@@ -84,7 +84,7 @@ pub fn run(name: &str, options: &ExperimentOptions, progress: Progress) -> Resul
         "lee-calibration" => lee_calibration::run(options, progress),
         "lee-structure" => lee_structure::run(options, progress),
         "kim" => kim::run(options, progress),
-        _ => Err(Error::Unknown { kind: "experiment".into(), name: name.into(), at: Place::default() }),
+        _ => Err(Error::Unknown { kind: Thing::Experiment, name: name.into(), at: Place::default() }),
     }
 }
 
@@ -100,24 +100,27 @@ pub fn drawings(name: &str, options: &ExperimentOptions) -> Result<Vec<Drawing>>
         "lee-calibration" => Ok(lee_calibration::drawings(options)),
         "lee-structure" => lee_structure::drawings(options),
         "kim" => Ok(kim::drawings(options)),
-        _ => Err(Error::Unknown { kind: "experiment".into(), name: name.into(), at: Place::default() }),
+        _ => Err(Error::Unknown { kind: Thing::Experiment, name: name.into(), at: Place::default() }),
     }
 }
 
+/// Most rounds of Monte Carlo: half an hour in a browser.
+const ROUNDS_LIMIT: usize = 100_000;
+
 fn check(options: &ExperimentOptions) -> Result<()> {
-    let invalid = |detail: &str, field: &str| Err(Error::Invalid { detail: detail.into(), at: Place::field(field) });
+    let invalid = |reason, field: &str| Err(Error::Invalid { reason, at: Place::field(field) });
     let outside = |value: Option<f64>, low: f64, high: f64| value.is_some_and(|v| !(low..=high).contains(&v));
     if outside(options.image_sigma_um, 0.01, 1000.0) {
-        return invalid("the standard deviation of image coordinates is from 0.01 to 1000 µm", "image_sigma_um");
+        return invalid(Reason::ImageNoise, "image_sigma_um");
     }
     if outside(options.pixel_noise, 0.0, 0.2) {
-        return invalid("the noise of the pixels is a share from 0 to 0.2", "pixel_noise");
+        return invalid(Reason::PixelNoise, "pixel_noise");
     }
     if outside(options.control_sigma_mm, 1e-6, 1000.0) {
-        return invalid("the standard error of control coordinates is from 1e-6 to 1000 mm", "control_sigma_mm");
+        return invalid(Reason::ControlSigma, "control_sigma_mm");
     }
-    if options.rounds.is_some_and(|n| n > 100_000) {
-        return invalid("at most 100000 rounds of Monte Carlo", "rounds");
+    if options.rounds.is_some_and(|n| n > ROUNDS_LIMIT) {
+        return invalid(Reason::Rounds { limit: ROUNDS_LIMIT }, "rounds");
     }
     Ok(())
 }

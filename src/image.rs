@@ -2,7 +2,7 @@
 
 use wide::{bytemuck, f32x4, i32x4, u8x16, u16x8, u32x4};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result};
 
 /// Samples of a grey picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,7 +53,7 @@ impl<'a> GreyView<'a> {
         };
         if width == 0 || height == 0 || width.checked_mul(height) != Some(count) {
             return Err(Error::Invalid {
-                detail: format!("{count} samples are no picture of {width} x {height} pixels"),
+                reason: Reason::Samples { samples: count, width, height },
                 at: Place::field("samples"),
             });
         }

@@ -28,7 +28,7 @@ use growth::grow;
 use refine::{Freedom, refine};
 use seed::Outcome;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Lack, Result};
 use crate::initial::robust::quantile;
 use crate::project::{Parameter, Project, Role};
 use crate::rotation;
@@ -56,9 +56,9 @@ const FINE_SIGMAS: f64 = 3.0;
 pub fn orient(project: &Project) -> Result<Oriented> {
     project.validate()?;
     let mut start = Block::new(project);
-    for (what, missing) in [("photos", project.photos.is_empty()), ("observations", start.sights.is_empty())] {
+    for (what, missing) in [(Lack::Photos, project.photos.is_empty()), (Lack::Observations, start.sights.is_empty())] {
         if missing {
-            return Err(Error::Empty { what: what.into() });
+            return Err(Error::Empty { what });
         }
     }
     let sources = give_principal_distances(&mut start);

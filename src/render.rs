@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::camera::{Model, pixel_from_camera_point};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result};
 use crate::exif::{self, PhotoInfo};
 use crate::image::{Grey, Samples, SamplesView};
 use crate::initial::Pose;
@@ -80,9 +80,10 @@ pub fn render(camera: &Camera, pose: &Pose, scene: &Scene, exposure: &Exposure, 
 pub fn png(picture: &Grey, info: Option<&PhotoInfo>) -> Result<Vec<u8>> {
     let mut file = Vec::new();
     let mut encoder = PngEncoder::new_with_quality(&mut file, CompressionType::Fast, FilterType::Up);
-    let invalid = |detail: String| Error::Invalid { detail, at: Place::default() };
+    let failed =
+        |message: String| Error::Invalid { reason: Reason::CannotWritePicture { message }, at: Place::default() };
     if let Some(info) = info {
-        encoder.set_exif_metadata(exif::write(info)).map_err(|error| invalid(error.to_string()))?;
+        encoder.set_exif_metadata(exif::write(info)).map_err(|error| failed(error.to_string()))?;
     }
     let (width, height) = (picture.width as u32, picture.height as u32);
     let written = match picture.view()?.samples() {
@@ -92,7 +93,7 @@ pub fn png(picture: &Grey, info: Option<&PhotoInfo>) -> Result<Vec<u8>> {
             encoder.write_image(&bytes, width, height, image::ExtendedColorType::L16)
         }
     };
-    written.map_err(|error| invalid(error.to_string()))?;
+    written.map_err(|error| failed(error.to_string()))?;
     Ok(file)
 }
 
@@ -245,11 +246,7 @@ fn check(camera: &Camera, exposure: &Exposure) -> Result<()> {
     let shares = [exposure.vignetting, exposure.read_noise, exposure.shot_noise];
     let in_range = shares.iter().all(|s| (0.0..=1.0).contains(s)) && (0.3..=10.0).contains(&exposure.psf);
     if !in_range || !matches!(exposure.bits, 8 | 16) {
-        return Err(Error::Invalid {
-            detail: "an exposure needs a point spread from 0.3 to 10 pixels, vignetting and noise from 0 to 1 and 8 or 16 bits"
-                .into(),
-            at: Place::field("exposure"),
-        });
+        return Err(Error::Invalid { reason: Reason::Exposure, at: Place::field("exposure") });
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result};
 use crate::initial::Pose;
 
 /// A parallelogram that fills the view and hides what lies behind it. Greys are shares of full scale.
@@ -124,25 +124,22 @@ impl Scene {
     /// # Errors
     /// [`Error::Invalid`] naming the target, or the face by its place in the list.
     pub fn check(&self) -> Result<()> {
-        let invalid = |detail: String, at| Err(Error::Invalid { detail, at });
+        let invalid = |reason, at| Err(Error::Invalid { reason, at });
         for (index, face) in self.faces.iter().enumerate() {
             let area = Vector3::from(face.along).cross(&Vector3::from(face.across)).norm();
             let numbers = [area, face.grey, face.texture, face.grain];
             if !(area > 0.0 && face.grain > 0.0 && numbers.iter().all(|n| n.is_finite())) {
-                let detail = format!("face {index} is no parallelogram with a finite grey and a grain above 0");
-                return invalid(detail, Place::field("faces"));
+                return invalid(Reason::Face { index }, Place::field("faces"));
             }
         }
         for disc in &self.discs {
             let finite = disc.centre.iter().chain(&disc.normal).all(|n| n.is_finite()) && disc.grey.is_finite();
             if !(finite && Vector3::from(disc.normal).norm() > 0.0 && disc.diameter > 0.0 && disc.diameter.is_finite())
             {
-                let detail = "a target needs a finite centre, a direction and a diameter above 0".to_owned();
-                return invalid(detail, Place::point(&disc.id));
+                return invalid(Reason::Disc, Place::point(&disc.id));
             }
             if disc.ring.is_some_and(|r| !(2..=24).contains(&r.sectors) || r.code >> r.sectors != 0) {
-                let detail = "a code ring has 2 to 24 sectors and no more bits than sectors".to_owned();
-                return invalid(detail, Place::point(&disc.id).with_field("ring"));
+                return invalid(Reason::CodeRing, Place::point(&disc.id).with_field("ring"));
             }
         }
         Ok(())

@@ -14,6 +14,7 @@ use wasm_bindgen::prelude::*;
 
 use crate::adjustment::{AdjustOptions, Iteration};
 use crate::detection::DetectOptions;
+use crate::error::Expected;
 use crate::experiments::ExperimentOptions;
 use crate::image::{Grey, Samples};
 use crate::network::Network;
@@ -79,7 +80,7 @@ fn samples_of(samples: &JsValue) -> crate::Result<Samples> {
         return Ok(Samples::U8(bytes.to_vec()));
     }
     let words = samples.dyn_ref::<Uint16Array>().map(|words| Samples::U16(words.to_vec()));
-    words.ok_or_else(|| value::invalid("samples", "samples are a Uint8Array or a Uint16Array, row by row"))
+    words.ok_or_else(|| value::not("samples", Expected::Samples))
 }
 
 /// Measures the one target at a place of a photo, in a window around it; null where there is none.

@@ -15,7 +15,7 @@
 
 use nalgebra::{DMatrix, Matrix3, Rotation3, SVector, Vector3};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result};
 use crate::project::DatumKind;
 
 use super::layout::Layout;
@@ -91,10 +91,7 @@ pub fn free_datum(network: &Network, state: &State) -> Result<Option<FreeDatum>>
     if datum.is_regular(state) {
         return Ok(Some(datum));
     }
-    Err(Error::Invalid {
-        detail: "the datum needs at least three points that do not lie in one line".into(),
-        at: Place::field("datum.points"),
-    })
+    Err(Error::Invalid { reason: Reason::DatumPoints, at: Place::field("datum.points") })
 }
 
 /// All coordinates of the two most distant points, and one of the point farthest from their line; with a known scale the

@@ -22,7 +22,7 @@ use std::borrow::Cow;
 use nalgebra::{DMatrix, Vector3};
 
 use crate::eccentricity::{Circle, pixels};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result};
 use crate::project::{Interior, Project};
 
 use super::network::Network;
@@ -40,9 +40,9 @@ const LEFT: f64 = 0.1;
 /// in another unit.
 pub fn sized(mut project: Cow<'_, Project>, diameter: Option<f64>) -> Result<Cow<'_, Project>> {
     let Some(diameter) = diameter else { return Ok(project) };
-    let invalid = |detail| Err(Error::Invalid { detail, at: Place::field("target_diameter") });
+    let invalid = |reason| Err(Error::Invalid { reason, at: Place::field("target_diameter") });
     if !(diameter > 0.0 && diameter.is_finite()) {
-        return invalid(format!("target_diameter is {diameter}; a finite number above 0 is expected"));
+        return invalid(Reason::CommonDiameter { value: diameter.into() });
     }
     let places = project.points.iter().filter_map(|point| point.xyz);
     let (low, high) = places.fold(([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]), |(low, high), xyz| {
@@ -50,9 +50,7 @@ pub fn sized(mut project: Cow<'_, Project>, diameter: Option<f64>) -> Result<Cow
     });
     let extent = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>().sqrt();
     if extent > 0.0 && diameter > extent {
-        return invalid(format!(
-            "target_diameter is {diameter}, but all points lie within {extent}; give it in their unit"
-        ));
+        return invalid(Reason::DiameterBeyondPoints { value: diameter.into(), extent: extent.into() });
     }
     for point in project.to_mut().points.iter_mut().filter(|point| point.diameter.is_none()) {
         point.diameter = Some(diameter);

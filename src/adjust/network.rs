@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use crate::camera;
-use crate::error::{Defect, Error, Result};
+use crate::error::{Defect, Error, Lack, Result};
 use crate::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
 
 use super::given::{Key, LeftOut};
@@ -145,7 +145,7 @@ impl Network {
             }
         }
         if rays_of_photo.iter().all(|n| *n == 0) {
-            return Err(Error::Empty { what: "observations".into() });
+            return Err(Error::Empty { what: Lack::Observations });
         }
         let controlled = project.datum.kind == DatumKind::Control;
         // What is only compared, or only an initial value, is left out where it cannot be determined.

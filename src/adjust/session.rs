@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::adjustment::{AdjustOptions, Covariance, Iteration, ResidualPlace, StatisticsChoice, Termination};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::project::Project;
 
 use super::cofactor::{Cofactors, cofactors};
@@ -67,10 +67,7 @@ pub struct Solution {
 }
 
 pub(super) fn unsound() -> Error {
-    Error::Invalid {
-        detail: "the iteration ended where a point has no image: improve the initial values".into(),
-        at: Place::default(),
-    }
+    Error::Invalid { reason: Reason::NoImage, at: Place::default() }
 }
 
 impl<'a> Session<'a> {
@@ -251,8 +248,7 @@ impl<'a> Session<'a> {
     fn covariance_of(&self, ids: &[String], variance: f64) -> Result<Covariance> {
         let places = ids.iter().map(|id| {
             let at = self.network.points.iter().position(|p| self.project.points[p.index].id == *id);
-            let missing =
-                || Error::Unknown { kind: "point".into(), name: id.clone(), at: Place::field("covariance_of") };
+            let missing = || Error::Unknown { kind: Thing::Point, name: id.clone(), at: Place::field("covariance_of") };
             at.ok_or_else(missing)
         });
         let places: Vec<usize> = places.collect::<Result<_>>()?;

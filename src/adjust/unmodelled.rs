@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 
 use crate::adjustment::Adjustment;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result};
 use crate::project::{Interior, Project, Sigma};
 
 /// The project with `px` added in quadrature to the standard errors of all image coordinates.
@@ -15,8 +15,7 @@ use crate::project::{Interior, Project, Sigma};
 /// [`Error::Invalid`] unless `px` is a finite number from 0.
 pub fn weighted(project: &Project, px: f64) -> Result<Cow<'_, Project>> {
     if !(0.0..1e6).contains(&px) {
-        let detail = format!("unmodelled is {px}; a number of pixels from 0 is expected");
-        return Err(Error::Invalid { detail, at: Place::field("unmodelled") });
+        return Err(Error::Invalid { reason: Reason::Unmodelled { value: px.into() }, at: Place::field("unmodelled") });
     }
     if px == 0.0 {
         return Ok(Cow::Borrowed(project));

@@ -2,7 +2,7 @@
 //! further columns, separated by blanks, in millimetres.
 
 use super::text;
-use crate::error::{Error, Result};
+use crate::error::{Error, Lack, Place, Result, Thing};
 use crate::project::{Point, Role};
 
 /// Reads the list as control points; "fix" stands for an axis without sigma.
@@ -15,7 +15,7 @@ pub fn parse(text: &str) -> Result<Vec<Point>> {
     for row in text::rows(text) {
         let id = row.text(0, "id")?.to_owned();
         if !seen.insert(id.clone()) {
-            return Err(Error::Duplicate { kind: "point".into(), name: id, at: crate::error::Place::line(row.line) });
+            return Err(Error::Duplicate { kind: Thing::Point, name: id, at: Place::line(row.line) });
         }
         let xyz = [row.number(1, "x")?, row.number(2, "y")?, row.number(3, "z")?];
         let mut sigma = [None; 3];
@@ -27,13 +27,12 @@ pub fn parse(text: &str) -> Result<Vec<Point>> {
         let sigma = sigma.iter().any(Option::is_some).then_some(sigma);
         points.push(Point { id, role: Role::Control, xyz: Some(xyz), sigma, diameter: None, normal: None });
     }
-    if points.is_empty() { Err(Error::Empty { what: "points".into() }) } else { Ok(points) }
+    if points.is_empty() { Err(Error::Empty { what: Lack::Points }) } else { Ok(points) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Place;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
 

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Files;
 use super::text::{self, Row};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
 use crate::film::comparator::{InnerOrientation, Reading, Setup, Upwards, observations};
 use crate::film::distortion::{self, OddPolynomial};
 use crate::film::transformation::Kind;
@@ -115,12 +115,12 @@ pub fn readings_of(project: &Project) -> Vec<Reading> {
 /// # Errors
 /// [`Error::Empty`] without readings or fiducial marks; [`Error::Invalid`] where marks or table determine no fit.
 pub fn reduce(description: &Description, readings: &[Reading]) -> Result<Reduced> {
-    let empty = |what: &str| Err(Error::Empty { what: what.into() });
+    let empty = |what| Err(Error::Empty { what });
     if readings.is_empty() {
-        return empty("readings");
+        return empty(Lack::Readings);
     }
     if description.setup.fiducials.is_empty() {
-        return empty("fiducial marks");
+        return empty(Lack::FiducialMarks);
     }
     let distortion = fitted(&description.distortion)?;
     let camera = camera(description, distortion.as_ref().map(|d| &d.polynomial));
@@ -188,12 +188,10 @@ fn read(text: &str, found: &mut Description, readings: &mut Vec<Reading>) -> Res
 
 /// Takes a line that starts with a keyword; false for any other.
 fn describe(row: &Row, found: &mut Description) -> Result<bool> {
-    let positive = |index: usize, name: &str| {
-        let value = row.number(index, name)?;
-        if value > 0.0 { Ok(value) } else { Err(row.invalid(name, format!("{name} is not positive: {value}"))) }
-    };
+    let positive = |index: usize, name: &str| row.positive(index, name);
     let unknown = |name: &str, choices: &str| {
-        Err(row.invalid(name, format!("{name} is none of {choices}: \"{}\"", row.fields.get(1).unwrap_or(&""))))
+        let text = shortened(row.fields.get(1).unwrap_or(&""));
+        Err(row.invalid(name, Reason::NoneOf { name: name.into(), choices: choices.into(), text }))
     };
     match row.fields.first().map(|word| word.to_ascii_lowercase()).as_deref() {
         Some("camera") => row.text(1, "camera")?.clone_into(&mut found.camera),
@@ -216,7 +214,7 @@ fn describe(row: &Row, found: &mut Description) -> Result<bool> {
             let place = [row.number(2, "x")?, row.number(3, "y")?];
             if found.setup.fiducials.insert(mark.clone(), place).is_some() {
                 return Err(Error::Duplicate {
-                    kind: "fiducial mark".into(),
+                    kind: Thing::FiducialMark,
                     name: mark,
                     at: Place::line(row.line).with_field("mark"),
                 });

@@ -12,7 +12,7 @@ use std::fmt::Write;
 
 use columns::{Columns, Field};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
 use crate::project::{Point, Role};
 
 /// A row of the table.
@@ -52,7 +52,7 @@ impl ControlTable {
     /// The first bad row's error; [`Error::Empty`] without rows.
     pub fn into_points(self) -> Result<Vec<Point>> {
         if self.rows.is_empty() {
-            return Err(Error::Empty { what: "points".into() });
+            return Err(Error::Empty { what: Lack::Points });
         }
         self.rows.into_iter().map(|row| row.map(|row| row.point)).collect()
     }
@@ -83,14 +83,14 @@ pub fn parse(text: &str) -> ControlTable {
     let mut seen = HashMap::new();
     let rows = rows.iter().map(|line| {
         let at = |error: columns::Fault| Error::Invalid {
-            detail: error.detail,
+            reason: error.reason,
             at: Place::line(line.number).with_field(error.field),
         };
         let columns = columns.as_ref().map_err(|fault| at(fault.clone()))?;
         let row = row(line, columns, decimal).map_err(at)?;
         match seen.insert(row.point.id.clone(), line.number) {
             None => Ok(row),
-            Some(_) => Err(Error::Duplicate { kind: "point".into(), name: row.point.id, at: Place::line(line.number) }),
+            Some(_) => Err(Error::Duplicate { kind: Thing::Point, name: row.point.id, at: Place::line(line.number) }),
         }
     });
     ControlTable { rows: rows.collect() }
@@ -174,20 +174,17 @@ fn row(line: &Line, columns: &Columns, decimal: Decimal) -> std::result::Result<
         columns.place(field).and_then(|place| line.fields.get(place)).map(String::as_str).unwrap_or_default()
     };
     let required = |field: Field| match text(field) {
-        "" => Err(field.fault(format!("{} is missing", field.name()))),
+        "" => Err(field.fault(Reason::Missing { name: field.name().into() })),
         found => Ok(found),
     };
-    let coordinate = |field: Field| {
-        number(required(field)?, decimal).map_err(|detail| field.fault(format!("{} {detail}", field.name())))
-    };
+    let coordinate = |field: Field| number(field, required(field)?, decimal);
     // Measured to a millimetre or held: a blank, a dash or "fix" is an axis without sigma.
     let sigma = |field: Field| match text(field) {
         "" | "-" => Ok(None),
         word if word.eq_ignore_ascii_case("fix") || word.eq_ignore_ascii_case("fixed") => Ok(None),
-        word => match number(word, decimal) {
-            Ok(sigma) if sigma >= 0.0 => Ok(Some(sigma)),
-            Ok(_) => Err(field.fault(format!("{} is negative: {word}", field.name()))),
-            Err(detail) => Err(field.fault(format!("{} {detail}", field.name()))),
+        word => match number(field, word, decimal)? {
+            sigma if sigma >= 0.0 => Ok(Some(sigma)),
+            sigma => Err(field.fault(Reason::Negative { name: field.name().into(), value: sigma.into() })),
         },
     };
     let id = required(Field::Id)?.to_owned();
@@ -201,7 +198,10 @@ fn row(line: &Line, columns: &Columns, decimal: Decimal) -> std::result::Result<
         "" | "control" => Role::Control,
         "check" => Role::Check,
         "tie" => Role::Tie,
-        other => return Err(Field::Role.fault(format!("role is control, check or tie, not \"{other}\""))),
+        other => {
+            let (name, choices) = (Field::Role.name().into(), "control, check, tie".into());
+            return Err(Field::Role.fault(Reason::NoneOf { name, choices, text: shortened(other) }));
+        }
     };
     let label = Some(text(Field::Label)).filter(|label| !label.is_empty()).map(str::to_owned);
     let sigma = sigma.iter().any(Option::is_some).then_some(sigma);
@@ -212,22 +212,19 @@ fn row(line: &Line, columns: &Columns, decimal: Decimal) -> std::result::Result<
     })
 }
 
-fn number(word: &str, decimal: Decimal) -> std::result::Result<f64, String> {
+fn number(field: Field, word: &str, decimal: Decimal) -> std::result::Result<f64, columns::Fault> {
+    let (name, text) = (|| field.name().to_owned(), || shortened(word));
     let plain = match decimal {
         Decimal::Point if word.contains(',') => {
-            return Err(format!(
-                "has a comma, and the other numbers a decimal point: \"{word}\" (write it without thousands marks)"
-            ));
+            return Err(field.fault(Reason::CommaAmongPoints { name: name(), text: text() }));
         }
         Decimal::Comma if word.contains('.') => {
-            return Err(format!(
-                "has a point, and the other numbers a decimal comma: \"{word}\" (write it without thousands marks)"
-            ));
+            return Err(field.fault(Reason::PointAmongCommas { name: name(), text: text() }));
         }
         Decimal::Point => word.to_owned(),
         Decimal::Comma => word.replacen(',', ".", 1),
     };
-    super::text::number(&plain).ok_or_else(|| format!("is no number: \"{word}\""))
+    super::text::number(&plain).ok_or_else(|| field.fault(Reason::NotANumber { name: name(), text: text() }))
 }
 
 /// Writes the points that have coordinates, control points' sigmas with them.

@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use element::Element;
 
 use super::{Files, text};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result, Thing, shortened};
 use crate::project::{Camera, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
 
 /// Sigma of an image measurement in pixels where neither the file nor the project has one.
@@ -28,14 +28,14 @@ pub fn import(files: &Files) -> Result<Project> {
             || text::decode(bytes).is_ok_and(|text| text.trim_start().starts_with("<?xml"))
     };
     let (name, bytes) = files.iter().find(is_project).ok_or_else(|| Error::Unknown {
-        kind: "file".into(),
+        kind: Thing::File,
         name: "*.xml".into(),
         at: Place::default(),
     })?;
     let script = Script { name, files };
     let document = text::decode(bytes).and_then(|text| element::parse(&text)).map_err(|error| error.in_file(name))?;
     if document.name != "document" || document.child("input").is_none() {
-        return Err(script.invalid("document", "not a project of DBAT: document and input are missing".into()));
+        return Err(script.invalid("document", Reason::NotDbat));
     }
     script.project(&document)
 }
@@ -56,18 +56,18 @@ struct Table<'a> {
 impl Table<'_> {
     fn place(&self, name: &str) -> Result<usize> {
         let missing =
-            || Error::Invalid { detail: format!("the format has no column {name}"), at: Place::field("format") };
+            || Error::Invalid { reason: Reason::NoColumn { column: name.into() }, at: Place::field("format") };
         self.columns.get(name).copied().ok_or_else(missing)
     }
 }
 
 impl Script<'_> {
-    fn invalid(&self, field: &str, detail: String) -> Error {
-        Error::Invalid { detail, at: Place::field(field).with_file(self.name) }
+    fn invalid(&self, field: &str, reason: Reason) -> Error {
+        Error::Invalid { reason, at: Place::field(field).with_file(self.name) }
     }
 
     fn project(&self, document: &Element) -> Result<Project> {
-        let input = document.child("input").ok_or_else(|| self.invalid("input", "input is missing".into()))?;
+        let input = document.child("input").ok_or_else(|| self.invalid("input", Reason::NotDbat))?;
         let meta =
             |name: &str| document.child("meta").and_then(|meta| meta.child(name)).map(|element| element.text.clone());
         let mut project = Project { name: meta("name").unwrap_or_default(), ..Project::default() };
@@ -117,7 +117,8 @@ impl Script<'_> {
             let Some(element) = camera.child(name) else { return Ok(vec![0.0; count]) };
             let found: Option<Vec<f64>> =
                 element.text.split([',', ' ']).filter(|word| !word.is_empty()).map(text::number).collect();
-            let wrong = || self.invalid(name, format!("{name} is {count} numbers, not \"{}\"", element.text));
+            let wrong =
+                || self.invalid(name, Reason::Numbers { name: name.into(), count, text: shortened(&element.text) });
             found.filter(|found| found.len() >= count).ok_or_else(wrong)
         };
         let (sensor, image, pp, p) = (numbers("sensor", 2)?, numbers("image", 2)?, numbers("pp", 2)?, numbers("P", 2)?);
@@ -125,17 +126,14 @@ impl Script<'_> {
         let (c, model, skew) = (numbers("cc", 1)?[0], numbers("model", 1)?[0], numbers("skew", 1)?[0]);
         for (name, values) in [("sensor", &sensor), ("image", &image)] {
             if values.iter().any(|value| *value <= 0.0) {
-                return Err(self.invalid(name, format!("{name} needs a positive width and height")));
+                return Err(self.invalid(name, Reason::SizeNotPositive { name: name.into() }));
             }
         }
         if model < 0.0 && k.iter().chain(&p).any(|value| *value != 0.0) {
-            let detail = format!(
-                "lens model {model} distorts the ideal point: only corrections of the measured point (models from 1) are read"
-            );
-            return Err(self.invalid("model", detail));
+            return Err(self.invalid("model", Reason::LensModel { model: model.into() }));
         }
         if skew != 0.0 {
-            return Err(self.invalid("skew", "a skew is not read: only 0".into()));
+            return Err(self.invalid("skew", Reason::Skew));
         }
         // The affinity multiplies x before the distortion: it is a matter of the pixel pitch here.
         let aspect = camera
@@ -171,10 +169,7 @@ impl Script<'_> {
                     (Some(&column), _) => row.text(column, "cam").map_err(named)?.to_owned(),
                     (None, [only]) => only.id.clone(),
                     (None, cameras) => {
-                        return Err(self.invalid(
-                            "cameras",
-                            format!("there are {} cameras, and the photos do not say which is theirs", cameras.len()),
-                        ));
+                        return Err(self.invalid("cameras", Reason::CamerasNotTold { cameras: cameras.len() }));
                     }
                 };
                 let path = row.text(path, "path").map_err(named)?;
@@ -221,7 +216,7 @@ impl Script<'_> {
             match filter.text.trim() {
                 "remove" => all.retain(|point| !ids.contains(&point.id.as_str())),
                 "keep" => all.retain(|point| ids.contains(&point.id.as_str())),
-                other => return Err(self.invalid("filter", format!("a filter keeps or removes, not \"{other}\""))),
+                other => return Err(self.invalid("filter", Reason::Filter { text: shortened(other) })),
             }
         }
         project.points.extend(all);
@@ -234,11 +229,9 @@ impl Script<'_> {
             let [id, photo, x, y] = [table.place("id")?, table.place("im")?, table.place("x")?, table.place("y")?];
             let common = match element.attribute("sxy") {
                 None => None,
-                Some(word) => Some(
-                    text::number(word)
-                        .filter(|sigma| *sigma > 0.0)
-                        .ok_or_else(|| self.invalid("sxy", format!("sxy is no sigma: \"{word}\"")))?,
-                ),
+                Some(word) => Some(text::number(word).filter(|sigma| *sigma > 0.0).ok_or_else(|| {
+                    self.invalid("sxy", Reason::NotANumber { name: "sxy".into(), text: shortened(word) })
+                })?),
             };
             for row in &table.rows {
                 let mark = || -> Result<Observation> {
@@ -265,8 +258,9 @@ impl Script<'_> {
         let Some(word) = operations.filter_map(|operation| operation.attribute("min_rays")).next_back() else {
             return Ok(());
         };
-        let least: usize =
-            word.trim().parse().map_err(|_| self.invalid("min_rays", format!("min_rays is no number: \"{word}\"")))?;
+        let least: usize = word.trim().parse().map_err(|_| {
+            self.invalid("min_rays", Reason::NotWhole { name: "min_rays".into(), text: shortened(word) })
+        })?;
         let mut rays: HashMap<String, usize> = HashMap::new();
         for observation in &project.observations {
             *rays.entry(observation.point.clone()).or_default() += 1;
@@ -289,20 +283,18 @@ impl Script<'_> {
         });
         let Some((name, bytes)) = file else {
             return Err(Error::Unknown {
-                kind: "file".into(),
+                kind: Thing::File,
                 name: path.into(),
                 at: Place::default().with_file(self.name),
             });
         };
         let format = element
             .attribute("format")
-            .ok_or_else(|| self.invalid("format", format!("the columns of {path} are not named")))?;
+            .ok_or_else(|| self.invalid("format", Reason::ColumnsNotNamed { file: path.into() }))?;
         let columns =
             format.split(',').enumerate().map(|(place, column)| (column.trim().to_ascii_lowercase(), place)).collect();
-        let text = std::str::from_utf8(bytes).map_err(|_| Error::Invalid {
-            detail: "this is no text in UTF-8".into(),
-            at: Place::default().with_file(name),
-        })?;
+        let text = std::str::from_utf8(bytes)
+            .map_err(|_| Error::Invalid { reason: Reason::NotText, at: Place::default().with_file(name) })?;
         Ok(Table { file: name.clone(), columns, rows: text::rows(text).collect() })
     }
 }

@@ -4,7 +4,7 @@
 use std::fmt::Write;
 
 use super::text;
-use crate::error::{Error, Result};
+use crate::error::{Error, Lack, Result};
 use crate::matching::Mark;
 use crate::project::{Observation, Sigma};
 
@@ -38,10 +38,7 @@ pub fn observations(text: &str) -> Result<Vec<Observation>> {
         {
             continue;
         }
-        let sigma = |index| {
-            let sigma = row.number(index, "sigma")?;
-            if sigma > 0.0 { Ok(sigma) } else { Err(row.invalid("sigma", format!("sigma is not positive: {sigma}"))) }
-        };
+        let sigma = |index| row.positive(index, "sigma");
         marks.push(Observation {
             photo: row.text(0, "photo")?.to_owned(),
             point: row.text(1, "point")?.to_owned(),
@@ -55,7 +52,7 @@ pub fn observations(text: &str) -> Result<Vec<Observation>> {
             enabled: true,
         });
     }
-    if marks.is_empty() { Err(Error::Empty { what: "observations".into() }) } else { Ok(marks) }
+    if marks.is_empty() { Err(Error::Empty { what: Lack::Observations }) } else { Ok(marks) }
 }
 
 /// Writes measurements, one a line; what is not enabled is left out.

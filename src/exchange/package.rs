@@ -14,7 +14,7 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 use crate::adjustment::Adjustment;
 use crate::detection::Detection;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result, shortened};
 use crate::project::Project;
 
 /// Most bytes that a document may have when unpacked.
@@ -57,10 +57,7 @@ pub fn write(package: &Package) -> Result<Vec<u8>> {
     }
     for (name, bytes) in &package.photos {
         if !plain(name) {
-            return Err(Error::Invalid {
-                detail: "a photo's file name holds no folders".into(),
-                at: Place::default().with_file(name),
-            });
+            return Err(Error::Invalid { reason: Reason::NameWithFolders, at: Place::default().with_file(name) });
         }
         add(&format!("photos/{name}"), bytes, CompressionMethod::Stored)?;
     }
@@ -91,10 +88,7 @@ pub fn read(bytes: &[u8]) -> Result<Package> {
     }
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
     if archive.len() > ENTRIES_LIMIT {
-        return Err(invalid(format!(
-            "the archive has {} entries; a project file has up to {ENTRIES_LIMIT}",
-            archive.len()
-        )));
+        return Err(invalid(Reason::Entries { entries: archive.len(), limit: ENTRIES_LIMIT }));
     }
     let mut package = Package::default();
     let (mut found, mut room) = (false, PHOTOS_LIMIT);
@@ -117,20 +111,21 @@ pub fn read(bytes: &[u8]) -> Result<Package> {
             }
         }
     }
-    if found { Ok(package) } else { Err(invalid("this archive is no project file: it holds no project.json".into())) }
+    if found { Ok(package) } else { Err(invalid(Reason::NoProjectInside)) }
 }
 
 /// A document as JSON. Numbers keep every bit.
 pub fn json(value: &impl Serialize) -> Result<Vec<u8>> {
     // By way of a value, which has each name once: a flattened camera and its adjusted sigma share one.
-    let value = serde_json::to_value(value).map_err(|error| invalid(format!("cannot be written as JSON: {error}")))?;
-    serde_json::to_vec(&value).map_err(|error| invalid(format!("cannot be written as JSON: {error}")))
+    let failed = |error: serde_json::Error| invalid(Reason::CannotWriteJson { message: error.to_string() });
+    let value = serde_json::to_value(value).map_err(failed)?;
+    serde_json::to_vec(&value).map_err(failed)
 }
 
 fn parse<T: DeserializeOwned>(bytes: &[u8], name: &str) -> Result<T> {
     serde_json::from_slice(bytes).map_err(|error| {
         let at = Place { line: Some(error.line()), ..Place::default() }.with_file(name);
-        Error::Invalid { detail: format!("the project file is damaged: {error}"), at }
+        Error::Invalid { reason: Reason::DamagedEntry { message: shortened(&error.to_string()) }, at }
     })
 }
 
@@ -139,7 +134,7 @@ fn unpack(entry: &mut impl Read, limit: u64) -> Result<Vec<u8>> {
     let mut content = Vec::new();
     entry.take(limit + 1).read_to_end(&mut content).map_err(|error| damaged(&error.into()))?;
     if content.len() as u64 > limit {
-        return Err(invalid(format!("the archive unpacks to more than {} MB: it is no project file", limit >> 20)));
+        return Err(invalid(Reason::Unpacks { megabytes: limit >> 20 }));
     }
     Ok(content)
 }
@@ -150,15 +145,15 @@ fn plain(name: &str) -> bool {
 }
 
 fn damaged(error: &ZipError) -> Error {
-    invalid(format!("not a project file, or a damaged one ({error}): save it again from where it was made"))
+    invalid(Reason::DamagedArchive { message: shortened(&error.to_string()) })
 }
 
 fn cannot_write(error: ZipError) -> Error {
-    invalid(format!("the project file cannot be written: {error}"))
+    invalid(Reason::CannotPack { message: error.to_string() })
 }
 
-fn invalid(detail: String) -> Error {
-    Error::Invalid { detail, at: Place::default() }
+fn invalid(reason: Reason) -> Error {
+    Error::Invalid { reason, at: Place::default() }
 }
 
 #[cfg(test)]
@@ -230,6 +225,11 @@ mod tests {
         assert!(
             detail(&archive(&[("project.json", b"{\"format\": \"sightline\", \"version\": 2}")])).contains("version 2")
         );
+        for version in ["\"2\"", "1.5", "-1"] {
+            let newer = format!("{{\"format\": \"sightline\", \"version\": {version}}}");
+            let told = detail(&archive(&[("project.json", newer.as_bytes())]));
+            assert!(told.contains(&format!("version {}", version.trim_matches('"'))), "{told}");
+        }
         assert!(unpack(&mut std::io::repeat(0), 1000).unwrap_err().to_string().contains("unpacks"));
         let document = json(&package().project).unwrap();
         let odd = archive(&[

@@ -11,7 +11,7 @@
 //! axis, which takes up the affinity that PhotoModeler puts on the coordinate before the distortion.
 
 use super::{name_photos_and_points, text};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Lack, PhotoModelerPart as Part, Place, Reason, Result, Thing};
 use crate::project::{Camera, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
 
 /// Reads an export: cameras (photos with the same interior orientation share one), photos, points, observations.
@@ -20,41 +20,41 @@ use crate::project::{Camera, DatumKind, Interior, Observation, Parameter, Photo,
 /// [`Error::Invalid`] with line and field.
 pub fn parse(text: &str) -> Result<Project> {
     let mut lines = Lines { lines: text.lines().collect(), next: 0 };
-    let heading = lines.take("heading")?;
+    let heading = lines.take(Part::Heading)?;
     let name = heading.fields.join(" ");
     let name = name.strip_prefix("Bundle Soln").unwrap_or(&name).trim().to_owned();
-    let size = lines.take("picture size")?;
+    let size = lines.take(Part::Size)?;
     let (width, height) = (size.whole(2, "width")?, size.whole(3, "height")?);
     if width == 0 || height == 0 {
-        return Err(size.invalid("width", "the picture has no pixels".into()));
+        return Err(size.invalid("width", Reason::NoPixels));
     }
-    let _weights = lines.take("weights")?;
-    let standard = interior(&lines.take("camera")?, 0, [width, height])?;
-    let _sigmas = lines.take("camera sigmas")?;
+    let _weights = lines.take(Part::Weights)?;
+    let standard = interior(&lines.take(Part::Camera)?, 0, [width, height])?;
+    let _sigmas = lines.take(Part::CameraSigmas)?;
 
     let mut project = Project { name, ..Project::default() };
     let mut interiors = Vec::new();
     while lines.peek().is_some_and(|row| row.fields.len() >= 2 && text::number(row.fields[1]).is_none()) {
-        let title = lines.take("photo")?;
+        let title = lines.take(Part::Photo)?;
         let path = title.fields[1..].join(" ");
-        let station = lines.take("exterior orientation")?;
+        let station = lines.take(Part::Exterior)?;
         let mut six = [0.0; 6];
         for (value, (index, name)) in
             six.iter_mut().zip(["X", "Y", "Z", "kappa", "phi", "omega"].into_iter().enumerate())
         {
             *value = station.number(index + 1, name)?;
         }
-        let _sigmas = lines.take("sigmas of the exterior orientation")?;
+        let _sigmas = lines.take(Part::ExteriorSigmas)?;
         lines.skip_blank();
         let camera = match lines.peek() {
             Some(row) if row.fields.len() >= 11 => {
-                let own = interior(&lines.take("camera of the photo")?, 1, [width, height])?;
+                let own = interior(&lines.take(Part::PhotoCamera)?, 1, [width, height])?;
                 if rounded(&standard, &own) { standard.clone() } else { own }
             }
             _ => standard.clone(),
         };
         if lines.peek().is_some_and(|row| row.fields.len() >= 11 && row.fields[0] == title.fields[0]) {
-            let _sigmas = lines.take("sigmas of the camera")?;
+            let _sigmas = lines.take(Part::PhotoCameraSigmas)?;
         }
         let number = interiors.iter().position(|known| *known == camera).unwrap_or_else(|| {
             interiors.push(camera);
@@ -98,10 +98,10 @@ pub fn parse(text: &str) -> Result<Project> {
     if let Some((mark, row)) =
         project.observations.iter().zip(&marks).find(|(mark, _)| !photos.contains(mark.photo.as_str()))
     {
-        return Err(Error::Unknown { kind: "photo".into(), name: mark.photo.clone(), at: Place::line(row.line) });
+        return Err(Error::Unknown { kind: Thing::Photo, name: mark.photo.clone(), at: Place::line(row.line) });
     }
     name_photos_and_points(&mut project);
-    if project.photos.is_empty() { Err(Error::Empty { what: "photos".into() }) } else { Ok(project) }
+    if project.photos.is_empty() { Err(Error::Empty { what: Lack::Photos }) } else { Ok(project) }
 }
 
 /// Interior orientation from c, xp, yp, W, H, K1-3, P1, P2, which start at field `first`.
@@ -112,10 +112,8 @@ fn interior(row: &text::Row<'_>, first: usize, [width, height]: [u32; 2]) -> Res
         values[index] = row.number(first + index, name)?;
     }
     let [c, xp, yp, w, h, k1, k2, k3, p1, p2] = values;
-    for (value, name) in [(c, "c"), (w, "W"), (h, "H")] {
-        if value <= 0.0 {
-            return Err(row.invalid(name, format!("{name} is not positive: {value}")));
-        }
+    for (index, name) in [(0, "c"), (3, "W"), (4, "H")] {
+        row.positive(first + index, name)?;
     }
     let pitch = [w / f64::from(width), h / f64::from(height)];
     let (x0, y0) = (xp - w / 2.0, h / 2.0 - yp);
@@ -164,9 +162,9 @@ impl<'a> Lines<'a> {
         self.row(self.next)
     }
 
-    fn take(&mut self, what: &str) -> Result<text::Row<'a>> {
+    fn take(&mut self, part: Part) -> Result<text::Row<'a>> {
         let row = self.peek().filter(|row| !row.fields.is_empty()).ok_or_else(|| Error::Invalid {
-            detail: format!("not a text export of PhotoModeler, or cut short: {what} is missing"),
+            reason: Reason::PhotoModelerCut { part },
             at: Place::line(self.next + 1),
         })?;
         self.next += 1;

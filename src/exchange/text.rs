@@ -1,6 +1,6 @@
 //! What the text formats share: decoding, rows of numbers, fields that are named when they are wrong.
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result, shortened};
 
 /// Text of a file: UTF-8 with or without a mark, UTF-16 with one (spreadsheets write it).
 pub fn decode(bytes: &[u8]) -> Result<String> {
@@ -18,7 +18,7 @@ pub fn decode(bytes: &[u8]) -> Result<String> {
 }
 
 fn not_text() -> Error {
-    Error::Invalid { detail: "this is no text in UTF-8: save it as a text file in UTF-8".into(), at: Place::default() }
+    Error::Invalid { reason: Reason::NotText, at: Place::default() }
 }
 
 /// A line split into fields.
@@ -51,24 +51,34 @@ impl Row<'_> {
     /// Text of a field.
     pub fn text(&self, index: usize, name: &str) -> Result<&str> {
         let field = self.fields.get(index).copied().filter(|field| !field.is_empty());
-        field.ok_or_else(|| self.invalid(name, format!("{name} is missing: the line has {} fields", self.fields.len())))
+        let missing = || Reason::MissingField { name: name.into(), fields: self.fields.len() };
+        field.ok_or_else(|| self.invalid(name, missing()))
     }
 
     /// Number in a field.
     pub fn number(&self, index: usize, name: &str) -> Result<f64> {
         let field = self.text(index, name)?;
-        number(field).ok_or_else(|| self.invalid(name, format!("{name} is no number: \"{field}\"")))
+        let wrong = || Reason::NotANumber { name: name.into(), text: shortened(field) };
+        number(field).ok_or_else(|| self.invalid(name, wrong()))
     }
 
     /// Whole number in a field.
     pub fn whole(&self, index: usize, name: &str) -> Result<u32> {
         let field = self.text(index, name)?;
-        field.parse().map_err(|_| self.invalid(name, format!("{name} is no whole number: \"{field}\"")))
+        let wrong = || Reason::NotWhole { name: name.into(), text: shortened(field) };
+        field.parse().map_err(|_| self.invalid(name, wrong()))
     }
 
     /// An error in a field of this line.
-    pub fn invalid(&self, name: &str, detail: String) -> Error {
-        Error::Invalid { detail, at: Place::line(self.line).with_field(name) }
+    pub fn invalid(&self, name: &str, reason: Reason) -> Error {
+        Error::Invalid { reason, at: Place::line(self.line).with_field(name) }
+    }
+
+    /// A number that must be above 0.
+    pub fn positive(&self, index: usize, name: &str) -> Result<f64> {
+        let value = self.number(index, name)?;
+        let wrong = || Reason::NotPositive { name: name.into(), value: value.into() };
+        if value > 0.0 { Ok(value) } else { Err(self.invalid(name, wrong())) }
     }
 }
 

@@ -17,7 +17,7 @@ use super::outcome::{Assumption, Cell, Drawing, Experiment, Figure, Table};
 use super::{ExperimentOptions, Progress, step};
 use crate::adjust::adjust;
 use crate::adjustment::{AdjustOptions, StatisticsChoice};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Result, Thing};
 use crate::network::{Network, Source, simulate};
 use crate::project::Role;
 pub use networks::PITCH_MM;
@@ -63,7 +63,7 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
     let (single, mixed) = outcomes.split_at(networks::single().len());
 
     let name = options.network.as_deref().unwrap_or(DEFAULT);
-    let unknown = || Error::Unknown { kind: "network".into(), name: name.into(), at: Place::field("network") };
+    let unknown = || Error::Unknown { kind: Thing::Network, name: name.into(), at: Place::field("network") };
     let opened = outcomes.iter().find(|o| o.case.name() == name).ok_or_else(unknown)?;
 
     let (scatter, predicted) = monte_carlo(opened, options, rounds, &mut |done| {
@@ -103,7 +103,7 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
 /// The network that was chosen, and all photos together.
 pub fn drawings(options: &ExperimentOptions) -> Result<Vec<Drawing>> {
     let name = options.network.as_deref().unwrap_or(DEFAULT);
-    let unknown = || Error::Unknown { kind: "network".into(), name: name.into(), at: Place::field("network") };
+    let unknown = || Error::Unknown { kind: Thing::Network, name: name.into(), at: Place::field("network") };
     let mut cases = networks::single().into_iter().chain(networks::mixed());
     let case = cases.find(|case| case.name() == name).ok_or_else(unknown)?;
     let all = network(&networks::everything(), options);

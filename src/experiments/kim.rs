@@ -240,10 +240,8 @@ fn started_by_dlt(measured: &Project) -> Result<Project> {
             pairs.0.push(Vector3::from(xyz));
             pairs.1.push(camera.photo_from_pixel([o.u, o.v]));
         }
-        let solved = dlt(&pairs.0, &pairs.1).map_err(|degeneracy| Error::CannotOrient {
-            detail: degeneracy.to_string(),
-            photos: vec![photo.id.clone()],
-        })?;
+        let solved =
+            dlt(&pairs.0, &pairs.1).map_err(|reason| Error::CannotOrient { reason, photos: vec![photo.id.clone()] })?;
         camera.interior = Interior::brown((solved.cx + solved.cy) / 2.0);
         camera.interior.set(Parameter::X0, solved.x0);
         camera.interior.set(Parameter::Y0, solved.y0);

@@ -19,7 +19,7 @@ use super::outcome::{Assumption, Cell, Chart, Drawing, Experiment, Figure, Serie
 use super::{ExperimentOptions, Progress, lee_calibration, step};
 use crate::adjust::adjust;
 use crate::adjustment::{AdjustOptions, StatisticsChoice};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Result, Thing};
 use crate::network::{Network, NetworkPoint, Station, simulate};
 use crate::project::{Datum, DatumKind, Parameter, Project, Role, Sigma};
 
@@ -81,7 +81,7 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
             }
         }
     }
-    let unknown = || Error::Unknown { kind: "network".into(), name: wanted.into(), at: Place::field("network") };
+    let unknown = || Error::Unknown { kind: Thing::Network, name: wanted.into(), at: Place::field("network") };
     let (errors, gains) = tables(&outcomes, &released);
     Ok(Experiment {
         name: "lee-structure".into(),
@@ -104,7 +104,7 @@ pub fn drawings(options: &ExperimentOptions) -> Result<Vec<Drawing>> {
     let wanted = options.network.as_deref().unwrap_or("I-free");
     let first = wanted.split('-').next().unwrap_or_default();
     if !NETWORKS.contains(&first) {
-        return Err(Error::Unknown { kind: "network".into(), name: wanted.into(), at: Place::field("network") });
+        return Err(Error::Unknown { kind: Thing::Network, name: wanted.into(), at: Place::field("network") });
     }
     let others = NETWORKS.into_iter().filter(|name| *name != first);
     Ok(std::iter::once(first).chain(others).map(|name| Drawing::of(name, &network(name, options))).collect())

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use super::transformation::{Kind, Transformation, fit};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
 use crate::project::{Camera, Observation, Sigma};
 
 /// One reading.
@@ -94,13 +94,13 @@ pub fn parse(text: &str) -> Result<Vec<Reading>> {
             (4.., None, None) if readings.is_empty() => {}
             _ => {
                 return Err(Error::Invalid {
-                    detail: format!("\"{line}\" is no reading: photo, mark, x, y are expected"),
+                    reason: Reason::NoReading { text: shortened(line) },
                     at: Place::line(number),
                 });
             }
         }
     }
-    if readings.is_empty() { Err(Error::Empty { what: "readings".into() }) } else { Ok(readings) }
+    if readings.is_empty() { Err(Error::Empty { what: Lack::Readings }) } else { Ok(readings) }
 }
 
 /// Readings of any number of photos of one camera as observations.
@@ -110,12 +110,11 @@ pub fn parse(text: &str) -> Result<Vec<Reading>> {
 /// or sigma is not above 0; [`Error::Duplicate`] for a mark or point read twice in a photo.
 pub fn observations(camera: &Camera, setup: &Setup, readings: &[Reading]) -> Result<Observed> {
     if camera.pixel_pitch.is_none() {
-        let detail = "photo coordinates are in millimetres: give the camera a pixel pitch".into();
-        return Err(Error::Invalid { detail, at: Place::camera(&camera.id).with_field("pixel_pitch") });
+        let at = Place::camera(&camera.id).with_field("pixel_pitch");
+        return Err(Error::Invalid { reason: Reason::PitchMissing, at });
     }
     if !setup.sigma.is_finite() || setup.sigma <= 0.0 {
-        let detail = "the standard error of a photo coordinate is a number of millimetres above 0".into();
-        return Err(Error::Invalid { detail, at: Place::field("sigma") });
+        return Err(Error::Invalid { reason: Reason::ReadingSigma, at: Place::field("sigma") });
     }
     let up = if setup.upwards == Upwards::Yes { 1.0 } else { -1.0 };
     let machine = |r: &Reading| [r.x, up * r.y];
@@ -127,13 +126,13 @@ pub fn observations(camera: &Camera, setup: &Setup, readings: &[Reading]) -> Res
         let mut known = BTreeSet::new();
         if let Some(twice) = own.iter().find(|r| !known.insert(&r.mark)) {
             let at = Place::photo(photo);
-            return Err(Error::Duplicate { kind: "reading".into(), name: twice.mark.clone(), at });
+            return Err(Error::Duplicate { kind: Thing::Reading, name: twice.mark.clone(), at });
         }
         let (marks, points): (Vec<_>, Vec<_>) = own.into_iter().partition(|r| setup.fiducials.contains_key(&r.mark));
         let measured: Vec<_> = marks.iter().map(|r| machine(r)).collect();
         let given: Vec<_> = marks.iter().map(|r| setup.fiducials[&r.mark]).collect();
         let transformation = fit(setup.kind, &measured, &given).map_err(|error| match error {
-            Error::Invalid { detail, at } => Error::Invalid { detail, at: Place { photo: Some(photo.clone()), ..at } },
+            Error::Invalid { reason, at } => Error::Invalid { reason, at: Place { photo: Some(photo.clone()), ..at } },
             other => other,
         })?;
         for reading in points {

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::transformation::Coefficient;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result};
 
 /// A fitted distortion table. Distortion and radius have the same unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,23 +43,23 @@ impl OddPolynomial {
 /// [`Error::Invalid`] when the lists differ in length, are shorter than the number of terms, hold numbers that are not
 /// finite, or do not determine the terms.
 pub fn fit(radii: &[f64], distortions: &[f64], terms: usize, linear: bool) -> Result<OddPolynomial> {
-    let invalid = |detail: String| Err(Error::Invalid { detail, at: Place::field("distortion") });
+    let invalid = |reason| Err(Error::Invalid { reason, at: Place::field("distortion") });
     let n = radii.len();
     let first = usize::from(!linear);
     let unknowns = terms + 1 - first;
     if n != distortions.len() || n < unknowns || unknowns == 0 {
-        return invalid(format!("{n} radii and {} distortions do not determine {unknowns} terms", distortions.len()));
+        return invalid(Reason::TooFewRadii { radii: n, distortions: distortions.len(), terms: unknowns });
     }
     let largest = radii.iter().fold(0.0f64, |m, r| m.max(r.abs()));
     if !radii.iter().chain(distortions).all(|x| x.is_finite()) || largest == 0.0 {
-        return invalid("radii and distortions are finite numbers, not all 0".into());
+        return invalid(Reason::RadiiNotFinite);
     }
     // Radii are scaled to 1, where the powers are of one size.
     let power = |k: usize| 2 * (k + first) + 1;
     let a = DMatrix::from_fn(n, unknowns, |i, k| (radii[i] / largest).powi(power(k) as i32));
     let l = DVector::from_column_slice(distortions);
     let Some(inverse) = (a.transpose() * &a).try_inverse().filter(|q| q.max().is_finite() && q.max() < 1e12) else {
-        return invalid(format!("the radii do not determine {unknowns} terms"));
+        return invalid(Reason::RadiiUndetermined { terms: unknowns });
     };
     let x = &inverse * (a.transpose() * &l);
     let residuals: Vec<f64> = (&a * &x - l).iter().copied().collect();

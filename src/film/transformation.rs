@@ -12,7 +12,7 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result};
 
 /// Kind of plane transformation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -87,14 +87,14 @@ pub fn fit(kind: Kind, measured: &[[f64; 2]], given: &[[f64; 2]]) -> Result<Tran
     let n = measured.len();
     let needed = kind.parameters() / 2;
     if n != given.len() || n < needed || measured.iter().chain(given).flatten().any(|c| !c.is_finite()) {
-        return invalid(format!("{n} measured and {} given marks; at least {needed} pairs are needed", given.len()));
+        return invalid(Reason::TooFewMarks { measured: n, given: given.len(), needed });
     }
     let origin = centroid(measured);
     let scale = spread(measured, origin);
     let target = centroid(given);
     let size = spread(given, target);
     if scale == 0.0 || size == 0.0 {
-        return invalid("all fiducial marks lie in one point".to_owned());
+        return invalid(Reason::MarksInOnePoint);
     }
     let from: Vec<_> = measured.iter().map(|p| [0, 1].map(|k| (p[k] - origin[k]) / scale)).collect();
     let to: Vec<_> = given.iter().map(|p| [0, 1].map(|k| (p[k] - target[k]) / size)).collect();
@@ -110,7 +110,7 @@ pub fn fit(kind: Kind, measured: &[[f64; 2]], given: &[[f64; 2]]) -> Result<Tran
     for _ in 0..if kind == Kind::Projective { 20 } else { 1 } {
         let (a, l) = equations(kind, &from, &to, &h);
         let Some(normal) = (a.transpose() * &a).try_inverse().filter(|q| q.max().is_finite() && q.max() < 1e12) else {
-            return invalid("the fiducial marks lie on a line".to_owned());
+            return invalid(Reason::MarksOnALine);
         };
         let step = &normal * (a.transpose() * l);
         step.iter().enumerate().for_each(|(k, s)| h[k] += s);
@@ -140,8 +140,8 @@ pub fn fit(kind: Kind, measured: &[[f64; 2]], given: &[[f64; 2]]) -> Result<Tran
     })
 }
 
-fn invalid<T>(detail: String) -> Result<T> {
-    Err(Error::Invalid { detail, at: Place::field("fiducials") })
+fn invalid<T>(reason: Reason) -> Result<T> {
+    Err(Error::Invalid { reason, at: Place::field("fiducials") })
 }
 
 fn centroid(points: &[[f64; 2]]) -> [f64; 2] {

@@ -6,7 +6,7 @@ use super::{Bar, Network, NetworkPoint, Source, Station};
 use crate::camera::pixel_from_camera_point;
 use crate::detect::detect;
 use crate::detection::Target;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::image::Grey;
 use crate::initial::Pose;
 use crate::noise::Noise;
@@ -79,7 +79,7 @@ pub fn simulate(network: &Network) -> Result<Project> {
 /// # Errors
 /// [`Error::Unknown`] when there is no such station, and what [`render`] says.
 pub fn photo(network: &Network, station: &str) -> Result<Grey> {
-    let unknown = || Error::Unknown { kind: "photo".into(), name: station.into(), at: Place::field("stations") };
+    let unknown = || Error::Unknown { kind: Thing::Photo, name: station.into(), at: Place::field("stations") };
     let index = network.stations.iter().position(|s| s.id == station).ok_or_else(unknown)?;
     let station = &network.stations[index];
     render(camera_of(network, station)?, &station.pose()?, &scene(network), &network.exposure, index as u64)
@@ -178,7 +178,7 @@ fn points(network: &Network) -> Vec<Point> {
 
 fn distance(network: &Network, bar: &Bar) -> Result<Distance> {
     let end = |id: &str| {
-        let unknown = || Error::Unknown { kind: "point".into(), name: id.into(), at: Place::field("distances") };
+        let unknown = || Error::Unknown { kind: Thing::Point, name: id.into(), at: Place::field("distances") };
         network.points.iter().find(|p| p.id == id).map(|p| Vector3::from(p.xyz)).ok_or_else(unknown)
     };
     let length = (end(&bar.from)? - end(&bar.to)?).norm();
@@ -187,7 +187,7 @@ fn distance(network: &Network, bar: &Bar) -> Result<Distance> {
 
 fn camera_of<'a>(network: &'a Network, station: &Station) -> Result<&'a Camera> {
     network.cameras.iter().find(|c| c.id == station.camera).ok_or_else(|| Error::Unknown {
-        kind: "camera".into(),
+        kind: Thing::Camera,
         name: station.camera.clone(),
         at: Place::photo(&station.id),
     })
@@ -195,15 +195,15 @@ fn camera_of<'a>(network: &'a Network, station: &Station) -> Result<&'a Camera> 
 
 /// What the project does not hold and its own validation therefore does not see.
 fn check(network: &Network) -> Result<()> {
-    let invalid = |detail: &str, field: &str| Err(Error::Invalid { detail: detail.into(), at: Place::field(field) });
+    let invalid = |reason, field: &str| Err(Error::Invalid { reason, at: Place::field(field) });
     if network.noise.is_some_and(|n| n.both().into_iter().any(|s| !s.is_finite() || s < 0.0)) {
-        return invalid("noise is a standard deviation of 0 or more pixels", "noise");
+        return invalid(Reason::Noise, "noise");
     }
     if !network.margin.is_finite() {
-        return invalid("the margin is a number of pixels", "margin");
+        return invalid(Reason::Margin, "margin");
     }
     if !network.max_incidence.is_finite() {
-        return invalid("the largest incidence is an angle in radians", "max_incidence");
+        return invalid(Reason::Incidence, "max_incidence");
     }
     Ok(())
 }

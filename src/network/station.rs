@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result};
 use crate::initial::Pose;
 use crate::rotation;
 
@@ -38,26 +38,25 @@ impl Station {
     /// [`Error::Invalid`] when neither rotation nor aim is given, when the aim is the station itself, or when a number
     /// is not finite.
     pub fn pose(&self) -> Result<Pose> {
-        let invalid = |detail: &str, field: &str| {
-            Err(Error::Invalid { detail: detail.into(), at: Place::photo(&self.id).with_field(field) })
-        };
+        let invalid =
+            |reason, field: &str| Err(Error::Invalid { reason, at: Place::photo(&self.id).with_field(field) });
         let centre = Vector3::from(self.position);
         let finite = |numbers: &[f64]| numbers.iter().all(|n| n.is_finite());
         if !finite(&self.position) || !self.roll.is_finite() {
-            return invalid("position and roll of a station are finite numbers", "position");
+            return invalid(Reason::StationNotFinite, "position");
         }
         if let Some(angles) = self.rotation {
             if !finite(&angles) {
-                return invalid("the angles of a station are finite numbers", "rotation");
+                return invalid(Reason::StationAngles, "rotation");
             }
             return Ok(Pose { object_to_camera: rotation::object_to_camera(angles), centre });
         }
         let Some(aim) = self.look_at else {
-            return invalid("a station needs a rotation or a point to look at", "look_at");
+            return invalid(Reason::StationDirection, "look_at");
         };
         let backwards = centre - Vector3::from(aim);
         if backwards.norm() == 0.0 || !finite(&aim) {
-            return invalid("a station cannot look at itself", "look_at");
+            return invalid(Reason::StationAim, "look_at");
         }
         Ok(Pose { object_to_camera: aimed(&backwards.normalize(), self.roll), centre })
     }

@@ -4,7 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::{Camera, Interior, Parameter, Project};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result, Thing, shortened};
 
 /// Largest magnitude of a coordinate or parameter: far beyond any object, and its square is still a number.
 const LARGEST: f64 = 1e100;
@@ -17,30 +17,24 @@ impl Project {
     pub fn validate(&self) -> Result<()> {
         if self.format != "sightline" || self.version != 1 {
             return invalid(
-                format!(
-                    "this is format \"{}\" version {}; \"sightline\" version 1 is read here",
-                    self.format, self.version
-                ),
+                Reason::Format { format: shortened(&self.format), version: self.version },
                 Place::field("format"),
             );
         }
-        let cameras = unique("camera", self.cameras.iter().map(|c| c.id.as_str()), Place::camera)?;
-        let photos = unique("photo", self.photos.iter().map(|p| p.id.as_str()), Place::photo)?;
-        let points = unique("point", self.points.iter().map(|p| p.id.as_str()), Place::point)?;
+        let cameras = unique(Thing::Camera, self.cameras.iter().map(|c| c.id.as_str()), Place::camera)?;
+        let photos = unique(Thing::Photo, self.photos.iter().map(|p| p.id.as_str()), Place::photo)?;
+        let points = unique(Thing::Point, self.points.iter().map(|p| p.id.as_str()), Place::point)?;
         self.cameras.iter().try_for_each(camera)?;
         for photo in &self.photos {
             let at = || Place::photo(&photo.id);
-            known("camera", &photo.camera, &cameras, || at().with_field("camera"))?;
+            known(Thing::Camera, &photo.camera, &cameras, || at().with_field("camera"))?;
             finite(photo.position.iter().flatten(), || at().with_field("position"))?;
             finite(photo.rotation.iter().flatten(), || at().with_field("rotation"))?;
             sigmas(photo.sigma_position.iter().flatten().flatten(), || at().with_field("sigma_position"))?;
             if let Some(interior) = &photo.interior {
                 let model = self.cameras.iter().find(|c| c.id == photo.camera).map(|c| &c.interior);
                 if model.is_some_and(|m| std::mem::discriminant(m) != std::mem::discriminant(interior)) {
-                    return invalid(
-                        "the photo's own interior orientation must be of its camera's model".into(),
-                        at().with_field("interior"),
-                    );
+                    return invalid(Reason::InteriorModel, at().with_field("interior"));
                 }
                 interior_orientation(interior, at)?;
             }
@@ -50,23 +44,20 @@ impl Project {
             finite(point.xyz.iter().flatten(), || at().with_field("xyz"))?;
             sigmas(point.sigma.iter().flatten().flatten(), || at().with_field("sigma"))?;
             if point.diameter.is_some_and(|d| !(d > 0.0 && d < LARGEST)) {
-                return invalid("a target's diameter is greater than 0".into(), at().with_field("diameter"));
+                return invalid(Reason::TargetDiameter, at().with_field("diameter"));
             }
             finite(point.normal.iter().flatten(), || at().with_field("normal"))?;
             if point.normal.is_some_and(|normal| normal.iter().all(|n| n.abs() < 1e-100)) {
-                return invalid(
-                    "a target's normal is a direction: not all of it is 0".into(),
-                    at().with_field("normal"),
-                );
+                return invalid(Reason::TargetNormal, at().with_field("normal"));
             }
         }
         self.validate_observations(&photos, &points)?;
         self.validate_distances(&points)?;
         for id in self.datum.points.iter().flatten() {
-            known("point", id, &points, || Place::field("datum.points"))?;
+            known(Thing::Point, id, &points, || Place::field("datum.points"))?;
         }
         if let Some(list) = &self.datum.points {
-            unique("datum point", list.iter().map(String::as_str), Place::point)?;
+            unique(Thing::DatumPoint, list.iter().map(String::as_str), Place::point)?;
         }
         Ok(())
     }
@@ -75,18 +66,15 @@ impl Project {
         let mut seen = HashSet::with_capacity(self.observations.len());
         for o in &self.observations {
             let at = || Place { photo: Some(o.photo.clone()), point: Some(o.point.clone()), ..Place::default() };
-            let photo = known("photo", &o.photo, photos, || at().with_field("observations"))?;
-            let point = known("point", &o.point, points, || at().with_field("observations"))?;
+            let photo = known(Thing::Photo, &o.photo, photos, || at().with_field("observations"))?;
+            let point = known(Thing::Point, &o.point, points, || at().with_field("observations"))?;
             finite([o.u, o.v].iter(), || at().with_field("u, v"))?;
             if o.sigma.both().iter().any(|s| !(*s > 0.0 && *s < LARGEST)) {
-                return invalid(
-                    "the standard error of an image observation is greater than 0 pixels".into(),
-                    at().with_field("sigma"),
-                );
+                return invalid(Reason::ImageSigma, at().with_field("sigma"));
             }
             if o.enabled && !seen.insert((photo, point)) {
                 return Err(Error::Duplicate {
-                    kind: "observation".into(),
+                    kind: Thing::Observation,
                     name: format!("{} in {}", o.point, o.photo),
                     at: at(),
                 });
@@ -98,56 +86,56 @@ impl Project {
     fn validate_distances(&self, points: &HashMap<&str, usize>) -> Result<()> {
         for (k, d) in self.distances.iter().enumerate() {
             let at = || Place::point(&d.from).with_field(format!("distances[{k}]"));
-            known("point", &d.from, points, at)?;
-            known("point", &d.to, points, at)?;
+            known(Thing::Point, &d.from, points, at)?;
+            known(Thing::Point, &d.to, points, at)?;
             if d.from == d.to {
-                return invalid("a distance joins two different points".into(), at());
+                return invalid(Reason::DistanceEnds, at());
             }
             if !(d.length > 0.0 && d.length < LARGEST) {
-                return invalid("a distance is greater than 0".into(), at());
+                return invalid(Reason::DistanceLength, at());
             }
             if !(d.sigma > 0.0 && d.sigma < LARGEST) {
-                return invalid("the standard error of a distance is greater than 0".into(), at());
+                return invalid(Reason::DistanceSigma, at());
             }
         }
         Ok(())
     }
 }
 
-fn invalid(detail: String, at: Place) -> Result<()> {
-    Err(Error::Invalid { detail, at })
+fn invalid(reason: Reason, at: Place) -> Result<()> {
+    Err(Error::Invalid { reason, at })
 }
 
 fn unique<'a>(
-    kind: &str,
+    kind: Thing,
     ids: impl Iterator<Item = &'a str>,
     place: impl Fn(&'a str) -> Place,
 ) -> Result<HashMap<&'a str, usize>> {
     let mut index = HashMap::new();
     for (k, id) in ids.enumerate() {
         if index.insert(id, k).is_some() {
-            return Err(Error::Duplicate { kind: kind.into(), name: id.into(), at: place(id) });
+            return Err(Error::Duplicate { kind, name: id.into(), at: place(id) });
         }
     }
     Ok(index)
 }
 
-fn known(kind: &str, id: &str, index: &HashMap<&str, usize>, at: impl Fn() -> Place) -> Result<usize> {
-    index.get(id).copied().ok_or_else(|| Error::Unknown { kind: kind.into(), name: id.into(), at: at() })
+fn known(kind: Thing, id: &str, index: &HashMap<&str, usize>, at: impl Fn() -> Place) -> Result<usize> {
+    index.get(id).copied().ok_or_else(|| Error::Unknown { kind, name: id.into(), at: at() })
 }
 
 fn finite<'a>(mut values: impl Iterator<Item = &'a f64>, at: impl Fn() -> Place) -> Result<()> {
     if values.all(|v| v.abs() < LARGEST) {
         return Ok(());
     }
-    invalid("a number here is not finite or beyond all measure".into(), at())
+    invalid(Reason::NotFinite, at())
 }
 
 fn sigmas<'a>(mut values: impl Iterator<Item = &'a f64>, at: impl Fn() -> Place) -> Result<()> {
     if values.all(|v| *v >= 0.0 && *v < LARGEST) {
         return Ok(());
     }
-    invalid("a standard error is 0 (fixed) or greater".into(), at())
+    invalid(Reason::NegativeSigma, at())
 }
 
 fn interior_orientation(interior: &Interior, at: impl Fn() -> Place) -> Result<()> {
@@ -155,9 +143,8 @@ fn interior_orientation(interior: &Interior, at: impl Fn() -> Place) -> Result<(
         let Some(value) = interior.get(p) else { continue };
         let distance = matches!(p, Parameter::C | Parameter::F | Parameter::Fx | Parameter::Fy);
         if !(value.abs() < LARGEST) || (distance && value <= 0.0) {
-            let what =
-                if distance { "the principal distance is greater than 0" } else { "a parameter is a finite number" };
-            return invalid(what.into(), at().with_field(p.name()));
+            let reason = if distance { Reason::PrincipalDistance } else { Reason::ParameterNotFinite };
+            return invalid(reason, at().with_field(p.name()));
         }
     }
     Ok(())
@@ -166,36 +153,25 @@ fn interior_orientation(interior: &Interior, at: impl Fn() -> Place) -> Result<(
 fn camera(camera: &Camera) -> Result<()> {
     let at = || Place::camera(&camera.id);
     if camera.width == 0 || camera.height == 0 {
-        return invalid("width and height of the sensor grid are at least one pixel".into(), at().with_field("width"));
+        return invalid(Reason::SensorGrid, at().with_field("width"));
     }
     if camera.pitch().iter().any(|p| !(*p > 0.0 && *p < LARGEST)) {
-        return invalid("the pixel pitch is greater than 0 millimetres".into(), at().with_field("pixel_pitch"));
+        return invalid(Reason::PixelPitch, at().with_field("pixel_pitch"));
     }
     interior_orientation(&camera.interior, at)?;
     for &p in camera.free.iter().chain(camera.sigma.keys()) {
         if !camera.interior.parameters().contains(&p) {
-            return Err(Error::Unknown {
-                kind: "parameter".into(),
-                name: p.name().into(),
-                at: at().with_field("free"),
-            });
+            return Err(Error::Unknown { kind: Thing::Parameter, name: p.name().into(), at: at().with_field("free") });
         }
     }
     for (p, sigma) in &camera.sigma {
         if !(*sigma > 0.0 && *sigma < LARGEST) {
-            return invalid(
-                "the a priori standard error of a parameter is greater than 0; leave it out to hold the parameter"
-                    .into(),
-                at().with_field(p.name()),
-            );
+            return invalid(Reason::ParameterSigma, at().with_field(p.name()));
         }
     }
     let estimated = camera.estimated();
     if estimated.contains(&Parameter::F) && (estimated.contains(&Parameter::Fx) || estimated.contains(&Parameter::Fy)) {
-        return invalid(
-            "f stands for fx and fy as one: estimate either f, or fx and fy".into(),
-            at().with_field("free"),
-        );
+        return invalid(Reason::FocalLengthTwice, at().with_field("free"));
     }
     Ok(())
 }

@@ -11,7 +11,12 @@ pub fn thrown(error: &Error) -> JsValue {
     let thrown = JsError::new(&error.to_string());
     set(&thrown, "code", &JsValue::from_str(error.code()));
     set(&thrown, "where", &value::write(&error.place()));
-    set(&thrown, "data", &value::write(error));
+    let data = value::write(error);
+    if let Some(detail) = error.detail() {
+        // The reason in words, as it was before there were names and values for it.
+        let _ = Reflect::set(&data, &JsValue::from_str("detail"), &JsValue::from_str(&detail));
+    }
+    set(&thrown, "data", &data);
     thrown.into()
 }
 

@@ -6,8 +6,8 @@ use js_sys::{Array, Float64Array, JsString, Object, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::adjustment::{AdjustedObservation, AdjustedPoint};
-use crate::detection::{Reason, Rejected};
-use crate::error::{Error, Place, Result};
+use crate::detection::{self, Rejected};
+use crate::error::{Error, Expected, Place, Reason, Result};
 use crate::project::{Observation, Point, Role, Sigma};
 
 #[wasm_bindgen(module = "/src/wasm/tables.js")]
@@ -173,7 +173,7 @@ pub fn adjusted_point_rows(points: &[AdjustedPoint]) -> Array {
 
 /// Gives a detection its field of rejected blobs, whose rows are made when they are read.
 pub fn add_rejected_blobs(detection: &Object, blobs: &[Rejected]) {
-    let mut names: Vec<Reason> = Vec::new();
+    let mut names: Vec<detection::Reason> = Vec::new();
     let (mut numbers, mut reasons) = (Vec::with_capacity(3 * blobs.len()), Vec::with_capacity(blobs.len()));
     for Rejected { u, v, diameter, reason } in blobs {
         numbers.extend([*u, *v, *diameter]);
@@ -222,7 +222,7 @@ fn list(rows: &JsValue, field: &str) -> Result<Option<Array>> {
     match rows.dyn_ref::<Array>() {
         Some(rows) => Ok(Some(rows.clone())),
         None if rows.is_undefined() || rows.is_null() => Ok(None),
-        None => Err(Error::Invalid { detail: format!("{field} is a list of objects"), at: Place::field(field) }),
+        None => Err(super::value::not(field, Expected::Objects)),
     }
 }
 
@@ -238,7 +238,10 @@ fn checked(columns: Columns, rows: &Array, table: &str) -> Result<Columns> {
     let (photo, point) = if table == "points" { (None, text("id")) } else { (text("photo"), text("point")) };
     let path = if field.is_empty() { format!("{table}[{row}]") } else { format!("{table}[{row}].{field}") };
     Err(Error::Invalid {
-        detail: format!("{path} is not {expected}"),
+        reason: Reason::NotOfKind {
+            name: path.clone(),
+            expected: Expected::named(&expected).unwrap_or(Expected::Object),
+        },
         at: Place { photo, point, field: Some(path), ..Place::default() },
     })
 }

@@ -44,14 +44,14 @@ export function readObservations(rows) {
   const places = new Uint32Array(3 * rows.length);
   for (let row = 0; row < rows.length; row++) {
     const source = rows[row];
-    if (!isRow(source)) return { row, field: '', expected: 'an object' };
+    if (!isRow(source)) return { row, field: '', expected: 'object' };
     const { u, v, sigma, enabled } = source;
     const photo = names.number(source.photo);
-    if (photo < 0) return { row, field: 'photo', expected: 'a photo id' };
+    if (photo < 0) return { row, field: 'photo', expected: 'photo_id' };
     const point = names.number(source.point);
-    if (point < 0) return { row, field: 'point', expected: 'a point id' };
-    if (!isNumber(u)) return { row, field: 'u', expected: 'a finite number' };
-    if (!isNumber(v)) return { row, field: 'v', expected: 'a finite number' };
+    if (point < 0) return { row, field: 'point', expected: 'point_id' };
+    if (!isNumber(u)) return { row, field: 'u', expected: 'finite_number' };
+    if (!isNumber(v)) return { row, field: 'v', expected: 'finite_number' };
     let su = sigma;
     let sv = sigma;
     let flags = 0;
@@ -59,9 +59,9 @@ export function readObservations(rows) {
       [su, sv] = sigma;
       flags = 2;
     }
-    if (!isNumber(su) || !isNumber(sv)) return { row, field: 'sigma', expected: 'a number or two' };
+    if (!isNumber(su) || !isNumber(sv)) return { row, field: 'sigma', expected: 'one_or_two' };
     if (enabled === undefined || enabled === true) flags |= 1;
-    else if (enabled !== false) return { row, field: 'enabled', expected: 'true or false' };
+    else if (enabled !== false) return { row, field: 'enabled', expected: 'truth' };
     numbers[4 * row] = u;
     numbers[4 * row + 1] = v;
     numbers[4 * row + 2] = su;
@@ -82,27 +82,27 @@ export function readPoints(rows) {
   const places = new Uint32Array(rows.length);
   for (let row = 0; row < rows.length; row++) {
     const source = rows[row];
-    if (!isRow(source)) return { row, field: '', expected: 'an object' };
+    if (!isRow(source)) return { row, field: '', expected: 'object' };
     const { id, role, xyz, sigma, diameter, normal } = source;
     if (typeof id === 'string') list.push(id);
     else if (isNumber(id)) list.push(String(id));
-    else return { row, field: 'id', expected: 'a point id' };
+    else return { row, field: 'id', expected: 'point_id' };
     let flags = role === undefined ? 0 : ROLES.indexOf(role);
-    if (flags < 0) return { row, field: 'role', expected: 'tie, control or check' };
+    if (flags < 0) return { row, field: 'role', expected: 'role' };
     if (xyz !== null && xyz !== undefined) {
-      if (!three(xyz, numbers, 10 * row, false)) return { row, field: 'xyz', expected: 'three finite numbers or null' };
+      if (!three(xyz, numbers, 10 * row, false)) return { row, field: 'xyz', expected: 'three_or_null' };
       flags |= 4;
     }
     if (sigma !== null && sigma !== undefined) {
-      if (!three(sigma, numbers, 10 * row + 3, true)) return { row, field: 'sigma', expected: 'three values, numbers or null, or null' };
+      if (!three(sigma, numbers, 10 * row + 3, true)) return { row, field: 'sigma', expected: 'sigmas_or_null' };
       flags |= 8;
     }
     if (diameter !== null && diameter !== undefined) {
-      if (!isNumber(diameter)) return { row, field: 'diameter', expected: 'a number or null' };
+      if (!isNumber(diameter)) return { row, field: 'diameter', expected: 'number_or_null' };
       numbers[10 * row + 6] = diameter;
     }
     if (normal !== null && normal !== undefined) {
-      if (!three(normal, numbers, 10 * row + 7, false)) return { row, field: 'normal', expected: 'three finite numbers or null' };
+      if (!three(normal, numbers, 10 * row + 7, false)) return { row, field: 'normal', expected: 'three_or_null' };
       flags |= 16;
     }
     places[row] = flags;

@@ -10,15 +10,20 @@ use wasm_bindgen::prelude::*;
 use super::table;
 use crate::adjustment::Adjustment;
 use crate::detection::Detection;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Expected, Names, Place, Reason, Result, shortened};
 use crate::exchange::Files;
 use crate::image::{Grey, Samples};
 use crate::orient::Oriented;
 use crate::project::Project;
 
 /// An error in a named field.
-pub fn invalid(field: &str, detail: impl Into<String>) -> Error {
-    Error::Invalid { detail: detail.into(), at: Place::field(field) }
+pub fn invalid(field: &str, reason: Reason) -> Error {
+    Error::Invalid { reason, at: Place::field(field) }
+}
+
+/// An error in an argument that is not what it has to be.
+pub fn not(field: &str, expected: Expected) -> Error {
+    invalid(field, Reason::NotOfKind { name: field.into(), expected })
 }
 
 /// A value of any serialisable type; `name` stands before the path of what is wrong.
@@ -28,12 +33,14 @@ pub fn read<T: DeserializeOwned>(value: &JsValue, name: &str) -> Result<T> {
         let field = match path.as_str() {
             "." => name.to_owned(),
             _ if name.is_empty() => path,
+            _ if path.starts_with('[') => format!("{name}{path}"),
             _ => format!("{name}.{path}"),
         };
-        let detail = error.into_inner().to_string();
+        let message = error.into_inner().to_string();
+        let message = shortened(message.trim_start_matches("Error: "));
         invalid(
             &field,
-            if field.is_empty() { detail } else { format!("{field}: {}", detail.trim_start_matches("Error: ")) },
+            Reason::Unreadable { name: if field.is_empty() { "value".into() } else { field.clone() }, message },
         )
     })
 }
@@ -50,9 +57,11 @@ pub fn options<T: DeserializeOwned + Serialize + Default>(value: &JsValue, taken
         return Ok(T::default());
     }
     let given = plain_object(value, "options")?;
-    let known: BTreeMap<String, serde_json::Value> = serde_json::to_value(T::default())
-        .and_then(serde_json::from_value)
-        .map_err(|error| invalid("options", error.to_string()))?;
+    let known: BTreeMap<String, serde_json::Value> =
+        serde_json::to_value(T::default()).and_then(serde_json::from_value).map_err(|error| {
+            let (name, message) = ("options".into(), error.to_string());
+            invalid("options", Reason::Unreadable { name, message })
+        })?;
     let kept = Object::new();
     for entry in Object::entries(given).iter() {
         let entry: Array = entry.unchecked_into();
@@ -62,11 +71,12 @@ pub fn options<T: DeserializeOwned + Serialize + Default>(value: &JsValue, taken
             continue;
         }
         if !known.contains_key(&name) {
-            let names: Vec<&str> = known.keys().map(String::as_str).chain(taken.iter().copied()).collect();
-            return Err(invalid(&name, format!("there is no option \"{name}\"; the options are {}", names.join(", "))));
+            let all = known.into_keys().chain(taken.iter().map(|name| (*name).to_owned())).collect();
+            let reason = Reason::NoSuchOption { name: shortened(&name), known: Names(all) };
+            return Err(invalid(&name, reason));
         }
         if value.as_f64().is_some_and(|number| !number.is_finite()) {
-            return Err(invalid(&name, format!("{name} is no finite number")));
+            return Err(not(&name, Expected::FiniteNumber));
         }
         set(&kept, &name, &value);
     }
@@ -79,24 +89,27 @@ pub fn callback(options: &JsValue, name: &str) -> Result<Option<Function>> {
     if value.is_undefined() || value.is_null() {
         return Ok(None);
     }
-    value.dyn_into().map(Some).map_err(|_| invalid(name, format!("{name} is not a function")))
+    value.dyn_into().map(Some).map_err(|_| not(name, Expected::Function))
 }
 
 /// A document.
 pub fn project(value: &JsValue) -> Result<Project> {
     let given = plain_object(value, "project")?;
     if get(given, "format").as_string().as_deref() != Some("sightline") {
-        return Err(invalid("format", "not a document of Sightline: format is not \"sightline\""));
+        return Err(invalid("format", Reason::NotADocument));
     }
     match get(given, "version").as_f64() {
         Some(1.0) => {}
         Some(other) => {
-            return Err(invalid(
-                "version",
-                format!("the document has version {other} and this program reads version 1"),
-            ));
+            return Err(invalid("version", Reason::NewerVersion { version: other.to_string() }));
         }
-        None => return Err(invalid("version", "the document has no version")),
+        None => {
+            let reason = match get(given, "version").as_string() {
+                Some(other) => Reason::NewerVersion { version: shortened(&other) },
+                None => Reason::NoVersion,
+            };
+            return Err(invalid("version", reason));
+        }
     }
     let rest = Object::assign(&Object::new(), given);
     let (observations, points) = (get(given, "observations"), get(given, "points"));
@@ -162,7 +175,7 @@ pub fn bytes(value: &JsValue, field: &str) -> Result<Vec<u8>> {
     if let Some(buffer) = value.dyn_ref::<ArrayBuffer>() {
         return Ok(Uint8Array::new(buffer).to_vec());
     }
-    Err(invalid(field, format!("{field} is not bytes: a Uint8Array or an ArrayBuffer is expected")))
+    Err(not(field, Expected::Bytes))
 }
 
 /// Files by name: bytes, or text.
@@ -191,20 +204,17 @@ pub fn files_object(files: &Files) -> JsValue {
 
 /// A text argument.
 pub fn text(value: &JsValue, field: &str) -> Result<String> {
-    value.as_string().ok_or_else(|| invalid(field, format!("{field} is not text")))
+    value.as_string().ok_or_else(|| not(field, Expected::Text))
 }
 
 /// A finite number.
 pub fn number(value: &JsValue, field: &str) -> Result<f64> {
-    value
-        .as_f64()
-        .filter(|number| number.is_finite())
-        .ok_or_else(|| invalid(field, format!("{field} is no finite number")))
+    value.as_f64().filter(|number| number.is_finite()).ok_or_else(|| not(field, Expected::FiniteNumber))
 }
 
 /// A size in pixels.
 pub fn whole(value: &JsValue, field: &str) -> Result<usize> {
-    let wrong = || invalid(field, format!("{field} is no whole number of pixels"));
+    let wrong = || not(field, Expected::Pixels);
     value
         .as_f64()
         .filter(|number| number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(number))
@@ -224,5 +234,5 @@ fn set(object: &Object, name: &str, value: &JsValue) {
 
 fn plain_object<'a>(value: &'a JsValue, name: &str) -> Result<&'a Object> {
     let plain = value.is_object() && !Array::is_array(value) && !ArrayBuffer::is_view(value);
-    value.dyn_ref::<Object>().filter(|_| plain).ok_or_else(|| invalid(name, format!("{name} is not an object")))
+    value.dyn_ref::<Object>().filter(|_| plain).ok_or_else(|| not(name, Expected::Object))
 }

@@ -1,5 +1,7 @@
 //! Which column of a control table holds what: from its heading, else from the number of columns and what is in them.
 
+use crate::error::Reason;
+
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Field {
@@ -20,7 +22,7 @@ pub enum Field {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
     pub field: &'static str,
-    pub detail: String,
+    pub reason: Reason,
 }
 
 impl Field {
@@ -39,8 +41,8 @@ impl Field {
         }
     }
 
-    pub fn fault(self, detail: String) -> Fault {
-        Fault { field: self.name(), detail }
+    pub fn fault(self, reason: Reason) -> Fault {
+        Fault { field: self.name(), reason }
     }
 
     /// The field that a heading names, whatever its case, unit ("X [mm]") and punctuation ("s_x", "sigma X").
@@ -98,8 +100,7 @@ pub fn guessed<'a>(rows: impl Iterator<Item = &'a [String]>) -> Result<Columns, 
     let rows: Vec<&[String]> = rows.collect();
     let widest = rows.iter().map(|row| row.len()).max().unwrap_or(0);
     if widest < 4 {
-        let detail = format!("a control point needs four columns (id, X, Y, Z) and the table has {widest}");
-        return Err(Fault { field: "Z", detail });
+        return Err(Fault { field: "Z", reason: Reason::ControlColumns { columns: widest } });
     }
     // Numbers of either decimal mark, as long as nothing else is in them.
     let numeric = |word: &String| word.replacen(',', ".", 1).parse::<f64>().is_ok();

@@ -3,7 +3,7 @@
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Place, Reason, Result, shortened};
 
 /// Deepest nesting that is followed.
 const DEPTH_LIMIT: usize = 64;
@@ -43,15 +43,16 @@ pub fn parse(text: &str) -> Result<Element> {
     let mut open = vec![Element::default()];
     loop {
         let event = reader.read_event();
-        let wrong = |detail: String| Error::Invalid {
-            detail: format!("the XML is damaged: {detail}"),
+        let wrong = |reason| Error::Invalid {
+            reason,
             at: Place::line(line(reader.error_position().max(reader.buffer_position()))),
         };
-        match event.map_err(|error| wrong(error.to_string()))? {
-            Event::Start(tag) if open.len() < DEPTH_LIMIT => open.push(element(&tag).map_err(wrong)?),
-            Event::Start(_) => return Err(wrong("it is nested too deeply".into())),
+        let damaged = |message: String| wrong(Reason::DamagedXml { message: shortened(&message) });
+        match event.map_err(|error| damaged(error.to_string()))? {
+            Event::Start(tag) if open.len() < DEPTH_LIMIT => open.push(element(&tag).map_err(damaged)?),
+            Event::Start(_) => return Err(wrong(Reason::XmlTooDeep { limit: DEPTH_LIMIT })),
             Event::Empty(tag) => {
-                let element = element(&tag).map_err(wrong)?;
+                let element = element(&tag).map_err(damaged)?;
                 open.last_mut().expect("the root stays open").children.push(element);
             }
             Event::End(_) => {
@@ -62,11 +63,11 @@ pub fn parse(text: &str) -> Result<Element> {
             Event::Text(text) => add(&mut open, &text),
             Event::CData(data) => add(&mut open, &data),
             Event::GeneralRef(reference) => {
-                match reference.resolve_char_ref().map_err(|error| wrong(error.to_string()))? {
+                match reference.resolve_char_ref().map_err(|error| damaged(error.to_string()))? {
                     Some(character) => add(&mut open, character.encode_utf8(&mut [0; 4])),
                     None => {
                         let text = quick_xml::escape::resolve_predefined_entity(&reference);
-                        add(&mut open, text.ok_or_else(|| wrong(format!("unknown entity {}", &*reference)))?);
+                        add(&mut open, text.ok_or_else(|| wrong(Reason::XmlEntity { name: shortened(&reference) }))?);
                     }
                 }
             }
@@ -74,12 +75,11 @@ pub fn parse(text: &str) -> Result<Element> {
             Event::Comment(_) | Event::Decl(_) | Event::PI(_) | Event::DocType(_) => {}
         }
     }
-    let missing =
-        |detail: &str| Error::Invalid { detail: format!("the XML is damaged: {detail}"), at: Place::default() };
+    let missing = |reason| Error::Invalid { reason, at: Place::default() };
     if open.len() != 1 {
-        return Err(missing(&format!("{} does not end", open[open.len() - 1].name)));
+        return Err(missing(Reason::XmlOpen { name: shortened(&open[open.len() - 1].name) }));
     }
-    open.pop().and_then(|mut root| root.children.pop()).ok_or_else(|| missing("it is empty"))
+    open.pop().and_then(|mut root| root.children.pop()).ok_or_else(|| missing(Reason::XmlEmpty))
 }
 
 fn add(open: &mut [Element], text: &str) {

@@ -1,9 +1,10 @@
 //! The engine's errors as sentences: what is wrong, where, and what to do.
 
 use sightline::Error;
-use sightline::error::{Defect, Place};
+use sightline::error::{Damage, Defect, Lack, Place, Reason, Thing};
+use sightline::initial::Degeneracy;
 
-use super::{Language, details, language, texts};
+use super::{Language, language, reasons, texts};
 
 texts! {
     recognised(kind): "this is a {kind} file, which is not read here: convert it to JPEG, PNG or TIFF", "{kind} 파일입니다. 여기서는 읽지 못하므로 JPEG, PNG, TIFF로 변환하십시오";
@@ -32,17 +33,11 @@ texts! {
     kind_photo: "photo", "사진";
     kind_point: "point", "점";
     kind_camera: "camera", "카메라";
-    kind_parameter: "parameter", "매개변수";
-    kind_format: "format", "형식";
-    kind_experiment: "experiment", "실험";
     kind_file: "file", "파일";
     kind_line: "line", "행";
     kind_field: "field", "항목";
-    kind_distance: "distance", "거리";
-    kind_observation: "observation", "관측값";
     some_photos: "photos", "사진";
     some_points: "points", "점";
-    some_observations: "observations", "관측값";
     some_cameras: "cameras", "카메라";
     some_parameters: "parameters", "매개변수";
 }
@@ -52,18 +47,20 @@ pub fn sentence(error: &Error) -> String {
     let text = match error {
         Error::UnknownImageFormat { recognised: Some(kind), .. } => recognised(kind),
         Error::UnknownImageFormat { .. } => no_picture().to_owned(),
-        Error::BrokenImage { detail, .. } => broken(detail),
+        Error::BrokenImage { reason, .. } => broken(damaged(reason)),
         Error::ImageSize { width, height, limit, .. } => size(width, height, limit),
-        Error::Invalid { detail, .. } => told(detail),
-        Error::Unknown { kind, name, .. } => unknown(kind_word(kind), name),
-        Error::Duplicate { kind, name, .. } => duplicate(kind_word(kind), name),
-        Error::Empty { what } => empty(what_word(what)),
+        Error::Invalid { reason, .. } => because(reason),
+        Error::Unknown { kind, name, .. } => unknown(thing(*kind), name),
+        Error::Duplicate { kind, name, .. } => duplicate(thing(*kind), name),
+        Error::Empty { what } => empty(lack(*what)),
         Error::MissingInitialValues { photos, points, cameras } => {
             initial_values(things(&[(some_photos(), photos), (some_points(), points), (some_cameras(), cameras)]))
         }
         Error::RankDefect { defects } => not_solved(defects.iter().map(defect).collect::<Vec<_>>().join("; ")),
-        Error::CannotOrient { detail, photos } if photos.is_empty() => told(detail),
-        Error::CannotOrient { detail, photos } => format!("{} ({} {})", told(detail), some_photos(), listed(photos)),
+        Error::CannotOrient { reason, photos } if photos.is_empty() => degenerate(reason),
+        Error::CannotOrient { reason, photos } => {
+            format!("{} ({} {})", degenerate(reason), some_photos(), listed(photos))
+        }
         Error::Cancelled => stopped().to_owned(),
     };
     let mut text = capitalised(&text);
@@ -83,11 +80,38 @@ pub fn sentence(error: &Error) -> String {
     text
 }
 
-/// A detail of the engine in the language in use, where it is known in it.
-fn told(detail: &str) -> String {
+fn because(reason: &Reason) -> String {
     match language() {
-        Language::English => detail.to_owned(),
-        Language::Korean => details::korean(detail).unwrap_or_else(|| detail.to_owned()),
+        Language::English => reason.to_string(),
+        Language::Korean => reasons::reason(reason),
+    }
+}
+
+fn damaged(damage: &Damage) -> String {
+    match language() {
+        Language::English => damage.to_string(),
+        Language::Korean => reasons::damage(damage),
+    }
+}
+
+fn degenerate(degeneracy: &Degeneracy) -> String {
+    match language() {
+        Language::English => degeneracy.to_string(),
+        Language::Korean => reasons::degeneracy(degeneracy),
+    }
+}
+
+fn thing(thing: Thing) -> &'static str {
+    match language() {
+        Language::English => thing.name(),
+        Language::Korean => reasons::thing(thing),
+    }
+}
+
+fn lack(lack: Lack) -> &'static str {
+    match language() {
+        Language::English => lack.name(),
+        Language::Korean => reasons::lack(lack),
     }
 }
 
@@ -120,30 +144,6 @@ fn defect(defect: &Defect) -> String {
         Defect::Combination { points, photos, parameters } => {
             combination(things(&[(some_points(), points), (some_photos(), photos), (some_parameters(), parameters)]))
         }
-    }
-}
-
-fn kind_word(kind: &str) -> String {
-    match kind {
-        "photo" => kind_photo().to_owned(),
-        "point" => kind_point().to_owned(),
-        "camera" => kind_camera().to_owned(),
-        "parameter" => kind_parameter().to_owned(),
-        "format" => kind_format().to_owned(),
-        "experiment" => kind_experiment().to_owned(),
-        "distance" => kind_distance().to_owned(),
-        "observation" => kind_observation().to_owned(),
-        other => other.to_owned(),
-    }
-}
-
-fn what_word(what: &str) -> String {
-    match what {
-        "photos" => some_photos().to_owned(),
-        "points" => some_points().to_owned(),
-        "observations" => some_observations().to_owned(),
-        "cameras" => some_cameras().to_owned(),
-        other => other.to_owned(),
     }
 }
 

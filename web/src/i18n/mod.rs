@@ -2,9 +2,9 @@
 //!
 //! Used in a view, a text follows the language switch by itself, for it reads the language signal.
 
-mod details;
 pub mod errors;
 pub mod experiments;
+mod reasons;
 pub mod text;
 mod weights;
 

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 use sightline::Error;
+use sightline::error::Lack;
 use sightline::exchange::control_csv::{self, ControlTable};
 use sightline::project::{DatumKind, Distance, Point, Role};
 
@@ -31,7 +32,7 @@ impl Desk {
     pub fn read_control(self, source: String, content: &str) {
         let table = control_csv::parse(content);
         if table.rows.is_empty() {
-            self.warn_error(Error::Empty { what: "points".into() });
+            self.warn_error(Error::Empty { what: Lack::Points });
             return;
         }
         self.pasted.set(Some(Pasted { source, table }));

@@ -1,0 +1,329 @@
+//! Why something is not allowed where it stands, as data: a name and the values that a sentence needs.
+//!
+//! Each reason has its English sentence beside it; the desk has one for each in every other language.
+
+use std::fmt;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// Declares the reasons: a name, the values, the sentence they make.
+macro_rules! reasons {
+    ($($name:ident $({ $($value:ident: $type:ty),+ })? => $sentence:literal;)+) => {
+        /// Why something is not allowed where it stands.
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[serde(tag = "kind", rename_all = "snake_case")]
+        #[allow(missing_docs)] // the values are named by what stands in the sentence
+        pub enum Reason {
+            $(#[doc = $sentence] $name $({ $($value: $type),+ })?,)+
+        }
+
+        impl fmt::Display for Reason {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                match self {
+                    $(Self::$name $({ $($value),+ })? => write!(f, $sentence),)+
+                }
+            }
+        }
+    };
+}
+
+reasons! {
+    // The document
+    NotADocument => "not a document of Sightline: \"format\": \"sightline\" is missing";
+    NotJson { message: String } => "not a document of Sightline: {message}";
+    Format { format: String, version: u32 } => "this is format \"{format}\" version {version}; \"sightline\" version 1 is read here";
+    NewerVersion { version: String } => "the document has version {version} and this program reads version 1: open it with a newer one";
+    NoVersion => "the document has no version";
+    DamagedDocument { message: String } => "the document is damaged: {message}";
+    OneFile { given: usize } => "this format is one file, {given} were given";
+    InteriorModel => "the photo's own interior orientation must be of its camera's model";
+    TargetDiameter => "a target's diameter is greater than 0";
+    TargetNormal => "a target's normal is a direction: not all of it is 0";
+    ImageSigma => "the standard error of an image observation is greater than 0 pixels";
+    DistanceEnds => "a distance joins two different points";
+    DistanceLength => "a distance is greater than 0";
+    DistanceSigma => "the standard error of a distance is greater than 0";
+    NotFinite => "a number here is not finite or beyond all measure";
+    NegativeSigma => "a standard error is 0 (fixed) or greater";
+    PrincipalDistance => "the principal distance is greater than 0";
+    ParameterNotFinite => "a parameter is a finite number";
+    SensorGrid => "width and height of the sensor grid are at least one pixel";
+    PixelPitch => "the pixel pitch is greater than 0 millimetres";
+    ParameterSigma => "the a priori standard error of a parameter is greater than 0; leave it out to hold the parameter";
+    FocalLengthTwice => "f stands for fx and fy as one: estimate either f, or fx and fy";
+
+    // The adjustment
+    DatumPoints => "the datum needs at least three points that do not lie in one line";
+    NoImage => "the iteration ended where a point has no image: improve the initial values";
+    Unmodelled { value: Number } => "unmodelled is {value}; a number of pixels from 0 is expected";
+    CommonDiameter { value: Number } => "target_diameter is {value}; a finite number above 0 is expected";
+    DiameterBeyondPoints { value: Number, extent: Number } => "target_diameter is {value}, but all points lie within {extent}; give it in their unit";
+
+    // Detection
+    OutsidePicture { name: String, value: Number, size: usize } => "{name} is {value}; a place in the picture lies between 0 and {size}";
+    NotPixels { name: String, value: Number } => "{name} is {value}; a positive number of pixels is expected";
+    DiametersSwapped { min_diameter: Number, max_diameter: Number } => "min_diameter {min_diameter} is larger than max_diameter {max_diameter}";
+    Samples { samples: usize, width: usize, height: usize } => "{samples} samples are no picture of {width} x {height} pixels";
+
+    // Texts and tables
+    NotText => "this is no text in UTF-8: save it as a text file in UTF-8";
+    Missing { name: String } => "{name} is missing";
+    MissingField { name: String, fields: usize } => "{name} is missing (fields in this line: {fields})";
+    NotANumber { name: String, text: String } => "{name} is no number: \"{text}\"";
+    NotWhole { name: String, text: String } => "{name} is no whole number: \"{text}\"";
+    NotPositive { name: String, value: Number } => "{name} is not positive: {value}";
+    Negative { name: String, value: Number } => "{name} is negative: {value}";
+    CommaAmongPoints { name: String, text: String } => "{name} has a comma, and the other numbers a decimal point: \"{text}\" (write it without thousands marks)";
+    PointAmongCommas { name: String, text: String } => "{name} has a point, and the other numbers a decimal comma: \"{text}\" (write it without thousands marks)";
+    NoneOf { name: String, choices: String, text: String } => "{name} is none of {choices}: \"{text}\"";
+    ControlColumns { columns: usize } => "a control point needs four columns (id, X, Y, Z) and the table has {columns}";
+    NoReading { text: String } => "\"{text}\" is no reading: photo, mark, x, y are expected";
+
+    // The project file
+    NameWithFolders => "a photo's file name holds no folders";
+    Entries { entries: usize, limit: usize } => "the archive has {entries} entries; a project file has up to {limit}";
+    NoProjectInside => "this archive is no project file: it holds no project.json";
+    DamagedEntry { message: String } => "the project file is damaged: {message}";
+    Unpacks { megabytes: u64 } => "the archive unpacks to more than {megabytes} MB: it is no project file";
+    DamagedArchive { message: String } => "not a project file, or a damaged one ({message}): save it again from where it was made";
+    CannotPack { message: String } => "the project file cannot be written: {message}";
+    CannotWriteJson { message: String } => "cannot be written as JSON: {message}";
+    CannotWritePicture { message: String } => "the picture cannot be written: {message}";
+
+    // Other programs' files
+    PhotoModelerCut { part: PhotoModelerPart } => "not a text export of PhotoModeler, or cut short: {part} is missing";
+    NoPixels => "the picture has no pixels";
+    NotDbat => "not a project of DBAT: document and input are missing";
+    NoColumn { column: String } => "the format has no column {column}";
+    ColumnsNotNamed { file: String } => "the columns of {file} are not named";
+    Numbers { name: String, count: usize, text: String } => "{name} is not {count} numbers: \"{text}\"";
+    SizeNotPositive { name: String } => "{name} needs a positive width and height";
+    LensModel { model: Number } => "lens model {model} distorts the ideal point: only corrections of the measured point (models from 1) are read";
+    Skew => "a skew is not read: only 0";
+    CamerasNotTold { cameras: usize } => "cameras in the project: {cameras}; the photos do not say which is theirs";
+    Filter { text: String } => "a filter keeps or removes, not \"{text}\"";
+    DamagedXml { message: String } => "the XML is damaged: {message}";
+    XmlTooDeep { limit: usize } => "the XML is nested deeper than {limit} elements";
+    XmlEntity { name: String } => "the XML is damaged: unknown entity {name}";
+    XmlOpen { name: String } => "the XML is damaged: {name} does not end";
+    XmlEmpty => "the XML is damaged: it is empty";
+
+    // Film
+    PitchMissing => "photo coordinates are in millimetres: give the camera a pixel pitch";
+    ReadingSigma => "the standard error of a photo coordinate is a number of millimetres above 0";
+    TooFewMarks { measured: usize, given: usize, needed: usize } => "fiducial marks measured: {measured}, given: {given}; at least {needed} pairs of finite numbers are needed";
+    MarksInOnePoint => "all fiducial marks lie in one point";
+    MarksOnALine => "the fiducial marks lie on a line";
+    TooFewRadii { radii: usize, distortions: usize, terms: usize } => "radii: {radii}, distortions: {distortions}; they do not determine {terms} terms";
+    RadiiNotFinite => "radii and distortions are finite numbers, not all 0";
+    RadiiUndetermined { terms: usize } => "the radii do not determine {terms} terms";
+
+    // Networks on paper and pictures of them
+    Noise => "noise is a standard deviation of 0 or more pixels";
+    Margin => "the margin is a number of pixels";
+    Incidence => "the largest incidence is an angle in radians";
+    StationNotFinite => "position and roll of a station are finite numbers";
+    StationAngles => "the angles of a station are finite numbers";
+    StationDirection => "a station needs a rotation or a point to look at";
+    StationAim => "a station cannot look at itself";
+    Face { index: usize } => "face {index} is no parallelogram with a finite grey and a grain above 0";
+    Disc => "a target needs a finite centre, a direction and a diameter above 0";
+    CodeRing => "a code ring has 2 to 24 sectors and no more bits than sectors";
+    Exposure => "an exposure needs a point spread from 0.3 to 10 pixels, vignetting and noise from 0 to 1 and 8 or 16 bits";
+
+    // Experiments
+    ImageNoise => "the standard deviation of image coordinates is from 0.01 to 1000 µm";
+    PixelNoise => "the noise of the pixels is a share from 0 to 0.2";
+    ControlSigma => "the standard error of control coordinates is from 1e-6 to 1000 mm";
+    Rounds { limit: usize } => "at most {limit} rounds of Monte Carlo";
+
+    // Arguments
+    NotOfKind { name: String, expected: Expected } => "{name} is not {expected}";
+    NoSuchOption { name: String, known: Names } => "there is no option \"{name}\"; the options are {known}";
+    Unreadable { name: String, message: String } => "{name}: {message}";
+}
+
+/// A number that a sentence quotes. What is no finite number travels as null.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Number(pub f64);
+
+impl From<f64> for Number {
+    fn from(value: f64) -> Self {
+        Self(value)
+    }
+}
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl Serialize for Number {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Some(self.0).filter(|value| value.is_finite()).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Option::<f64>::deserialize(deserializer).map(|value| Self(value.unwrap_or(f64::NAN)))
+    }
+}
+
+/// Names, told with commas between them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Names(pub Vec<String>);
+
+impl fmt::Display for Names {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0.join(", "))
+    }
+}
+
+/// Declares a choice of words: a name, its word in JSON and its English.
+macro_rules! words {
+    ($(#[$doc:meta])+ $enum:ident { $($name:ident = $json:literal => $english:literal;)+ }) => {
+        $(#[$doc])+
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+        pub enum $enum {
+            $(#[doc = $english] #[serde(rename = $json)] $name,)+
+        }
+
+        impl $enum {
+            /// All of them.
+            pub const ALL: &[Self] = &[$(Self::$name),+];
+
+            /// The word in JSON.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$name => $json,)+
+                }
+            }
+
+            /// The one of this word in JSON.
+            pub fn named(name: &str) -> Option<Self> {
+                Self::ALL.iter().copied().find(|one| one.name() == name)
+            }
+        }
+
+        impl fmt::Display for $enum {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(match self {
+                    $(Self::$name => $english,)+
+                })
+            }
+        }
+    };
+}
+
+words! {
+    /// A thing that has a name.
+    Thing {
+        Camera = "camera" => "camera";
+        Photo = "photo" => "photo";
+        Point = "point" => "point";
+        DatumPoint = "datum point" => "datum point";
+        Observation = "observation" => "observation";
+        Distance = "distance" => "distance";
+        Parameter = "parameter" => "parameter";
+        FiducialMark = "fiducial mark" => "fiducial mark";
+        Reading = "reading" => "reading";
+        File = "file" => "file";
+        Format = "format" => "format";
+        Experiment = "experiment" => "experiment";
+        Network = "network" => "network";
+    }
+}
+
+words! {
+    /// What there is none of.
+    Lack {
+        Photos = "photos" => "photos";
+        Points = "points" => "points";
+        Observations = "observations" => "observations";
+        FiducialMarks = "fiducial marks" => "fiducial marks";
+        Readings = "readings" => "readings";
+        Files = "files" => "files";
+    }
+}
+
+words! {
+    /// A part of PhotoModeler's text export.
+    PhotoModelerPart {
+        Heading = "heading" => "heading";
+        Size = "picture size" => "picture size";
+        Weights = "weights" => "weights";
+        Camera = "camera" => "camera";
+        CameraSigmas = "camera sigmas" => "camera sigmas";
+        Photo = "photo" => "photo";
+        Exterior = "exterior orientation" => "exterior orientation";
+        ExteriorSigmas = "sigmas of the exterior orientation" => "sigmas of the exterior orientation";
+        PhotoCamera = "camera of the photo" => "camera of the photo";
+        PhotoCameraSigmas = "sigmas of the camera" => "sigmas of the camera";
+    }
+}
+
+words! {
+    /// What an argument has to be.
+    Expected {
+        Object = "object" => "an object";
+        Objects = "objects" => "a list of objects";
+        Function = "function" => "a function";
+        Text = "text" => "text";
+        Bytes = "bytes" => "bytes: a Uint8Array or an ArrayBuffer is expected";
+        Samples = "samples" => "a picture, row by row: a Uint8Array or a Uint16Array is expected";
+        FiniteNumber = "finite_number" => "a finite number";
+        Pixels = "pixels" => "a whole number of pixels";
+        Truth = "truth" => "true or false";
+        PhotoId = "photo_id" => "a photo id";
+        PointId = "point_id" => "a point id";
+        OneOrTwo = "one_or_two" => "a number or two";
+        Role = "role" => "tie, control or check";
+        NumberOrNull = "number_or_null" => "a number or null";
+        ThreeOrNull = "three_or_null" => "three finite numbers or null";
+        SigmasOrNull = "sigmas_or_null" => "three values, numbers or null, or null";
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::{Error, Place};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn reasons_travel_as_json() {
+        for reason in [
+            Reason::NoVersion,
+            Reason::NotANumber { name: "Y".into(), text: "zwei".into() },
+            Reason::NotOfKind { name: "u".into(), expected: Expected::FiniteNumber },
+            Reason::PhotoModelerCut { part: PhotoModelerPart::ExteriorSigmas },
+            Reason::NoSuchOption { name: "a".into(), known: Names(vec!["b".into(), "c".into()]) },
+            Reason::DiametersSwapped { min_diameter: 0.1.into(), max_diameter: (-0.3).into() },
+        ] {
+            let error = Error::Invalid { reason, at: Place::line(3) };
+            let json = serde_json::to_string(&error).unwrap();
+            assert_eq!(serde_json::from_str::<Error>(&json).unwrap(), error, "{json}");
+        }
+    }
+
+    /// What is no finite number is what such a sentence is about: it must not keep the sentence from being told.
+    #[test]
+    fn numbers_that_json_has_not_travel_too() {
+        let error = Error::Invalid { reason: Reason::Unmodelled { value: f64::NAN.into() }, at: Place::default() };
+        let json = serde_json::to_string(&error).unwrap();
+        assert_eq!(serde_json::from_str::<Error>(&json).unwrap().to_string(), error.to_string());
+        assert!(error.to_string().contains("NaN"));
+    }
+
+    #[test]
+    fn words_in_json_are_found_again() {
+        for one in Thing::ALL {
+            assert_eq!(Thing::named(one.name()), Some(*one));
+            assert_eq!(serde_json::to_value(one).unwrap(), one.name());
+        }
+        assert!(Expected::ALL.iter().all(|one| Expected::named(one.name()) == Some(*one)));
+    }
+}

@@ -1,0 +1,281 @@
+//! Why the engine refuses something, in Korean. The English is the engine's own.
+
+use sightline::error::{Damage, Expected, Lack, PhotoModelerPart, Reason, Thing};
+use sightline::initial::Degeneracy;
+
+/// What is not allowed where it stands.
+pub fn reason(reason: &Reason) -> String {
+    use Reason as R;
+    let plain = match reason {
+        R::NotADocument => "Sightline 문서가 아닙니다. \"format\": \"sightline\"이 없습니다",
+        R::NotJson { message } => return format!("Sightline 문서가 아닙니다: {message}"),
+        R::Format { format, version } => {
+            return format!("형식 \"{format}\" 버전 {version}입니다. 여기서는 \"sightline\" 버전 1을 읽습니다");
+        }
+        R::NewerVersion { version } => {
+            return format!(
+                "문서 버전이 {version}입니다. 이 프로그램은 버전 1을 읽으므로 더 새로운 프로그램으로 여십시오"
+            );
+        }
+        R::NoVersion => "문서에 버전이 없습니다",
+        R::DamagedDocument { message } => return format!("문서가 손상되었습니다: {message}"),
+        R::OneFile { given } => return format!("이 형식은 파일 하나입니다. {given}개를 주었습니다"),
+        R::InteriorModel => "사진별 내부표정은 카메라와 같은 모델이어야 합니다",
+        R::TargetDiameter => "표적 지름은 0보다 커야 합니다",
+        R::TargetNormal => "표적의 법선은 방향이므로 세 성분이 모두 0일 수 없습니다",
+        R::ImageSigma => "영상 관측값의 표준오차는 0화소보다 커야 합니다",
+        R::DistanceEnds => "거리는 서로 다른 두 점을 잇습니다",
+        R::DistanceLength => "거리는 0보다 커야 합니다",
+        R::DistanceSigma => "거리의 표준오차는 0보다 커야 합니다",
+        R::NotFinite => "유한하지 않거나 터무니없이 큰 수가 있습니다",
+        R::NegativeSigma => "표준오차는 0(고정) 이상이어야 합니다",
+        R::PrincipalDistance => "주점거리는 0보다 커야 합니다",
+        R::ParameterNotFinite => "매개변수는 유한한 수여야 합니다",
+        R::SensorGrid => "센서 격자의 폭과 높이는 1화소 이상이어야 합니다",
+        R::PixelPitch => "화소 간격은 0 mm보다 커야 합니다",
+        R::ParameterSigma => "매개변수의 사전 표준오차는 0보다 커야 합니다. 고정하려면 비워 두십시오",
+        R::FocalLengthTwice => "f는 fx와 fy를 하나로 나타냅니다. f만, 또는 fx와 fy를 추정하십시오",
+
+        R::DatumPoints => "기준계에는 한 직선 위에 있지 않은 점이 셋 이상 필요합니다",
+        R::NoImage => "점의 상이 생기지 않는 곳에서 반복이 끝났습니다. 초기값을 개선하십시오",
+        R::Unmodelled { value } => {
+            return format!("모형화되지 않은 오차가 {value}입니다. 0 이상의 화소 수여야 합니다");
+        }
+        R::CommonDiameter { value } => return format!("표적 지름이 {value}입니다. 0보다 큰 유한한 수여야 합니다"),
+        R::DiameterBeyondPoints { value, extent } => {
+            return format!(
+                "표적 지름이 {value}인데 모든 점이 {extent} 안에 있습니다. 점 좌표와 같은 단위로 입력하십시오"
+            );
+        }
+
+        R::OutsidePicture { name, value, size } => {
+            return format!("{name}이(가) {value}입니다. 사진 안의 위치는 0부터 {size}까지입니다");
+        }
+        R::NotPixels { name, value } => return format!("{name}이(가) {value}입니다. 양의 화소 수여야 합니다"),
+        R::DiametersSwapped { min_diameter, max_diameter } => {
+            return format!("최소 지름 {min_diameter}이(가) 최대 지름 {max_diameter}보다 큽니다");
+        }
+        R::Samples { samples, width, height } => {
+            return format!("표본 {samples}개로는 {width} × {height} 화소의 사진이 되지 않습니다");
+        }
+
+        R::NotText => "UTF-8 텍스트가 아닙니다. UTF-8 텍스트 파일로 저장하십시오",
+        R::Missing { name } => return format!("{name}이(가) 없습니다"),
+        R::MissingField { name, fields } => return format!("{name}이(가) 없습니다. 이 행의 항목은 {fields}개입니다"),
+        R::NotANumber { name, text } => return format!("{name}이(가) 수가 아닙니다: \"{text}\""),
+        R::NotWhole { name, text } => return format!("{name}이(가) 정수가 아닙니다: \"{text}\""),
+        R::NotPositive { name, value } => return format!("{name}이(가) 양수가 아닙니다: {value}"),
+        R::Negative { name, value } => return format!("{name}이(가) 음수입니다: {value}"),
+        R::CommaAmongPoints { name, text } => {
+            return format!(
+                "{name}: 다른 수는 소수점을 쓰는데 쉼표가 있습니다: \"{text}\" (천 단위 구분 없이 쓰십시오)"
+            );
+        }
+        R::PointAmongCommas { name, text } => {
+            return format!(
+                "{name}: 다른 수는 소수 쉼표를 쓰는데 점이 있습니다: \"{text}\" (천 단위 구분 없이 쓰십시오)"
+            );
+        }
+        R::NoneOf { name, choices, text } => {
+            return format!("{name}은(는) {choices} 가운데 하나여야 합니다: \"{text}\"");
+        }
+        R::ControlColumns { columns } => {
+            return format!("기준점에는 네 열(id, X, Y, Z)이 필요한데 표의 열은 {columns}개입니다");
+        }
+        R::NoReading { text } => return format!("\"{text}\"은(는) 측정값이 아닙니다. 사진, 표지, x, y가 필요합니다"),
+
+        R::NameWithFolders => "사진 파일 이름에는 폴더를 넣을 수 없습니다",
+        R::Entries { entries, limit } => {
+            return format!("압축 파일의 항목이 {entries}개입니다. 프로젝트 파일은 {limit}개까지입니다");
+        }
+        R::NoProjectInside => "프로젝트 파일이 아닙니다. 압축 안에 project.json이 없습니다",
+        R::DamagedEntry { message } => return format!("프로젝트 파일이 손상되었습니다: {message}"),
+        R::Unpacks { megabytes } => {
+            return format!("압축을 풀면 {megabytes} MB가 넘습니다. 프로젝트 파일이 아닙니다");
+        }
+        R::DamagedArchive { message } => {
+            return format!("프로젝트 파일이 아니거나 손상되었습니다({message}). 만든 곳에서 다시 저장하십시오");
+        }
+        R::CannotPack { message } => return format!("프로젝트 파일을 쓸 수 없습니다: {message}"),
+        R::CannotWriteJson { message } => return format!("JSON으로 쓸 수 없습니다: {message}"),
+        R::CannotWritePicture { message } => return format!("사진을 쓸 수 없습니다: {message}"),
+
+        R::PhotoModelerCut { part } => {
+            return format!(
+                "PhotoModeler 텍스트 내보내기 파일이 아니거나 중간에 잘렸습니다: {} 없음",
+                photomodeler_part(*part)
+            );
+        }
+        R::NoPixels => "사진에 화소가 없습니다",
+        R::NotDbat => "DBAT 프로젝트가 아닙니다. document와 input이 없습니다",
+        R::NoColumn { column } => return format!("형식에 {column} 열이 없습니다"),
+        R::ColumnsNotNamed { file } => return format!("{file}의 열 이름이 없습니다"),
+        R::Numbers { name, count, text } => return format!("{name}은(는) 수 {count}개여야 합니다: \"{text}\""),
+        R::SizeNotPositive { name } => return format!("{name}의 폭과 높이는 양수여야 합니다"),
+        R::LensModel { model } => {
+            return format!("렌즈 모델 {model}은(는) 이상점을 왜곡합니다. 측정점을 보정하는 모델(1부터)만 읽습니다");
+        }
+        R::Skew => "비직교(skew)는 0만 읽습니다",
+        R::CamerasNotTold { cameras } => {
+            return format!("카메라가 {cameras}대인데 사진에 어느 카메라인지 적혀 있지 않습니다");
+        }
+        R::Filter { text } => return format!("filter는 keep 또는 remove입니다: \"{text}\""),
+        R::DamagedXml { message } => return format!("XML이 손상되었습니다: {message}"),
+        R::XmlTooDeep { limit } => return format!("XML 요소가 {limit}단계보다 깊게 겹쳐 있습니다"),
+        R::XmlEntity { name } => return format!("XML이 손상되었습니다: 알 수 없는 개체 {name}"),
+        R::XmlOpen { name } => return format!("XML이 손상되었습니다: {name}이(가) 닫히지 않았습니다"),
+        R::XmlEmpty => "XML이 손상되었습니다: 비어 있습니다",
+
+        R::PitchMissing => "사진좌표는 밀리미터입니다. 카메라에 화소 간격을 주십시오",
+        R::ReadingSigma => "사진좌표의 표준오차는 0보다 큰 밀리미터 값이어야 합니다",
+        R::TooFewMarks { measured, given, needed } => {
+            return format!(
+                "측정한 지표 {measured}개, 주어진 지표 {given}개입니다. 유한한 수의 쌍이 {needed}개 이상 필요합니다"
+            );
+        }
+        R::MarksInOnePoint => "사진지표가 모두 한 점에 있습니다",
+        R::MarksOnALine => "사진지표가 한 직선 위에 있습니다",
+        R::TooFewRadii { radii, distortions, terms } => {
+            return format!("반경 {radii}개와 왜곡량 {distortions}개로는 {terms}개 항을 정할 수 없습니다");
+        }
+        R::RadiiNotFinite => "반경과 왜곡량은 유한한 수여야 하며 모두 0일 수는 없습니다",
+        R::RadiiUndetermined { terms } => return format!("이 반경들로는 {terms}개 항을 정할 수 없습니다"),
+
+        R::Noise => "잡음은 0화소 이상의 표준편차입니다",
+        R::Margin => "여백은 화소 수입니다",
+        R::Incidence => "최대 입사각은 라디안 각도입니다",
+        R::StationNotFinite => "촬영점의 위치와 회전은 유한한 수여야 합니다",
+        R::StationAngles => "촬영점의 각은 유한한 수여야 합니다",
+        R::StationDirection => "촬영점에는 회전각이나 바라보는 점이 필요합니다",
+        R::StationAim => "촬영점은 자신을 바라볼 수 없습니다",
+        R::Face { index } => {
+            return format!("면 {index}은(는) 유한한 밝기와 0보다 큰 결을 가진 평행사변형이 아닙니다");
+        }
+        R::Disc => "표적에는 유한한 중심, 방향, 0보다 큰 지름이 필요합니다",
+        R::CodeRing => "코드 고리는 2~24구획이며 비트 수는 구획 수를 넘지 않습니다",
+        R::Exposure => "노출에는 0.3~10화소의 점확산, 0~1의 비네팅과 잡음, 8 또는 16비트가 필요합니다",
+
+        R::ImageNoise => "사진좌표의 표준편차는 0.01에서 1000 µm까지입니다",
+        R::PixelNoise => "화소 잡음은 최댓값의 0에서 0.2까지입니다",
+        R::ControlSigma => "기준점 좌표의 표준오차는 1e-6에서 1000 mm까지입니다",
+        R::Rounds { limit } => return format!("몬테카를로 반복은 {limit}회까지입니다"),
+
+        R::NotOfKind { name, expected: wanted } => return format!("{name}: {}이어야 합니다", expected(*wanted)),
+        R::NoSuchOption { name, known } => return format!("\"{name}\" 옵션이 없습니다. 옵션은 {known}입니다"),
+        R::Unreadable { name, message } => return format!("{name}: {message}"),
+    };
+    plain.to_owned()
+}
+
+/// What is wrong with a picture's file.
+pub fn damage(damage: &Damage) -> String {
+    match damage {
+        Damage::EndsEarly => "파일이 중간에 끝납니다".to_owned(),
+        Damage::Decoder { message } => message.clone(),
+    }
+}
+
+/// Why an initial value cannot be computed.
+pub fn degeneracy(degeneracy: &Degeneracy) -> String {
+    match degeneracy {
+        Degeneracy::TooFew { needed, given } => format!("점이나 광선이 {given}개인데 {needed}개가 필요합니다"),
+        Degeneracy::Collinear => "점들이 한 직선 위에 있습니다".to_owned(),
+        Degeneracy::Coplanar => "점들이 한 평면 위에 있습니다".to_owned(),
+        Degeneracy::NearParallel { angle } => {
+            format!("광선이 거의 평행합니다. 교차각이 {:.3}°입니다", angle.to_degrees())
+        }
+        Degeneracy::BehindCamera { ray } => format!("점이 {}번째 광선의 카메라 뒤에 있습니다", ray + 1),
+        Degeneracy::NoSolution => "맞는 해가 없습니다".to_owned(),
+    }
+}
+
+/// A thing that has a name.
+pub fn thing(thing: Thing) -> &'static str {
+    match thing {
+        Thing::Camera => "카메라",
+        Thing::Photo => "사진",
+        Thing::Point => "점",
+        Thing::DatumPoint => "기준계 점",
+        Thing::Observation => "관측값",
+        Thing::Distance => "거리",
+        Thing::Parameter => "매개변수",
+        Thing::FiducialMark => "사진지표",
+        Thing::Reading => "측정값",
+        Thing::File => "파일",
+        Thing::Format => "형식",
+        Thing::Experiment => "실험",
+        Thing::Network => "망",
+    }
+}
+
+/// What there is none of.
+pub fn lack(lack: Lack) -> &'static str {
+    match lack {
+        Lack::Photos => "사진",
+        Lack::Points => "점",
+        Lack::Observations => "관측값",
+        Lack::FiducialMarks => "사진지표",
+        Lack::Readings => "측정값",
+        Lack::Files => "파일",
+    }
+}
+
+fn photomodeler_part(part: PhotoModelerPart) -> &'static str {
+    use PhotoModelerPart as P;
+    match part {
+        P::Heading => "머리글",
+        P::Size => "사진 크기",
+        P::Weights => "가중치",
+        P::Camera => "카메라",
+        P::CameraSigmas => "카메라의 표준오차",
+        P::Photo => "사진",
+        P::Exterior => "외부표정",
+        P::ExteriorSigmas => "외부표정의 표준오차",
+        P::PhotoCamera => "사진의 카메라",
+        P::PhotoCameraSigmas => "사진 카메라의 표준오차",
+    }
+}
+
+fn expected(expected: Expected) -> &'static str {
+    match expected {
+        Expected::Object => "객체",
+        Expected::Objects => "객체 목록",
+        Expected::Function => "함수",
+        Expected::Text => "텍스트",
+        Expected::Bytes => "바이트(Uint8Array 또는 ArrayBuffer)",
+        Expected::Samples => "행 순서의 표본(Uint8Array 또는 Uint16Array)",
+        Expected::FiniteNumber => "유한한 수",
+        Expected::Pixels => "정수 화소 수",
+        Expected::Truth => "참 또는 거짓",
+        Expected::PhotoId => "사진 식별자",
+        Expected::PointId => "점 식별자",
+        Expected::OneOrTwo => "수 하나 또는 둘",
+        Expected::Role => "tie, control, check 가운데 하나",
+        Expected::NumberOrNull => "수 또는 null",
+        Expected::ThreeOrNull => "유한한 수 셋 또는 null",
+        Expected::SigmasOrNull => "수나 null 셋, 또는 null",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every choice of words is one of the field's, and no two things share theirs by mistake.
+    #[test]
+    fn things_are_told_apart() {
+        let mut words: Vec<_> = Thing::ALL.iter().map(|one| thing(*one)).collect();
+        words.sort_unstable();
+        words.dedup();
+        assert_eq!(words.len(), Thing::ALL.len());
+        assert!(Lack::ALL.iter().all(|one| !lack(*one).is_ascii()));
+    }
+
+    #[test]
+    fn values_are_carried_over() {
+        let told = reason(&Reason::NotANumber { name: "Y".into(), text: "zwei".into() });
+        assert_eq!(told, "Y이(가) 수가 아닙니다: \"zwei\"");
+        let told = reason(&Reason::DiametersSwapped { min_diameter: 9.5.into(), max_diameter: 4.0.into() });
+        assert_eq!(told, "최소 지름 9.5이(가) 최대 지름 4보다 큽니다");
+    }
+}
