@@ -65,7 +65,7 @@ texts! {
     plates_scans: "Measured in the scans", "스캔에서 측정한 값";
     plates_scans_words: "In scanned photos: point at marks and points under Targets, name the marks as above under Identities, then return here.",
         "스캔 사진: 표적 단계에서 지표와 점을 찍고, 점번호 단계에서 지표를 위와 같은 이름으로 지정한 뒤 여기로 돌아오십시오.";
-    plates_reduced(photos, observations): "{photos} photos reduced, {observations} observations.", "사진 {photos}매 변환, 관측 {observations}개.";
+    plates_reduced(photos, observations) [photo = photos "photo" "photos", observation = observations "observation" "observations"]: "{photos} {photo} reduced, {observations} {observation}.", "사진 {photos}매 변환, 관측 {observations}개.";
 }
 
 // Inputs
@@ -132,7 +132,7 @@ texts! {
     t_statistics: "Statistics of the differences", "차이의 통계";
     t_orientation: "Exterior orientation", "외부표정요소";
     t_interior: "Interior orientation", "내부표정요소";
-    c_errors(n): "Standard errors with {n} photos", "사진 {n}매의 표준오차";
+    c_errors(n) [photo = n "photo" "photos"]: "Standard errors with {n} {photo}", "사진 {n}매의 표준오차";
     c_improvement(d): "Improvement at {d} m", "{d} m에서의 향상률";
     c_mixed: "Standard errors of mixed distances", "여러 거리를 섞은 망의 표준오차";
     c_pairwise: "Errors with 3 photos: pair by pair and bundle", "사진 3매의 오차: 모델 쌍과 광속조정";
@@ -187,8 +187,8 @@ texts! {
     check_points: "check points", "검사점";
     base_fall(base): "fall of M₀ with B/D from 0.2 to {base}", "B/D 0.2 → {base}에서 M₀ 감소";
     fall_of(what): "fall of {what}", "{what} 감소";
-    m0_mean(n): "{n} photos against 2, mean fall of M₀", "2매 대비 {n}매, M₀ 평균 감소";
-    m0_up_to(n): "{n} photos against 2, greatest fall of M₀", "2매 대비 {n}매, M₀ 최대 감소";
+    m0_mean(n) [photo = n "photo" "photos"]: "{n} {photo} against 2, mean fall of M₀", "2매 대비 {n}매, M₀ 평균 감소";
+    m0_up_to(n) [photo = n "photo" "photos"]: "{n} {photo} against 2, greatest fall of M₀", "2매 대비 {n}매, M₀ 최대 감소";
     m0_least: "least fall of M₀ over types", "유형별 M₀ 최소 감소";
     m0_greatest: "greatest fall of M₀ over types", "유형별 M₀ 최대 감소";
     monte_carlo(axis): "Monte Carlo scatter against S{axis}", "몬테카를로 산포와 S{axis}의 차";

@@ -65,42 +65,16 @@ pub fn restore_language() {
     set_language(Language::from_tag(&tag));
 }
 
-/// Words that follow a number in the English texts, in the plural and for one; longer ones first.
-const COUNTED: [(&str, &str); 11] = [
-    ("more measurements disagree", "more measurement disagrees"),
-    ("observations exceed", "observation exceeds"),
-    ("observations are", "observation is"),
-    ("oriented photos", "oriented photo"),
-    ("control points", "control point"),
-    ("observations", "observation"),
-    ("cameras", "camera"),
-    ("targets", "target"),
-    ("photos", "photo"),
-    ("points", "point"),
-    ("marks", "mark"),
-];
-
-/// An English sentence with "1 photos" put right.
-pub(crate) fn singular(text: String) -> String {
-    let mut rest = text.as_str();
-    let mut corrected = String::with_capacity(text.len());
-    while let Some(at) = rest.find("1 ") {
-        let counts_one = !rest[..at].ends_with(|c: char| c.is_ascii_digit() || ",.-#".contains(c) || c.is_alphabetic());
-        corrected.push_str(&rest[..at + 2]);
-        rest = &rest[at + 2..];
-        let Some((plural, one)) = COUNTED.iter().find(|(plural, _)| counts_one && rest.starts_with(plural)) else {
-            continue;
-        };
-        corrected.push_str(one);
-        rest = &rest[plural.len()..];
-    }
-    corrected + rest
+/// Whether a number, as it is shown, is one.
+pub(crate) fn is_one(count: &impl std::fmt::Display) -> bool {
+    count.to_string() == "1"
 }
 
-/// Declares texts: `name: "English", "Korean";` or, with values, `name(a, b): "English {a} {b}", "Korean {b} {a}";`.
+/// Declares texts: `name: "English", "Korean";` or, with values, `name(a, b): "English {a} {b}", "Korean {b} {a}";`. What
+/// English words become of a count stands before it: `name(n) [point = n "point" "points"]: "{n} {point}", "{n}점";`.
 macro_rules! texts {
-    ($($name:ident $(($($value:ident),+))? : $english:literal, $korean:literal;)+) => {
-        $($crate::i18n::texts!(@one $name $(($($value),+))? $english, $korean);)+
+    ($($name:ident $(($($value:ident),+))? $([$($word:ident = $count:ident $one:literal $many:literal),+])? : $english:literal, $korean:literal;)+) => {
+        $($crate::i18n::texts!(@one $name $(($($value),+))? $([$($word = $count $one $many),+])? $english, $korean);)+
     };
     (@one $name:ident $english:literal, $korean:literal) => {
         pub fn $name() -> &'static str {
@@ -110,10 +84,13 @@ macro_rules! texts {
             }
         }
     };
-    (@one $name:ident ($($value:ident),+) $english:literal, $korean:literal) => {
+    (@one $name:ident ($($value:ident),+) $([$($word:ident = $count:ident $one:literal $many:literal),+])? $english:literal, $korean:literal) => {
         pub fn $name($($value: impl std::fmt::Display),+) -> String {
             match $crate::i18n::language() {
-                $crate::i18n::Language::English => $crate::i18n::singular(format!($english)),
+                $crate::i18n::Language::English => {
+                    $($(let $word = if $crate::i18n::is_one(&$count) { $one } else { $many };)+)?
+                    format!($english)
+                }
                 $crate::i18n::Language::Korean => format!($korean),
             }
         }
@@ -123,14 +100,13 @@ pub(crate) use texts;
 
 #[cfg(test)]
 mod tests {
-    use super::singular;
+    use super::text;
 
     #[test]
     fn one_is_no_plural() {
-        let told = |text: &str| singular(text.to_owned());
-        assert_eq!(told("1 photos, 1 cameras. Photos"), "1 photo, 1 camera. Photos");
-        assert_eq!(told("21 photos, 0.1 points, A1 targets"), "21 photos, 0.1 points, A1 targets");
-        assert_eq!(told("1 observations exceed; 11 observations"), "1 observation exceeds; 11 observations");
-        assert_eq!(told("1 observations are, 2 observations are"), "1 observation is, 2 observations are");
+        assert_eq!(text::n_points(1), "1 point");
+        assert_eq!(text::n_points(21), "21 points");
+        let told = text::photos_sentence(1, 2);
+        assert!(told.starts_with("1 photo, 2 cameras. Photos"), "{told}");
     }
 }

@@ -22,7 +22,7 @@ texts! {
     done_of(done, total): "{done} of {total}", "{done} / {total}";
     version(version): "Version {version}", "버전 {version}";
     units(unit): "{unit}, degrees, sigma level 1σ", "{unit}, 도, 표준오차 1σ";
-    in_photos(n): "in {n} photos", "사진 {n}매";
+    in_photos(n) [photo = n "photo" "photos"]: "in {n} {photo}", "사진 {n}매";
     worker_lost(detail): "The computation broke off and its worker was replaced ({detail}). Nothing was lost; try again, with fewer or smaller photos if memory ran out.",
         "계산이 중단되어 작업자를 교체했습니다({detail}). 잃은 자료는 없습니다. 다시 시도하고, 메모리가 부족하면 사진 수나 크기를 줄이십시오.";
 }
@@ -38,13 +38,13 @@ texts! {
 // Photos and cameras
 texts! {
     photos: "Photos", "사진";
-    photos_sentence(photos, cameras): "{photos} photos, {cameras} cameras. Photos of the same make, model, size and focal length share a camera.",
+    photos_sentence(photos, cameras) [photo = photos "photo" "photos", camera = cameras "camera" "cameras"]: "{photos} {photo}, {cameras} {camera}. Photos of the same make, model, size and focal length share a camera.",
         "사진 {photos}매, 카메라 {cameras}대. 제조사·모델·크기·초점거리가 같은 사진은 카메라를 공유합니다.";
     no_photos_yet: "There is no photo yet: drop some anywhere on this page.", "아직 사진이 없습니다. 이 페이지 아무 곳에나 사진을 놓으십시오.";
     add_photos: "Add photos…", "사진 추가…";
     on_to_targets: "Targets", "표적";
     opening_photos: "Opening photos", "사진 여는 중";
-    photo_count(n): "{n} photos", "사진 {n}매";
+    photo_count(n) [photo = n "photo" "photos"]: "{n} {photo}", "사진 {n}매";
     photo_failed(photo, reason): "Photo {photo}: {reason}", "사진 {photo}: {reason}";
     no_photo_files: "No photo file is here: drop the photos of this project to work on them.", "사진 파일이 없습니다. 이 프로젝트의 사진을 놓으십시오.";
     photo_file_missing(file): "The file {file} is not here. Drop it on this page to see it.", "{file} 파일이 없습니다. 보려면 이 페이지에 놓으십시오.";
@@ -55,7 +55,7 @@ texts! {
     camera: "Camera", "카메라";
     camera_named(name): "Camera {name}", "카메라 {name}";
     camera_of_their_own: "a camera of their own", "따로 새 카메라";
-    picked_photos(n): "{n} photos chosen", "고른 사진 {n}매";
+    picked_photos(n) [photo = n "photo" "photos"]: "{n} {photo} chosen", "고른 사진 {n}매";
     take_part: "take part in the adjustment", "조정에 포함";
     remove_from_project: "Remove from the project", "프로젝트에서 빼기";
     make_and_model: "make, model", "제조사, 모델";
@@ -91,8 +91,8 @@ texts! {
     target: "Target", "표적";
     targets_none_yet: "Bright and dark circular targets are found, measured and, where they carry a ring code, named.",
         "밝거나 어두운 원형 표적을 찾아 측정하고, 링 코드가 있으면 이름을 붙입니다.";
-    targets_sentence(targets, coded, photos): "{targets} targets in {photos} photos, {coded} of them coded.", "사진 {photos}매에서 표적 {targets}개, 그중 코드 표적 {coded}개.";
-    targets_coded(targets, coded): "{targets} targets, {coded} coded", "표적 {targets}개, 코드 {coded}개";
+    targets_sentence(targets, coded, photos) [target = targets "target" "targets", photo = photos "photo" "photos"]: "{targets} {target} in {photos} {photo}, {coded} of them coded.", "사진 {photos}매에서 표적 {targets}개, 그중 코드 표적 {coded}개.";
+    targets_coded(targets, coded) [target = targets "target" "targets"]: "{targets} {target}, {coded} coded", "표적 {targets}개, 코드 {coded}개";
     detect: "Detect targets", "표적 검출";
     detect_again: "Detect again", "다시 검출";
     detecting: "Detecting", "표적 검출 중";
@@ -169,7 +169,7 @@ texts! {
     redo_this(what): "Redo: {what}", "다시 실행: {what}";
     out_of_date: "out of date", "갱신 필요";
     n_iterations(n): "{n} iter.", "{n}회";
-    photos_and_targets(done, total, targets): "photo {done} of {total} · {targets} targets", "사진 {done}/{total} · 표적 {targets}개";
+    photos_and_targets(done, total, targets) [target = targets "target" "targets"]: "photo {done} of {total} · {targets} {target}", "사진 {done}/{total} · 표적 {targets}개";
     iteration_of(done, total): "iteration {done} of at most {total}", "반복 {done} / 최대 {total}";
     copy: "Copy", "복사";
     show: "Show", "보기";
@@ -181,12 +181,12 @@ texts! {
 // Identities
 texts! {
     identities: "Identities", "점 식별";
-    identities_sentence(named, points, single): "{named} observations of {points} points; {single} points seen only once.",
+    identities_sentence(named, points, single) [observation = named "observation" "observations", point = points "point" "points", once = single "point" "points"]: "{named} {observation} of {points} {point}; {single} {once} seen only once.",
         "점 {points}개에 관측 {named}개. 한 사진에만 있는 점 {single}개.";
     open_marks: "Open marks…", "측정점 파일 열기…";
     match_uncoded: "Match uncoded targets", "비코드 표적 정합";
     matching: "Matching", "정합 중";
-    matched(found, doubtful): "{found} observations of uncoded targets matched; {doubtful} targets are doubtful and were left without a name.",
+    matched(found, doubtful) [observation = found "observation" "observations", doubt = doubtful "target is doubtful and was" "targets are doubtful and were"]: "{found} {observation} of uncoded targets matched; {doubtful} {doubt} left without a name.",
         "비코드 표적 관측 {found}개를 정합했습니다. 의심스러운 표적 {doubtful}개는 이름 없이 두었습니다.";
     control: "Control", "기준점";
     id: "id", "점번호";
@@ -205,12 +205,12 @@ texts! {
     point: "Point", "점";
     points_column: "points", "점";
     photo: "photo", "사진";
-    named_of(named, targets): "{named} named of {targets} targets", "표적 {targets}개 중 {named}개 식별";
+    named_of(named, targets) [target = targets "target" "targets"]: "{named} named of {targets} {target}", "표적 {targets}개 중 {named}개 식별";
     name_this_target: "Name of this target", "이 표적의 점번호";
     take_name: "Take", "적용";
     marks: "Marks", "측정점";
     snap_radius: "snap radius", "흡착 반경";
-    snapped_sentence(good, all): "{good} of {all} marks lie at a measured centre.", "측정점 {all}개 가운데 {good}개가 측정된 중심에 놓입니다.";
+    snapped_sentence(good, all) [lie = all "mark lies" "marks lie"]: "{good} of {all} {lie} at a measured centre.", "측정점 {all}개 가운데 {good}개가 측정된 중심에 놓입니다.";
     take_marks(n): "Take {n}", "{n}개 적용";
     why_not: "not taken because", "적용하지 않는 까닭";
     unsnapped_no_detection: "no targets were detected in this photo", "이 사진에서 표적을 검출하지 않음";
@@ -227,7 +227,7 @@ texts! {
 // Control and scale
 texts! {
     control_and_scale: "Control, scale", "기준점·축척";
-    control_sentence(control, check, distances): "{control} control points, {check} check points, {distances} distances.",
+    control_sentence(control, check, distances) [point = control "control point" "control points", check_point = check "check point" "check points", distance = distances "distance" "distances"]: "{control} {point}, {check} {check_point}, {distances} {distance}.",
         "기준점 {control}개, 검사점 {check}개, 거리 {distances}개.";
     open_control: "Open control points…", "기준점 파일 열기…";
     control_points: "Control points", "기준점";
@@ -263,13 +263,13 @@ texts! {
     adjustment: "Adjustment", "광속조정";
     bundle_adjustment: "Bundle adjustment", "광속조정";
     adjust_sentence: "Orientation finds initial values, then everything is adjusted together.", "표정으로 초기값을 구한 뒤 모든 미지수를 함께 조정합니다.";
-    adjusted_sentence(observations, unknowns, redundancy): "{observations} observations, {unknowns} unknowns, redundancy {redundancy}.", "관측값 {observations}개, 미지수 {unknowns}개, 잉여도 {redundancy}.";
+    adjusted_sentence(observations, unknowns, redundancy) [observation = observations "observation" "observations"]: "{observations} {observation}, {unknowns} unknowns, redundancy {redundancy}.", "관측값 {observations}개, 미지수 {unknowns}개, 잉여도 {redundancy}.";
     adjust_now: "Adjust", "광속조정 실행";
     adjust_again: "Adjust again", "다시 조정";
     adjusting: "Adjusting", "조정 중";
     what_is_estimated: "What is estimated", "무엇을 추정하는가";
     unknowns: "unknowns", "미지수";
-    orientation_of(n): "Orientation of {n} photos", "사진 {n}매의 외부표정요소";
+    orientation_of(n) [photo = n "photo" "photos"]: "Orientation of {n} {photo}", "사진 {n}매의 외부표정요소";
     position_and_rotation: "position and rotation, estimated", "위치와 회전, 추정";
     object_points: "Object points", "대상점";
     points_all(n): "{n} × 3 coordinates", "{n} × 3 좌표";
@@ -300,7 +300,7 @@ texts! {
 texts! {
     sigmas_optimistic(sigma0): "The standard errors of the image coordinates are too small by {sigma0}", "사진좌표 표준오차가 {sigma0}배만큼 작게 주어졌습니다";
     sigmas_optimistic_body: "σ₀ should be 1. Something that is not modelled is left in the residuals (flatness of targets, light, lens), or the sigmas are too hopeful. Sigmas of the result include σ₀.", "σ₀는 1이어야 합니다. 잔차에 모형화되지 않은 영향(표적의 평탄도, 조명, 렌즈)이 남았거나 표준오차가 너무 작습니다. 결과의 표준오차에는 σ₀가 들어 있습니다.";
-    more_notes(n): "{n} more measurements disagree with the orientation", "표정과 맞지 않는 측정 {n}개 더 있음";
+    more_notes(n) [more = n "more measurement disagrees" "more measurements disagree"]: "{n} {more} with the orientation", "표정과 맞지 않는 측정 {n}개 더 있음";
     what_lacks: "What the network lacks", "망에 부족한 것";
     hold(name): "Hold {name}", "{name} 고정";
     lacks_control: "Give at least three control points, or choose another datum", "기준점을 셋 이상 주거나 다른 기준계를 고르십시오";
@@ -310,14 +310,14 @@ texts! {
     lacks_scale_body: "Neither control nor a distance gives the scale: the size of the result is arbitrary.", "기준점도 거리도 축척을 정하지 않아 결과의 크기가 임의입니다.";
     seen_once(points): "Measure in a second photo: {points}", "두 번째 사진에서 측정할 점: {points}";
     seen_once_body(point, photo): "Point {point} is measured in photo {photo} only. It takes no part; nothing of it is lost.", "점 {point}은(는) 사진 {photo}에만 측정되어 조정에 들어가지 않습니다. 측정은 그대로 남습니다.";
-    n_points(n): "{n} points", "점 {n}개";
-    n_photos(n): "{n} photos", "사진 {n}매";
+    n_points(n) [point = n "point" "points"]: "{n} {point}", "점 {n}개";
+    n_photos(n) [photo = n "photo" "photos"]: "{n} {photo}", "사진 {n}매";
     photo_without_points(photos): "No point is measured in photo {photos}", "측정된 점이 없는 사진: {photos}";
     photo_without_points_body: "It cannot be oriented and takes no part: detect targets with other options, name some by hand, or leave it out.", "표정할 수 없어 조정에 들어가지 않습니다. 다른 설정으로 검출하거나 점을 직접 지정하거나 제외하십시오.";
     hold_or_more(name, camera): "Hold {name} of camera {camera}, or add photos that determine it", "카메라 {camera}의 {name}을(를) 고정하거나 이를 정할 사진을 더하십시오";
     hold_or_more_body(name, ratio, other): "{name} is only {ratio} times its sigma and moves with {other}: the network does not determine both.", "{name}은(는) 표준오차의 {ratio}배에 그치고 {other}와(과) 함께 변합니다. 두 계수가 분리되지 않습니다.";
     look_at(point, photo): "Look at point {point} in photo {photo}", "사진 {photo}의 점 {point}을(를) 확인하십시오";
-    look_at_body(n): "{n} observations exceed the critical value 3.29 of Baarda's w at α 0.1 %. The largest is this one.", "관측 {n}개가 α 0.1 %의 Baarda w 임계값 3.29를 넘습니다. 그중 가장 큰 관측입니다.";
+    look_at_body(n) [exceeding = n "observation exceeds" "observations exceed"]: "{n} {exceeding} the critical value 3.29 of Baarda's w at α 0.1 %. The largest is this one.", "관측 {n}개가 α 0.1 %의 Baarda w 임계값 3.29를 넘습니다. 그중 가장 큰 관측입니다.";
     nothing_lacks: "Every photo is tied and every point determined", "모든 사진이 이어지고 모든 점이 정해졌습니다";
     nothing_lacks_body: "No observation exceeds the critical value, no parameter is left undetermined.", "임계값을 넘는 관측도 정해지지 않은 매개변수도 없습니다.";
     c_found(camera, value): "Principal distance of camera {camera} found: {value}", "카메라 {camera}의 주점거리를 구함: {value}";
@@ -326,10 +326,10 @@ texts! {
     photo_not_oriented(photo): "Photo {photo} could not be oriented", "사진 {photo}을(를) 표정하지 못했습니다";
     photo_no_points: "No point is measured in it: detect with other options or name points by hand.", "측정된 점이 없습니다. 다른 설정으로 검출하거나 점을 직접 지정하십시오.";
     photo_too_few(determined, needed): "Only {determined} of its points are known from other photos or control; it takes {needed}.", "다른 사진이나 기준점으로 알려진 점이 {determined}개뿐입니다. {needed}개가 필요합니다.";
-    photo_disagrees(determined): "Its {determined} points do not fit together: look for wrong names, or another camera.", "점 {determined}개가 서로 맞지 않습니다. 틀린 점번호나 다른 카메라가 아닌지 확인하십시오.";
+    photo_disagrees(determined) [do_not = determined "point does not" "points do not"]: "Its {determined} {do_not} fit together: look for wrong names, or another camera.", "점 {determined}개가 서로 맞지 않습니다. 틀린 점번호나 다른 카메라가 아닌지 확인하십시오.";
     point_not_determined(point): "Point {point} has no coordinates", "점 {point}의 좌표를 정하지 못했습니다";
     point_not_measured: "It was measured in no photo.", "어느 사진에서도 측정되지 않았습니다.";
-    point_too_few(photos): "It is measured in {photos} oriented photos; it takes two.", "표정된 사진 {photos}매에서만 측정되었습니다. 두 매가 필요합니다.";
+    point_too_few(photos) [photo = photos "oriented photo" "oriented photos"]: "It is measured in {photos} {photo}; it takes two.", "표정된 사진 {photos}매에서만 측정되었습니다. 두 매가 필요합니다.";
     point_parallel(angle): "Its rays meet at {angle}° only: measure it in a photo from another side.", "광선이 {angle}°로만 만납니다. 다른 쪽에서 찍은 사진에서 측정하십시오.";
     point_behind(photo): "It would lie behind the camera of photo {photo}: look for a wrong name.", "사진 {photo}의 카메라 뒤에 놓입니다. 틀린 점번호가 아닌지 확인하십시오.";
     point_disagrees: "Its rays do not meet: look for a wrong name in one of its photos.", "광선이 만나지 않습니다. 어느 사진의 점번호가 틀렸는지 확인하십시오.";
@@ -354,7 +354,7 @@ texts! {
     rms_residual: "rms residual", "잔차 RMS";
     all_image_coordinates: "all image coordinates", "모든 사진좌표";
     rms_sigma: "rms σ", "RMS σ";
-    points_one_sigma(n): "{n} points, 1σ", "{n}점, 1σ";
+    points_one_sigma(n) [point = n "point" "points"]: "{n} {point}, 1σ", "{n}점, 1σ";
     relative_accuracy: "relative accuracy", "상대정확도";
     largest_dimension(length, unit): "largest dimension {length} {unit}", "최대 치수 {length} {unit}";
     check_rms: "check points rms", "검사점 RMS";
@@ -366,7 +366,7 @@ texts! {
     unit: "unit", "단위";
     rms_x: "rms x", "RMS x";
     rms_y: "rms y", "RMS y";
-    rms_summary(x, y, unit, n): "rms x {x}, y {y} {unit}, {n} points", "RMS x {x}, y {y} {unit}, {n}점";
+    rms_summary(x, y, unit, n) [point = n "point" "points"]: "rms x {x}, y {y} {unit}, {n} {point}", "RMS x {x}, y {y} {unit}, {n}점";
     residuals: "Residuals", "잔차";
     residuals_of(photo): "Residuals, photo {photo}", "잔차, 사진 {photo}";
     worst_observations: "Worst observations", "큰 잔차 관측값";
@@ -382,11 +382,11 @@ texts! {
 
 // Changes
 texts! {
-    change_photos_added(n): "{n} photos added", "사진 {n}매 추가";
+    change_photos_added(n) [photo = n "photo" "photos"]: "{n} {photo} added", "사진 {n}매 추가";
     change_photo_removed(id): "photo {id} removed", "사진 {id} 제거";
     change_photo_switched(id): "photo {id} excluded or included", "사진 {id} 제외 또는 포함";
     change_camera_edited(id): "camera {id} changed", "카메라 {id} 변경";
-    change_camera_assigned(photos, camera): "camera {camera} given to {photos} photos", "사진 {photos}매를 카메라 {camera}에 지정";
+    change_camera_assigned(photos, camera) [photo = photos "photo" "photos"]: "camera {camera} given to {photos} {photo}", "사진 {photos}매를 카메라 {camera}에 지정";
     change_detected: "targets detected", "표적 검출";
     change_measured(photo): "a target measured in photo {photo}", "사진 {photo}에서 표적 측정";
     change_named(point): "point {point} named", "점 {point} 지정";
@@ -395,9 +395,9 @@ texts! {
     change_observation_removed(point, photo): "point {point} removed from photo {photo}", "사진 {photo}의 점 {point} 관측 삭제";
     change_observation_switched(point, photo): "point {point} in photo {photo} excluded or included", "사진 {photo}의 점 {point} 제외 또는 포함";
     change_point_removed(point): "point {point} removed", "점 {point} 삭제";
-    change_marks_taken(n): "{n} marks taken", "측정점 {n}개 적용";
-    change_matched(n): "{n} observations matched", "관측 {n}개 정합";
-    change_control_taken(n): "{n} control points taken", "기준점 {n}개 적용";
+    change_marks_taken(n) [mark = n "mark" "marks"]: "{n} {mark} taken", "측정점 {n}개 적용";
+    change_matched(n) [observation = n "observation" "observations"]: "{n} {observation} matched", "관측 {n}개 정합";
+    change_control_taken(n) [point = n "control point" "control points"]: "{n} {point} taken", "기준점 {n}개 적용";
     change_role(point): "role of point {point} changed", "점 {point} 구분 변경";
     change_distance_added(from, to): "distance {from} – {to} added", "거리 {from} – {to} 추가";
     change_distance_removed(from, to): "distance {from} – {to} removed", "거리 {from} – {to} 삭제";

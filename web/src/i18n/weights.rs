@@ -36,9 +36,9 @@ texts! {
     add_unmodelled(px): "Take {px} px and adjust", "{px} px로 조정";
     correlated(first, second): "{first} and {second} are hardly told apart", "{first}와(과) {second}이(가) 거의 구분되지 않습니다";
     correlated_body(camera): "Camera {camera}: hold one of them, or add rolled photos and depth.", "카메라 {camera}: 하나를 고정하거나 회전 촬영과 깊이 변화를 더하십시오.";
-    camera_against_photos(n): "In {n} photos the camera is hardly told apart from their orientation", "사진 {n}매에서 카메라 매개변수와 외부표정요소가 거의 구분되지 않습니다";
+    camera_against_photos(n) [photo = n "photo" "photos"]: "In {n} {photo} the camera is hardly told apart from their orientation", "사진 {n}매에서 카메라 매개변수와 외부표정요소가 거의 구분되지 않습니다";
     camera_against_photos_body(photos): "Correlations over 0.95. Coordinates suffer little as long as the camera is used as adjusted; rolled photos and depth would part them ({photos}).", "상관계수가 0.95를 넘습니다. 조정된 카메라를 그대로 쓰면 좌표에는 영향이 작으며, 회전 촬영과 깊이 변화로 분리됩니다({photos}).";
-    low_redundancy(n): "{n} observations are hardly checked by others", "다른 관측으로 거의 점검되지 않는 관측 {n}개";
+    low_redundancy(n) [observations = n "observation is" "observations are"]: "{n} {observations} hardly checked by others", "다른 관측으로 거의 점검되지 않는 관측 {n}개";
     low_redundancy_body(names): "Redundancy numbers below 0.1: an error there would stay unseen ({names}).", "여유수가 0.1 미만이어서 오차가 있어도 드러나지 않습니다({names}).";
     two_rays(points): "Measure in a third photo: {points}", "세 번째 사진에서 측정할 점: {points}";
     two_rays_body: "With two rays an error along the epipolar line stays unseen.", "광선이 둘이면 공액선 방향의 오차가 드러나지 않습니다.";
