@@ -19,6 +19,7 @@ pub mod aicon;
 pub mod comparator;
 pub mod control_csv;
 pub mod dbat;
+pub mod encoding;
 pub mod mark_points;
 pub mod package;
 pub mod photomodeler;
@@ -83,7 +84,7 @@ pub fn import(format: &str, files: &Files) -> Result<Project> {
         "control-csv" => {
             let mut points = Vec::new();
             for (name, bytes) in files {
-                let table = control_csv::parse(&text::decode(bytes).map_err(|error| error.in_file(name))?);
+                let table = control_csv::parse(&encoding::text(bytes).map_err(|error| error.in_file(name))?);
                 points.extend(table.into_points().map_err(|error| error.in_file(name))?);
             }
             Ok(control_project(points))
@@ -91,7 +92,7 @@ pub fn import(format: &str, files: &Files) -> Result<Project> {
         "mark-points" => {
             let mut project = Project::default();
             for (name, bytes) in files {
-                let marks = text::decode(bytes).and_then(|text| mark_points::observations(&text));
+                let marks = encoding::text(bytes).and_then(|text| mark_points::observations(&text));
                 project.observations.extend(marks.map_err(|error| error.in_file(name))?);
             }
             name_photos_and_points(&mut project);
@@ -127,7 +128,7 @@ pub fn export(format: &str, project: &Project, adjustment: Option<&Adjustment>) 
 
 /// The document from JSON; its format and version are looked at first, so that a newer one is named as such.
 pub(crate) fn document(bytes: &[u8]) -> Result<Project> {
-    let text = text::decode(bytes)?;
+    let text = encoding::text(bytes)?;
     let value: serde_json::Value = serde_json::from_str(&text).map_err(|error| Error::Invalid {
         reason: Reason::NotJson { message: error.to_string() },
         at: Place { line: Some(error.line()), ..Place::default() },
@@ -169,7 +170,7 @@ fn only(files: &Files) -> Result<(&String, &Vec<u8>)> {
 
 fn one_text<T>(files: &Files, parse: fn(&str) -> Result<T>) -> Result<T> {
     let (name, bytes) = only(files)?;
-    text::decode(bytes).and_then(|text| parse(&text)).map_err(|error| error.in_file(name))
+    encoding::text(bytes).and_then(|text| parse(&text)).map_err(|error| error.in_file(name))
 }
 
 fn control_project(points: Vec<Point>) -> Project {

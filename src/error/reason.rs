@@ -66,7 +66,7 @@ reasons! {
     Samples { samples: usize, width: usize, height: usize } => "{samples} samples are no picture of {width} x {height} pixels";
 
     // Texts and tables
-    NotText => "this is no text in UTF-8: save it as a text file in UTF-8";
+    NotText => "this is no text in UTF-8, UTF-16 or CP949: save it as a text file in UTF-8";
     Missing { name: String } => "{name} is missing";
     MissingField { name: String, fields: usize } => "{name} is missing (fields in this line: {fields})";
     NotANumber { name: String, text: String } => "{name} is no number: \"{text}\"";
@@ -77,7 +77,6 @@ reasons! {
     PointAmongCommas { name: String, text: String } => "{name} has a point, and the other numbers a decimal comma: \"{text}\" (write it without thousands marks)";
     NoneOf { name: String, choices: String, text: String } => "{name} is none of {choices}: \"{text}\"";
     ControlColumns { columns: usize } => "a control point needs four columns (id, X, Y, Z) and the table has {columns}";
-    NoReading { text: String } => "\"{text}\" is no reading: photo, mark, x, y are expected";
 
     // The project file
     NameWithFolders => "a photo's file name holds no folders";

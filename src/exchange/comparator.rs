@@ -19,8 +19,8 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::Files;
 use super::text::{self, Row};
+use super::{Files, encoding};
 use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
 use crate::film::comparator::{InnerOrientation, Reading, Setup, Upwards, observations};
 use crate::film::distortion::{self, OddPolynomial};
@@ -88,7 +88,7 @@ pub fn import(files: &Files) -> Result<Reduced> {
     let mut found = Description { setup: Setup { sigma: 0.003, ..Setup::default() }, ..Description::default() };
     let mut readings = Vec::new();
     for (name, bytes) in files {
-        let text = text::decode(bytes).and_then(|text| read(&text, &mut found, &mut readings));
+        let text = encoding::text(bytes).and_then(|text| read(&text, &mut found, &mut readings));
         text.map_err(|error| error.in_file(name))?;
     }
     reduce(&found, &readings)
@@ -97,9 +97,9 @@ pub fn import(files: &Files) -> Result<Reduced> {
 /// Whether files are of this format: one of them describes a fiducial mark.
 pub fn recognises(files: &Files) -> bool {
     let describes = |text: &str| {
-        text::rows(text).any(|row| row.fields.first().is_some_and(|word| word.eq_ignore_ascii_case("fiducial")))
+        text::rows(text).iter().any(|row| row.fields.first().is_some_and(|word| word.eq_ignore_ascii_case("fiducial")))
     };
-    files.values().any(|bytes| text::decode(bytes).is_ok_and(|text| describes(&text)))
+    files.values().any(|bytes| encoding::text(bytes).is_ok_and(|text| describes(&text)))
 }
 
 /// The marks and points measured in a project's photos as readings: pixels of a scan, whose y axis points down.
@@ -190,7 +190,7 @@ fn read(text: &str, found: &mut Description, readings: &mut Vec<Reading>) -> Res
 fn describe(row: &Row, found: &mut Description) -> Result<bool> {
     let positive = |index: usize, name: &str| row.positive(index, name);
     let unknown = |name: &str, choices: &str| {
-        let text = shortened(row.fields.get(1).unwrap_or(&""));
+        let text = shortened(row.fields.get(1).map_or("", String::as_str));
         Err(row.invalid(name, Reason::NoneOf { name: name.into(), choices: choices.into(), text }))
     };
     match row.fields.first().map(|word| word.to_ascii_lowercase()).as_deref() {

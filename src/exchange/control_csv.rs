@@ -12,6 +12,7 @@ use std::fmt::Write;
 
 use columns::{Columns, Field};
 
+use super::text::{self, Row};
 use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
 use crate::project::{Point, Role};
 
@@ -65,16 +66,13 @@ enum Decimal {
     Comma,
 }
 
-/// A line and its fields.
-struct Line {
-    number: usize,
-    fields: Vec<String>,
-}
-
 /// Reads a table; never fails as a whole.
 pub fn parse(text: &str) -> ControlTable {
     let separator = Separator::of(text);
-    let lines = split(text, separator);
+    let lines = match separator {
+        Separator::Blanks => text::words(text),
+        Separator::Byte(byte) => text::table(text, byte),
+    };
     let Some(first) = lines.first() else { return ControlTable::default() };
     let heading = columns::heading(&first.fields);
     let rows = if heading.is_some() { &lines[1..] } else { &lines[..] };
@@ -84,13 +82,13 @@ pub fn parse(text: &str) -> ControlTable {
     let rows = rows.iter().map(|line| {
         let at = |error: columns::Fault| Error::Invalid {
             reason: error.reason,
-            at: Place::line(line.number).with_field(error.field),
+            at: Place::line(line.line).with_field(error.field),
         };
         let columns = columns.as_ref().map_err(|fault| at(fault.clone()))?;
         let row = row(line, columns, decimal).map_err(at)?;
-        match seen.insert(row.point.id.clone(), line.number) {
+        match seen.insert(row.point.id.clone(), line.line) {
             None => Ok(row),
-            Some(_) => Err(Error::Duplicate { kind: Thing::Point, name: row.point.id, at: Place::line(line.number) }),
+            Some(_) => Err(Error::Duplicate { kind: Thing::Point, name: row.point.id, at: Place::line(line.line) }),
         }
     });
     ControlTable { rows: rows.collect() }
@@ -107,7 +105,7 @@ impl Separator {
     /// A tab or semicolon anywhere in the first rows decides; commas separate unless splitting at blanks leaves each as
     /// a decimal comma inside a number ("7 0,5 1,25 3").
     fn of(text: &str) -> Self {
-        let rows: Vec<&str> = text.lines().map(str::trim).filter(|line| !comment(line)).take(20).collect();
+        let rows = text::sample(text);
         let any = |mark: char| rows.iter().filter(|row| row.contains(mark)).count() * 2 > rows.len();
         if any('\t') {
             return Self::Byte(b'\t');
@@ -127,37 +125,8 @@ impl Separator {
     }
 }
 
-fn comment(line: &str) -> bool {
-    line.is_empty() || line.starts_with(['#', '%'])
-}
-
-fn split(text: &str, separator: Separator) -> Vec<Line> {
-    let mut lines = Vec::new();
-    for (index, line) in text.lines().enumerate() {
-        if comment(line.trim()) {
-            continue;
-        }
-        let fields = match separator {
-            Separator::Blanks => line.split_whitespace().map(str::to_owned).collect(),
-            Separator::Byte(byte) => {
-                let mut reader = csv::ReaderBuilder::new()
-                    .delimiter(byte)
-                    .has_headers(false)
-                    .trim(csv::Trim::All)
-                    .from_reader(line.as_bytes());
-                let record = reader.records().next().and_then(std::result::Result::ok).unwrap_or_default();
-                record.iter().map(str::to_owned).collect::<Vec<_>>()
-            }
-        };
-        if fields.iter().any(|field: &String| !field.is_empty()) {
-            lines.push(Line { number: index + 1, fields });
-        }
-    }
-    lines
-}
-
 /// The decimal mark of the first number that has one.
-fn decimal_mark(lines: &[Line], separator: Separator) -> Decimal {
+fn decimal_mark(lines: &[Row], separator: Separator) -> Decimal {
     if separator == Separator::Byte(b',') {
         return Decimal::Point;
     }
@@ -169,7 +138,7 @@ fn decimal_mark(lines: &[Line], separator: Separator) -> Decimal {
     }
 }
 
-fn row(line: &Line, columns: &Columns, decimal: Decimal) -> std::result::Result<ControlRow, columns::Fault> {
+fn row(line: &Row, columns: &Columns, decimal: Decimal) -> std::result::Result<ControlRow, columns::Fault> {
     let text = |field: Field| {
         columns.place(field).and_then(|place| line.fields.get(place)).map(String::as_str).unwrap_or_default()
     };
@@ -206,7 +175,7 @@ fn row(line: &Line, columns: &Columns, decimal: Decimal) -> std::result::Result<
     let label = Some(text(Field::Label)).filter(|label| !label.is_empty()).map(str::to_owned);
     let sigma = sigma.iter().any(Option::is_some).then_some(sigma);
     Ok(ControlRow {
-        line: line.number,
+        line: line.line,
         label,
         point: Point { id, role, xyz: Some(xyz), sigma, diameter: None, normal: None },
     })
@@ -224,7 +193,7 @@ fn number(field: Field, word: &str, decimal: Decimal) -> std::result::Result<f64
         Decimal::Point => word.to_owned(),
         Decimal::Comma => word.replacen(',', ".", 1),
     };
-    super::text::number(&plain).ok_or_else(|| field.fault(Reason::NotANumber { name: name(), text: text() }))
+    text::number(&plain).ok_or_else(|| field.fault(Reason::NotANumber { name: name(), text: text() }))
 }
 
 /// Writes the points that have coordinates, control points' sigmas with them.
@@ -240,7 +209,7 @@ pub fn write(points: &[Point]) -> String {
             Role::Check => "check",
         };
         // Writing to a string does not fail.
-        let _ = writeln!(text, "{},{x},{y},{z},{sx},{sy},{sz},{role}", super::results::quoted(&point.id, ','));
+        let _ = writeln!(text, "{},{x},{y},{z},{sx},{sy},{sz},{role}", text::quoted(&point.id, ','));
     }
     text
 }

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 use element::Element;
 
-use super::{Files, text};
+use super::{Files, encoding, text};
 use crate::error::{Error, Place, Reason, Result, Thing, shortened};
 use crate::project::{Camera, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
 
@@ -25,7 +25,7 @@ const DEFAULT_SIGMA: f64 = 1.0;
 pub fn import(files: &Files) -> Result<Project> {
     let is_project = |(name, bytes): &(&String, &Vec<u8>)| {
         name.to_ascii_lowercase().ends_with(".xml")
-            || text::decode(bytes).is_ok_and(|text| text.trim_start().starts_with("<?xml"))
+            || encoding::text(bytes).is_ok_and(|text| text.trim_start().starts_with("<?xml"))
     };
     let (name, bytes) = files.iter().find(is_project).ok_or_else(|| Error::Unknown {
         kind: Thing::File,
@@ -33,7 +33,7 @@ pub fn import(files: &Files) -> Result<Project> {
         at: Place::default(),
     })?;
     let script = Script { name, files };
-    let document = text::decode(bytes).and_then(|text| element::parse(&text)).map_err(|error| error.in_file(name))?;
+    let document = encoding::text(bytes).and_then(|text| element::parse(&text)).map_err(|error| error.in_file(name))?;
     if document.name != "document" || document.child("input").is_none() {
         return Err(script.invalid("document", Reason::NotDbat));
     }
@@ -47,13 +47,13 @@ struct Script<'a> {
 }
 
 /// Columns of a table, by the names of its format.
-struct Table<'a> {
+struct Table {
     file: String,
     columns: HashMap<String, usize>,
-    rows: Vec<text::Row<'a>>,
+    rows: Vec<text::Row>,
 }
 
-impl Table<'_> {
+impl Table {
     fn place(&self, name: &str) -> Result<usize> {
         let missing =
             || Error::Invalid { reason: Reason::NoColumn { column: name.into() }, at: Place::field("format") };
@@ -274,7 +274,7 @@ impl Script<'_> {
     }
 
     /// The file that an element names, with the columns of its format.
-    fn table(&self, element: &Element) -> Result<Table<'_>> {
+    fn table(&self, element: &Element) -> Result<Table> {
         let path = element.text.trim();
         let bare = |path: &str| path.rsplit(['/', '\\']).next().unwrap_or_default().to_owned();
         let file = self.files.get_key_value(path).or_else(|| {
@@ -293,9 +293,8 @@ impl Script<'_> {
             .ok_or_else(|| self.invalid("format", Reason::ColumnsNotNamed { file: path.into() }))?;
         let columns =
             format.split(',').enumerate().map(|(place, column)| (column.trim().to_ascii_lowercase(), place)).collect();
-        let text = std::str::from_utf8(bytes)
-            .map_err(|_| Error::Invalid { reason: Reason::NotText, at: Place::default().with_file(name) })?;
-        Ok(Table { file: name.clone(), columns, rows: text::rows(text).collect() })
+        let text = encoding::text(bytes).map_err(|error| error.in_file(name))?;
+        Ok(Table { file: name.clone(), columns, rows: text::rows(&text) })
     }
 }
 

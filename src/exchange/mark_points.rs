@@ -57,14 +57,17 @@ pub fn observations(text: &str) -> Result<Vec<Observation>> {
 
 /// Writes measurements, one a line; what is not enabled is left out.
 pub fn write(observations: &[Observation]) -> String {
-    let mut text = String::from("# photo, point, u [px], v [px], sigma_u [px], sigma_v [px]\n");
+    let mut lines = String::from("# photo, point, u [px], v [px], sigma_u [px], sigma_v [px]\n");
     for observation in observations.iter().filter(|observation| observation.enabled) {
         let [su, sv] = observation.sigma.both();
         let Observation { photo, point, u, v, .. } = observation;
+        let [photo, point] = [photo, point].map(|id| text::quoted(id, ','));
+        // A quote counts at the very beginning of a field.
+        let blank = if point.starts_with('"') { "" } else { " " };
         // Writing to a string does not fail.
-        let _ = writeln!(text, "{photo}, {point}, {u}, {v}, {su}, {sv}");
+        let _ = writeln!(lines, "{photo},{blank}{point}, {u}, {v}, {su}, {sv}");
     }
-    text
+    lines
 }
 
 #[cfg(test)]
@@ -88,6 +91,22 @@ mod tests {
             again.iter().map(|mark| (mark.u, mark.sigma.both())).collect::<Vec<_>>(),
             marks.iter().map(|mark| (mark.u, mark.sigma.both())).collect::<Vec<_>>()
         );
+    }
+
+    #[test]
+    fn identifiers_of_any_kind_are_read_back() {
+        for id in ["5,6", "a;b", "say \"a\"", "two\nlines", "#1", "점 1", "a b"] {
+            let mark = Observation {
+                photo: id.into(),
+                point: id.into(),
+                u: 1.5,
+                v: -2.0,
+                sigma: Sigma::Two([0.1, 0.2]),
+                enabled: true,
+            };
+            let text = write(&[mark.clone(), mark.clone()]);
+            assert_eq!(observations(&text).unwrap(), [mark.clone(), mark], "{text}");
+        }
     }
 
     #[test]

@@ -34,7 +34,7 @@ pub fn parse(text: &str) -> Result<Project> {
 
     let mut project = Project { name, ..Project::default() };
     let mut interiors = Vec::new();
-    while lines.peek().is_some_and(|row| row.fields.len() >= 2 && text::number(row.fields[1]).is_none()) {
+    while lines.peek().is_some_and(|row| row.fields.len() >= 2 && text::number(&row.fields[1]).is_none()) {
         let title = lines.take(Part::Photo)?;
         let path = title.fields[1..].join(" ");
         let station = lines.take(Part::Exterior)?;
@@ -62,7 +62,7 @@ pub fn parse(text: &str) -> Result<Project> {
         });
         let [x, y, z, kappa, phi, omega] = six;
         project.photos.push(Photo {
-            id: title.fields[0].to_owned(),
+            id: title.fields[0].clone(),
             camera: (number + 1).to_string(),
             file: path.rsplit(['/', '\\']).next().unwrap_or_default().to_owned(),
             position: Some([x, y, z]),
@@ -105,7 +105,7 @@ pub fn parse(text: &str) -> Result<Project> {
 }
 
 /// Interior orientation from c, xp, yp, W, H, K1-3, P1, P2, which start at field `first`.
-fn interior(row: &text::Row<'_>, first: usize, [width, height]: [u32; 2]) -> Result<Camera> {
+fn interior(row: &text::Row, first: usize, [width, height]: [u32; 2]) -> Result<Camera> {
     const NAMES: [&str; 10] = ["c", "xp", "yp", "W", "H", "K1", "K2", "K3", "P1", "P2"];
     let mut values = [0.0; 10];
     for (index, name) in NAMES.into_iter().enumerate() {
@@ -133,8 +133,8 @@ fn rounded(common: &Camera, own: &Camera) -> bool {
         && [P::K1, P::K2, P::K3, P::P1, P::P2].into_iter().all(|parameter| difference(parameter) == 0.0)
 }
 
-fn points(rows: &[text::Row<'_>], role: Role) -> Result<Vec<Point>> {
-    let point = |row: &text::Row<'_>| {
+fn points(rows: &[text::Row], role: Role) -> Result<Vec<Point>> {
+    let point = |row: &text::Row| {
         let xyz = [row.number(1, "X")?, row.number(2, "Y")?, row.number(3, "Z")?];
         let mut sigma = [None; 3];
         for (axis, name) in ["sX", "sY", "sZ"].into_iter().enumerate() {
@@ -153,16 +153,16 @@ struct Lines<'a> {
     next: usize,
 }
 
-impl<'a> Lines<'a> {
-    fn row(&self, index: usize) -> Option<text::Row<'a>> {
-        Some(text::Row { line: index + 1, fields: self.lines.get(index)?.split_whitespace().collect() })
+impl Lines<'_> {
+    fn row(&self, index: usize) -> Option<text::Row> {
+        self.lines.get(index).map(|line| text::Row::words(index + 1, line))
     }
 
-    fn peek(&self) -> Option<text::Row<'a>> {
+    fn peek(&self) -> Option<text::Row> {
         self.row(self.next)
     }
 
-    fn take(&mut self, part: Part) -> Result<text::Row<'a>> {
+    fn take(&mut self, part: Part) -> Result<text::Row> {
         let row = self.peek().filter(|row| !row.fields.is_empty()).ok_or_else(|| Error::Invalid {
             reason: Reason::PhotoModelerCut { part },
             at: Place::line(self.next + 1),
@@ -178,7 +178,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Rows up to the next blank line. One blank line stands before each block; a block may be empty.
-    fn block(&mut self) -> Vec<text::Row<'a>> {
+    fn block(&mut self) -> Vec<text::Row> {
         if self.peek().is_some_and(|row| row.fields.is_empty()) {
             self.next += 1;
         }

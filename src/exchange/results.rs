@@ -7,6 +7,7 @@ mod given;
 use std::collections::HashMap;
 
 use super::Files;
+use super::text::quoted;
 use crate::adjustment::Adjustment;
 use crate::error::Result;
 use crate::project::{Camera, Interior, Parameter, Project, Role};
@@ -57,15 +58,6 @@ impl Table {
             row.iter().map(|field| quoted(field, mark)).collect::<Vec<_>>().join(&mark.to_string()) + "\n"
         };
         self.rows.iter().map(line).collect()
-    }
-}
-
-/// A field in quotes where it needs them.
-pub fn quoted(field: &str, separator: char) -> String {
-    if field.contains([separator, '"', '\n', '\r']) {
-        format!("\"{}\"", field.replace('"', "\"\""))
-    } else {
-        field.to_owned()
     }
 }
 

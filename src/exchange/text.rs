@@ -1,56 +1,119 @@
-//! What the text formats share: decoding, rows of numbers, fields that are named when they are wrong.
+//! What the text formats share: rows of fields, fields that are named when they are wrong.
+//!
+//! Commas and semicolons make a table that the csv crate reads as a whole, so that a quoted field may hold a separator or the
+//! end of a line; fields separated by blanks are words.
+
+use std::borrow::Cow;
 
 use crate::error::{Error, Place, Reason, Result, shortened};
 
-/// Text of a file: UTF-8 with or without a mark, UTF-16 with one (spreadsheets write it).
-pub fn decode(bytes: &[u8]) -> Result<String> {
-    let utf16 = |pairs: &[u8], unit: fn([u8; 2]) -> u16| {
-        let units = pairs.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
-        char::decode_utf16(units).collect::<std::result::Result<String, _>>().map_err(|_| not_text())
-    };
-    match bytes {
-        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
-        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
-        [0xef, 0xbb, 0xbf, rest @ ..] => String::from_utf8(rest.to_vec()).map_err(|_| not_text()),
-        _ if bytes.contains(&0) => Err(not_text()),
-        _ => String::from_utf8(bytes.to_vec()).map_err(|_| not_text()),
-    }
-}
-
-fn not_text() -> Error {
-    Error::Invalid { reason: Reason::NotText, at: Place::default() }
-}
+/// Rows of the beginning that decide how the fields of a text are separated.
+const SAMPLE: usize = 20;
 
 /// A line split into fields.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row<'a> {
+pub struct Row {
     /// Line, counted from 1.
     pub line: usize,
     /// Fields without the blanks around them.
-    pub fields: Vec<&'a str>,
+    pub fields: Vec<String>,
 }
 
-/// Rows of a text whose fields are separated by commas, semicolons or blanks, any mixture; blank lines and comments
-/// (#, %) are left out.
-pub fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
-    text.lines().enumerate().filter_map(|(number, line)| {
-        let line = line.trim();
-        if line.is_empty() || line.starts_with(['#', '%']) {
-            return None;
+/// The lines that decide how a text is to be read.
+pub fn sample(text: &str) -> Vec<&str> {
+    text.lines().map(str::trim).filter(|line| !comment(line)).take(SAMPLE).collect()
+}
+
+fn comment(line: &str) -> bool {
+    line.is_empty() || line.starts_with(['#', '%'])
+}
+
+/// Rows of a text whose fields are separated by commas, semicolons or blanks; blank lines and comments
+/// (#, %) are left out. A line without the mark of the others is split by the one it has.
+pub fn rows(text: &str) -> Vec<Row> {
+    let lines = sample(text);
+    let count = |mark| lines.iter().filter(|line| line.contains(mark)).count();
+    let (commas, semicolons) = (count(','), count(';'));
+    if commas + semicolons == 0 {
+        return words(text);
+    }
+    let mut rows = table(text, if semicolons > commas { b';' } else { b',' });
+    let lines: Vec<&str> = text.lines().collect();
+    for row in &mut rows {
+        let quoted = lines.get(row.line - 1).is_some_and(|line| line.trim_start().starts_with('"'));
+        if let ([single], false) = (row.fields.as_slice(), quoted) {
+            let other = |mark: char| single.split(mark).map(|field| field.trim().to_owned()).collect();
+            row.fields = match single {
+                single if single.contains(';') => other(';'),
+                single if single.contains(',') => other(','),
+                single => single.split_whitespace().map(str::to_owned).collect(),
+            };
         }
-        let fields = if line.contains([',', ';']) {
-            line.split([',', ';']).map(str::trim).collect()
-        } else {
-            line.split_whitespace().collect()
-        };
-        Some(Row { line: number + 1, fields })
-    })
+    }
+    rows
 }
 
-impl Row<'_> {
+/// Rows of words.
+pub fn words(text: &str) -> Vec<Row> {
+    let lines = text.lines().enumerate().filter(|(_, line)| !comment(line.trim()));
+    lines.map(|(index, line)| Row::words(index + 1, line)).collect()
+}
+
+/// Rows of a table with this separator; a quoted field may hold separators, quotes and ends of lines.
+pub fn table(text: &str, separator: u8) -> Vec<Row> {
+    let text = without_comments(text, separator);
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(separator)
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let mut rows = Vec::new();
+    // A text in memory is always read, whatever is in it.
+    for record in reader.records().flatten() {
+        if record.iter().all(str::is_empty) {
+            continue;
+        }
+        // The reader's position lies before the blank lines that it passes over.
+        let (byte, line) = record.position().map_or((0, 1), |at| (at.byte() as usize, at.line() as usize));
+        let blank = text.get(byte..).unwrap_or_default().lines().take_while(|line| line.is_empty()).count();
+        rows.push(Row { line: line + blank, fields: record.iter().map(str::to_owned).collect() });
+    }
+    rows
+}
+
+/// The text with its comments as blank lines. Inside of quotes there are none.
+fn without_comments(text: &str, separator: u8) -> String {
+    let mut quoted = false;
+    let mut kept = String::with_capacity(text.len());
+    for line in text.split_inclusive('\n') {
+        if !quoted && comment(line.trim()) {
+            kept.push('\n');
+            continue;
+        }
+        kept.push_str(line);
+        // Quotes count at the beginning of a field, and doubled ones inside not at all: both leave the parity as it is.
+        let mut start = true;
+        for byte in line.bytes() {
+            match byte {
+                b'"' if quoted || start => quoted = !quoted,
+                _ if quoted => {}
+                _ => start = byte == separator,
+            }
+        }
+    }
+    kept
+}
+
+impl Row {
+    /// The words of a line.
+    pub fn words(line: usize, text: &str) -> Self {
+        Self { line, fields: text.split_whitespace().map(str::to_owned).collect() }
+    }
+
     /// Text of a field.
     pub fn text(&self, index: usize, name: &str) -> Result<&str> {
-        let field = self.fields.get(index).copied().filter(|field| !field.is_empty());
+        let field = self.fields.get(index).map(String::as_str).filter(|field| !field.is_empty());
         let missing = || Reason::MissingField { name: name.into(), fields: self.fields.len() };
         field.ok_or_else(|| self.invalid(name, missing()))
     }
@@ -88,6 +151,15 @@ pub fn number(text: &str) -> Option<f64> {
     text.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
+/// A field in quotes where it needs them to be read back: separators, quotes, ends of lines, a first mark of comments.
+pub fn quoted(field: &str, separator: char) -> Cow<'_, str> {
+    if field.contains([separator, ';', '"', '\n', '\r']) || field.starts_with(['#', '%']) {
+        Cow::from(format!("\"{}\"", field.replace('"', "\"\"")))
+    } else {
+        Cow::from(field)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,23 +167,46 @@ mod tests {
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
-    fn encodings_of_spreadsheets_are_read() {
-        assert_eq!(decode("\u{feff}ä,1".as_bytes()).unwrap(), "ä,1");
-        let little: Vec<u8> =
-            [0xff, 0xfe].into_iter().chain("ä\t1".encode_utf16().flat_map(u16::to_le_bytes)).collect();
-        assert_eq!(decode(&little).unwrap(), "ä\t1");
-        assert!(decode(&[0x89, b'P', 0, 1]).is_err());
-        assert!(decode(&[0xe4, b'a']).is_err());
-    }
-
-    #[test]
     fn a_wrong_field_is_named() {
-        let row = rows("# c\n\n 1, x , 2").next().unwrap();
+        let rows = rows("# c\n\n 1, x , 2");
+        let row = &rows[0];
         assert_eq!((row.line, row.fields.len()), (3, 3));
         let error = row.number(1, "u").unwrap_err();
         assert_eq!(error.place(), Place::line(3).with_field("u"));
         assert!(row.number(5, "sigma").is_err());
         assert_eq!(number("inf"), None);
-        assert_eq!(rows("1 2;3").next().unwrap().fields, ["1 2", "3"]);
+    }
+
+    fn fields(text: &str) -> Vec<(usize, Vec<String>)> {
+        rows(text).into_iter().map(|row| (row.line, row.fields)).collect()
+    }
+
+    #[test]
+    fn lines_of_several_hands_are_split_by_what_they_have() {
+        let of = |line: usize, fields: &[&str]| (line, fields.iter().map(|f| (*f).to_owned()).collect::<Vec<_>>());
+        assert_eq!(fields("1 2;3"), [of(1, &["1 2", "3"])]);
+        assert_eq!(fields("a\tb  c\n\n# d\ne f"), [of(1, &["a", "b", "c"]), of(4, &["e", "f"])]);
+        assert_eq!(fields("1, 2\n3;4\n5 6\n"), [of(1, &["1", "2"]), of(2, &["3", "4"]), of(3, &["5", "6"])]);
+        assert_eq!(fields("a;b\nc;d\n1,2"), [of(1, &["a", "b"]), of(2, &["c", "d"]), of(3, &["1", "2"])]);
+    }
+
+    #[test]
+    fn a_quoted_field_holds_anything() {
+        let text = "% a \"comment\n\"5,6\",1\n\n  # another, one\n\"two\nlines\n# no comment\",\"say \"\"a\"\"\"\n5\" pipe,2\n# end\n\"a b\"\n";
+        let rows = fields(text);
+        let lines: Vec<usize> = rows.iter().map(|row| row.0).collect();
+        assert_eq!(lines, [2, 5, 8, 10], "{rows:?}");
+        assert_eq!(rows[0].1, ["5,6", "1"]);
+        assert_eq!(rows[1].1, ["two\nlines\n# no comment", "say \"a\""]);
+        assert_eq!(rows[2].1, ["5\" pipe", "2"]);
+        assert_eq!(rows[3].1, ["a b"]);
+    }
+
+    #[test]
+    fn quoted_fields_are_read_back() {
+        for id in ["plain", "5,6", "a;b", "say \"a\"", "two\nlines", "#1", "%", "a b"] {
+            let line = format!("{},1\n{},2\n", quoted(id, ','), quoted(id, ','));
+            assert_eq!(fields(&line).iter().map(|row| row.1[0].as_str()).collect::<Vec<_>>(), [id, id], "{line}");
+        }
     }
 }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use super::transformation::{Kind, Transformation, fit};
-use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
+use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::project::{Camera, Observation, Sigma};
 
 /// One reading.
@@ -67,40 +67,6 @@ pub struct Observed {
     pub observations: Vec<Observation>,
     /// One a photo.
     pub inner_orientations: Vec<InnerOrientation>,
-}
-
-/// Reads a file of readings.
-///
-/// # Errors
-/// [`Error::Invalid`] with the line that is no reading; [`Error::Empty`] for a file without readings.
-pub fn parse(text: &str) -> Result<Vec<Reading>> {
-    let mut readings = Vec::new();
-    let content = text.trim_start_matches('\u{feff}').lines().enumerate();
-    for (number, line) in content.map(|(i, line)| (i + 1, line.split('#').next().unwrap_or("").trim())) {
-        let blanks = !line.contains([',', ';', '\t']);
-        let fields: Vec<&str> = if blanks {
-            line.split_whitespace().collect()
-        } else {
-            line.split([',', ';', '\t']).map(str::trim).collect()
-        };
-        let place = |field: usize| fields.get(field).and_then(|f| f.parse::<f64>().ok()).filter(|c| c.is_finite());
-        match (fields.len(), place(2), place(3)) {
-            (0, ..) => {}
-            (1, ..) if fields[0].is_empty() => {}
-            (4.., Some(x), Some(y)) if !fields[0].is_empty() && !fields[1].is_empty() => {
-                readings.push(Reading { photo: fields[0].into(), mark: fields[1].into(), x, y });
-            }
-            // A line of names.
-            (4.., None, None) if readings.is_empty() => {}
-            _ => {
-                return Err(Error::Invalid {
-                    reason: Reason::NoReading { text: shortened(line) },
-                    at: Place::line(number),
-                });
-            }
-        }
-    }
-    if readings.is_empty() { Err(Error::Empty { what: Lack::Readings }) } else { Ok(readings) }
 }
 
 /// Readings of any number of photos of one camera as observations.
@@ -173,21 +139,6 @@ mod tests {
             sigma: 0.003,
             ..Setup::default()
         }
-    }
-
-    #[test]
-    fn files_with_any_separator_are_read() {
-        for text in [
-            "photo,mark,x,y\n# machine\n01,F1,1.5,2\n01,7,-3,4e1\n",
-            "01;F1;1.5;2\n\n01;7;-3;40",
-            "\u{feff}01 F1 1.5 2\n01  7  -3 40 # sharp\n",
-        ] {
-            let readings = parse(text).unwrap();
-            assert_eq!(readings.len(), 2, "{text}");
-            assert_eq!((readings[1].mark.as_str(), readings[1].x, readings[1].y), ("7", -3.0, 40.0));
-        }
-        assert_eq!(parse("01,F1,1,2\n01,F2,1\n").expect_err("short").place().line, Some(2));
-        assert_eq!(parse("# nothing\n").expect_err("empty").code(), "empty");
     }
 
     #[test]

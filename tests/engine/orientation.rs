@@ -6,7 +6,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use sightline::adjust::{adjust, apply};
 use sightline::adjustment::{AdjustOptions, Adjustment, StatisticsChoice, Termination};
 use sightline::camera::pixel_from_camera_point;
-use sightline::error::Error;
+use sightline::error::{Error, Lack};
 use sightline::initial::Pose;
 use sightline::initial::similarity::{SimilarityFit, fit};
 use sightline::matching::without_gross_errors;
@@ -347,12 +347,12 @@ fn what_is_given_stays_and_a_distance_scales() {
 
 #[test]
 fn what_cannot_be_oriented_is_said_by_name() {
-    assert!(matches!(orient(&Project::default()), Err(Error::Empty { what }) if what == "photos"));
+    assert!(matches!(orient(&Project::default()), Err(Error::Empty { what: Lack::Photos })));
     let truth = network(90, 6, 30, 0.6, 0.1);
     let mut project = bare(&truth);
     let mut nothing = project.clone();
     nothing.observations.clear();
-    assert!(matches!(orient(&nothing), Err(Error::Empty { what }) if what == "observations"));
+    assert!(matches!(orient(&nothing), Err(Error::Empty { what: Lack::Observations })));
 
     // A photo without points, a photo with two, a point seen once, a point not seen.
     project.photos.push(Photo { id: "blank".into(), camera: "k".into(), enabled: true, ..Photo::default() });

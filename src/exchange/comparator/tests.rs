@@ -34,6 +34,21 @@ fn a_description_and_readings_make_a_project() {
 }
 
 #[test]
+fn readings_with_any_separator_are_read() {
+    for text in [
+        "photo,mark,x,y\n# machine\n01,F1,1.5,2\n01,7,-3,4e1\n",
+        "01;F1;1.5;2\n\n01;7;-3;40",
+        "01 F1 1.5 2\n01  7\t-3 40\n",
+        "01,F1,1.5,2\n\"01\",\"7\",-3,40",
+    ] {
+        let (_, readings) = parse(text).unwrap();
+        assert_eq!(readings.len(), 2, "{text}");
+        assert_eq!((readings[1].mark.as_str(), readings[1].x, readings[1].y), ("7", -3.0, 40.0));
+    }
+    assert_eq!(parse("01,F1,1,2\n01,F2,1\n").expect_err("short").place().line, Some(2));
+}
+
+#[test]
 fn one_file_holds_both_and_a_scan_points_down() {
     let flipped =
         READINGS.replace("140\n", "60_\n").replace(",60\n", ",140\n").replace("60_", "60").replace(",95", ",105");

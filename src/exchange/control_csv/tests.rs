@@ -80,9 +80,19 @@ fn no_text_is_too_odd() {
 }
 
 #[test]
+fn a_quoted_field_may_hold_a_line_break() {
+    let table = parse("id,X,Y,Z\n\"two\nlines\",1,2,3\n# a, comment\n8,1,zwei,3\n");
+    let (points, errors) = table.split();
+    assert_eq!(points[0].id, "two\nlines");
+    assert_eq!(errors[0].place(), Place::line(5).with_field("Y"));
+}
+
+#[test]
 fn what_is_written_is_read_again() {
-    let mut all = points("id,x,y,z,sx,sy,sz,role\n1,0.1,1e-3,-7.25,0.01,,0,control\n\"a,b\",1,2,3,,,,check");
+    let mut all = points(
+        "id,x,y,z,sx,sy,sz,role\n1,0.1,1e-3,-7.25,0.01,,0,control\n\"a,b\",1,2,3,,,,check\n\"two\nlines\",1,2,3\n\"#1\",1,2,3",
+    );
     all.push(Point { id: "without coordinates".into(), ..Point::default() });
     let again = points(&write(&all));
-    assert_eq!(again, all[..2]);
+    assert_eq!(again, all[..4]);
 }

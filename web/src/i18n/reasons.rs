@@ -59,7 +59,7 @@ pub fn reason(reason: &Reason) -> String {
             return format!("표본 {samples}개로는 {width} × {height} 화소의 사진이 되지 않습니다");
         }
 
-        R::NotText => "UTF-8 텍스트가 아닙니다. UTF-8 텍스트 파일로 저장하십시오",
+        R::NotText => "UTF-8, UTF-16, CP949 텍스트가 아닙니다. UTF-8 텍스트 파일로 저장하십시오",
         R::Missing { name } => return format!("{name}이(가) 없습니다"),
         R::MissingField { name, fields } => return format!("{name}이(가) 없습니다. 이 행의 항목은 {fields}개입니다"),
         R::NotANumber { name, text } => return format!("{name}이(가) 수가 아닙니다: \"{text}\""),
@@ -82,7 +82,6 @@ pub fn reason(reason: &Reason) -> String {
         R::ControlColumns { columns } => {
             return format!("기준점에는 네 열(id, X, Y, Z)이 필요한데 표의 열은 {columns}개입니다");
         }
-        R::NoReading { text } => return format!("\"{text}\"은(는) 측정값이 아닙니다. 사진, 표지, x, y가 필요합니다"),
 
         R::NameWithFolders => "사진 파일 이름에는 폴더를 넣을 수 없습니다",
         R::Entries { entries, limit } => {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::detection::Detection;
+use sightline::exchange::encoding;
 
 use super::document::{self, Change, Document};
 use super::pool::Outcome;
@@ -36,7 +37,10 @@ impl Desk {
     pub fn read_text(self, file: NamedFile, then: fn(Self, String, &str)) {
         spawn_local(async move {
             match file.content.read().await {
-                Ok(bytes) => then(self, file.name, &String::from_utf8_lossy(&bytes)),
+                Ok(bytes) => match encoding::text(&bytes) {
+                    Ok(text) => then(self, file.name, &text),
+                    Err(error) => self.warn_error(error.in_file(&file.name)),
+                },
                 Err(detail) => self.warn(move || text::unreadable(&detail)),
             }
         });
