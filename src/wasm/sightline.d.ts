@@ -545,7 +545,10 @@ export interface SightlineError extends Error {
   /** Stable name of the kind of error. */
   code: string;
   where: { file?: string; photo?: string; point?: string; camera?: string; line?: number; field?: string };
-  /** The values that the sentence is made of. */
+  /**
+   * The values that the sentence is made of. Errors that have a reason (`invalid`, `broken_image`, `cannot_orient`) name it with its
+   * values in `reason` and tell it in `detail`.
+   */
   data: { code: string; [name: string]: unknown } | null;
 }
 

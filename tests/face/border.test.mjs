@@ -56,6 +56,10 @@ test('documents from nowhere are refused with a place', () => {
   const error = broken((p) => (p.observations[1].u = null));
   assert.equal(error.where.photo, 'p2');
   assert.equal(error.where.point, 'x');
+  assert.deepEqual(error.data.reason, { kind: 'not_of_kind', name: 'observations[1].u', expected: 'finite_number' });
+  assert.equal(error.data.detail, 'observations[1].u is not a finite number');
+  const newer = broken((p) => (p.version = '2'));
+  assert.deepEqual(newer.data.reason, { kind: 'newer_version', version: '2' });
 });
 
 test('arguments of a wrong kind are errors, never traps', () => {
