@@ -37,7 +37,5 @@ pub mod rotation;
 pub mod sample;
 pub mod scene;
 pub mod statistics;
-#[cfg(all(feature = "javascript", target_arch = "wasm32"))]
-mod wasm;
 
 pub use error::{Error, Result};

@@ -5,31 +5,36 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
+use wasm_bindgen_cli_support::Bindgen;
 
 use crate::install::{self, TARGET};
 use crate::process::{cargo, output, root, run};
 use crate::{Outcome, page};
 
+/// How the page is built.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Profile {
+    /// While it is worked on: in minutes, and in seconds after a change.
+    Serve,
+    /// As it is handed out.
+    Release,
+}
+
+impl Profile {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Serve => "serve",
+            Self::Release => "release",
+        }
+    }
+}
+
 /// Leaves the engine as an ES module in pkg/.
 pub fn pkg() -> Outcome {
-    install::target()?;
-    // The module is asked for here and not in Cargo.toml, where every test and the desk would link it too.
-    run(&mut cargo(&[
-        "rustc",
-        "--release",
-        "--target",
-        TARGET,
-        "--package",
-        "sightline",
-        "--lib",
-        "--crate-type",
-        "cdylib",
-        "--features",
-        "javascript",
-    ]))?;
+    modules(Profile::Release, &["sightline-face"])?;
     let folder = root().join("pkg");
     empty(&folder)?;
-    bindings("sightline.wasm", &folder, "sightline", "web")?;
+    bindings(Profile::Release, "sightline_face", &folder, "sightline", true)?;
     let metadata = metadata()?;
     let engine = metadata["packages"].as_array().into_iter().flatten().find(|package| package["name"] == "sightline");
     let engine = engine.ok_or("cargo metadata does not list sightline")?;
@@ -50,16 +55,35 @@ pub fn pkg() -> Outcome {
     Ok(())
 }
 
-/// Leaves the page in dist/: index.html with Trunk's assets resolved, the desk's module and its glue.
-pub fn dist() -> Outcome {
-    install::target()?;
-    run(&mut cargo(&["build", "--release", "--target", TARGET, "--package", "sightline-desk"]))?;
+/// Leaves the page in dist/: index.html with Trunk's assets resolved, the page's module and the workers' with their glue.
+pub fn dist(profile: Profile) -> Outcome {
+    modules(profile, &["sightline-desk", "sightline-worker"])?;
     let folder = root().join("dist");
     empty(&folder)?;
-    bindings("sightline-desk.wasm", &folder, page::MODULE, "web")?;
+    if profile == Profile::Release {
+        links_no_engine()?;
+    }
+    bindings(profile, "sightline-desk", &folder, page::MODULE, false)?;
+    bindings(profile, "sightline-worker", &folder, page::WORKER, false)?;
     page::assemble(&root(), &folder)?;
     report("dist", &folder.join(format!("{}_bg.wasm", page::MODULE)));
+    report("dist", &folder.join(format!("{}_bg.wasm", page::WORKER)));
     Ok(())
+}
+
+/// Both, compiled together: what they have in common is built once.
+pub fn all() -> Outcome {
+    modules(Profile::Release, &["sightline-face", "sightline-desk", "sightline-worker"])?;
+    pkg()?;
+    dist(Profile::Release)
+}
+
+/// Compiles packages of the workspace as wasm.
+fn modules(profile: Profile, packages: &[&str]) -> Outcome {
+    install::target()?;
+    let mut arguments = vec!["build", "--profile", profile.name(), "--target", TARGET];
+    arguments.extend(packages.iter().flat_map(|package| ["--package", package]));
+    run(&mut cargo(&arguments))
 }
 
 /// What cargo knows of the workspace on this machine and as wasm, from the lock file; offline where all is downloaded.
@@ -92,15 +116,27 @@ pub fn target_directory() -> Outcome<String> {
     Ok(metadata()?["target_directory"].as_str().ok_or("cargo metadata names no target directory")?.to_owned())
 }
 
-fn bindings(wasm: &str, folder: &Path, name: &str, target: &str) -> Outcome {
-    let wasm = format!("{}/{TARGET}/release/{wasm}", target_directory()?);
-    let folder = folder.to_str().ok_or("the repository's path is not UTF-8")?;
-    let mut arguments = vec!["wasm-bindgen", "--target", target, "--out-dir", folder, "--out-name", name];
-    arguments.extend(["--remove-name-section", "--remove-producers-section", &wasm]);
-    if target == "web" && name == page::MODULE {
-        arguments.push("--no-typescript");
+/// The page's own module has the document, the results and the interface; what computes is in the workers. Told by the
+/// names of the functions that were linked.
+fn links_no_engine() -> Outcome {
+    let module = format!("{}/{TARGET}/release/sightline-desk.wasm", target_directory()?);
+    let bytes = fs::read(&module).map_err(|error| format!("{module}: {error}"))?;
+    let linked = |name: &str| bytes.windows(name.len()).any(|window| window == name.as_bytes());
+    let engine =
+        ["9sightline6detect", "9sightline6decode", "9sightline6orient", "9sightline7initial", "9zune_jpeg", "3zip"];
+    match engine.into_iter().find(|name| linked(name)) {
+        Some(name) => Err(format!("{module}: the page links {name}, which belongs to the workers")),
+        None => Ok(()),
     }
-    wasm_bindgen_cli::wasm_bindgen::run_cli_with_args(arguments).map_err(|error| format!("wasm-bindgen: {error:#}"))
+}
+
+fn bindings(profile: Profile, module: &str, folder: &Path, name: &str, typescript: bool) -> Outcome {
+    let wasm = format!("{}/{TARGET}/{}/{module}.wasm", target_directory()?, profile.name());
+    let fault = |error| format!("wasm-bindgen: {error:#}");
+    let mut bindgen = Bindgen::new();
+    bindgen.input_path(wasm).out_name(name).typescript(typescript).web(true).map_err(fault)?;
+    bindgen.remove_name_section(true).remove_producers_section(true);
+    bindgen.generate(folder).map_err(fault)
 }
 
 fn empty(folder: &Path) -> Outcome {

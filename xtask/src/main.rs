@@ -20,8 +20,7 @@ cargo xtask <command>
   build                leave the page in dist/ and the engine with its JavaScript face in pkg/
   test [suite ...]     run everything, or only the suites named: native wasm face types page
   bench [part ...]     measure the engine as wasm in Node, or only the parts named: detect border growth
-  check                licences of the dependency tree, invariants of the code, the code map; works offline
-  test-runner          run a wasm test binary in Node (cargo calls this)";
+  check                licences of the dependency tree, invariants of the code, the code map; works offline";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -40,8 +39,7 @@ fn run(arguments: &[String]) -> Outcome {
         "serve" => serve::command(rest),
         "build" => {
             none_of(rest)?;
-            build::pkg()?;
-            build::dist()
+            build::all()
         }
         "test" => suites::command(rest),
         "bench" => bench::command(rest),
@@ -49,7 +47,6 @@ fn run(arguments: &[String]) -> Outcome {
             none_of(rest)?;
             check::command()
         }
-        "test-runner" => suites::runner(rest),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");
             Ok(())

@@ -6,8 +6,10 @@ use std::path::Path;
 use crate::Outcome;
 use crate::build::write;
 
-/// Name of the desk's module in dist/.
+/// Name of the page's own module in dist/.
 pub const MODULE: &str = "desk";
+/// Name of the workers' module in dist/.
+pub const WORKER: &str = "sightline-worker";
 
 /// Copies what index.html names into `dist` and writes the page there.
 pub fn assemble(root: &Path, dist: &Path) -> Outcome {
@@ -22,6 +24,8 @@ struct Asset {
     rel: String,
     href: String,
     target: Option<String>,
+    /// Of a module: "main" or "worker".
+    kind: Option<String>,
 }
 
 /// The page with every tag that carries `data-trunk` replaced by what `link` gives for it.
@@ -40,7 +44,12 @@ fn resolve(source: &str, link: &mut dyn FnMut(&Asset) -> Outcome<String>) -> Out
                 attribute(tag, "rel").ok_or_else(|| format!("index.html: {tag} lacks rel"))?
             };
             let href = attribute(tag, if script { "src" } else { "href" }).unwrap_or_else(|| "web/Cargo.toml".into());
-            let replacement = link(&Asset { rel, href: href.clone(), target: attribute(tag, "data-target-path") })?;
+            let replacement = link(&Asset {
+                rel,
+                href: href.clone(),
+                target: attribute(tag, "data-target-path"),
+                kind: attribute(tag, "data-type"),
+            })?;
             if script {
                 let name = href.rsplit('/').next().unwrap_or_default();
                 page.push_str(&tag.replace(" data-trunk", "").replace(&href, name));
@@ -62,6 +71,8 @@ fn place(root: &Path, dist: &Path, asset: &Asset) -> Outcome<String> {
     let name = asset.href.rsplit('/').find(|part| !part.is_empty()).unwrap_or_default();
     let folder = asset.target.as_ref().map_or_else(|| dist.to_path_buf(), |target| dist.join(target));
     match asset.rel.as_str() {
+        // Fetched by the page when it stands.
+        "rust" if asset.kind.as_deref() == Some("worker") => Ok(String::new()),
         "rust" => Ok(format!(
             "<link rel=\"modulepreload\" href=\"{MODULE}.js\">\
              <link rel=\"preload\" href=\"{MODULE}_bg.wasm\" as=\"fetch\" type=\"application/wasm\" crossorigin>\n\

@@ -1,15 +1,15 @@
 //! A server of one folder on loopback, for the page while it is built and tested.
 
+use std::fs::File;
+use std::io::Read;
 use std::net::{Ipv4Addr, TcpListener};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
-use axum::Router;
-use axum::http::{HeaderValue, header};
-use tower_http::services::ServeDir;
-use tower_http::set_header::SetResponseHeaderLayer;
+use tiny_http::{Header, Response, Server};
 
+use crate::Outcome;
+use crate::build::{self, Profile};
 use crate::process::root;
-use crate::{Outcome, build};
 
 /// `serve [--port N]`.
 pub fn command(arguments: &[String]) -> Outcome {
@@ -20,7 +20,7 @@ pub fn command(arguments: &[String]) -> Outcome {
         }
         _ => return Err("serve [--port N]".into()),
     };
-    build::dist()?;
+    build::dist(Profile::Serve)?;
     let listener = match port {
         Some(port) => listen(port)?,
         None => (8080..8100).find_map(|port| listen(port).ok()).map_or_else(|| listen(0), Ok)?,
@@ -45,24 +45,86 @@ fn address(listener: &TcpListener) -> Outcome<String> {
     listener.local_addr().map(|address| format!("http://{address}/")).map_err(|error| error.to_string())
 }
 
-/// Answers until the process ends. Connections wait for nobody: a browser keeps six of them open.
+/// Answers until the process ends. Several at once: a browser keeps six connections open.
 fn answer(listener: TcpListener, folder: &Path) -> Outcome {
-    let always = |name, value| SetResponseHeaderLayer::overriding(name, HeaderValue::from_static(value));
-    let site = Router::new()
-        .fallback_service(ServeDir::new(folder))
-        .layer(always(header::CACHE_CONTROL, "no-cache"))
-        .layer(always(header::X_CONTENT_TYPE_OPTIONS, "nosniff"));
-    let serve = async {
-        listener.set_nonblocking(true)?;
-        axum::serve(tokio::net::TcpListener::from_std(listener)?, site).await
+    let server = Server::from_listener(listener, None).map_err(|error| format!("the server: {error}"))?;
+    std::thread::scope(|threads| {
+        for _ in 0..4 {
+            threads.spawn(|| {
+                for request in server.incoming_requests() {
+                    // Fails where the browser has gone, which then needs no answer.
+                    let _ = match file(folder, request.url()) {
+                        Some((file, kind)) => request.respond(with_headers(Response::from_file(file), kind)),
+                        None => request.respond(with_headers(
+                            Response::from_string("not here").with_status_code(404),
+                            "text/plain",
+                        )),
+                    };
+                }
+            });
+        }
+    });
+    Ok(())
+}
+
+/// The file of an address with its kind; none outside the folder. A folder's file is its index.html.
+fn file(folder: &Path, address: &str) -> Option<(File, &'static str)> {
+    let path = address.split(['?', '#']).next().unwrap_or_default();
+    let mut place = folder.to_path_buf();
+    for part in decoded(path)?.split('/').filter(|part| !part.is_empty()) {
+        // Names only: nothing that leads upwards or, on other systems, to another drive.
+        let mut components = Path::new(part).components();
+        match (components.next(), components.next()) {
+            (Some(Component::Normal(name)), None) => place.push(name),
+            _ => return None,
+        }
+    }
+    if place.is_dir() {
+        place.push("index.html");
+    }
+    let kind = match place.extension().and_then(|ending| ending.to_str()).unwrap_or_default() {
+        "html" => "text/html; charset=utf-8",
+        "js" | "mjs" => "text/javascript; charset=utf-8",
+        "css" => "text/css; charset=utf-8",
+        "json" | "webmanifest" => "application/json",
+        "wasm" => "application/wasm",
+        "svg" => "image/svg+xml",
+        "png" => "image/png",
+        _ => "application/octet-stream",
     };
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_io().build();
-    runtime.and_then(|runtime| runtime.block_on(serve)).map_err(|error| format!("the server: {error}"))
+    Some((File::open(place).ok()?, kind))
+}
+
+/// "%20" and the like resolved; none where that is not UTF-8.
+fn decoded(path: &str) -> Option<String> {
+    let mut bytes = Vec::new();
+    let mut rest = path.as_bytes();
+    while let Some((&byte, tail)) = rest.split_first() {
+        let hex = tail.get(..2).and_then(|hex| std::str::from_utf8(hex).ok());
+        match hex.filter(|_| byte == b'%').and_then(|hex| u8::from_str_radix(hex, 16).ok()) {
+            Some(value) => {
+                bytes.push(value);
+                rest = &tail[2..];
+            }
+            None => {
+                bytes.push(byte);
+                rest = tail;
+            }
+        }
+    }
+    String::from_utf8(bytes).ok()
+}
+
+fn with_headers<R: Read>(response: Response<R>, kind: &str) -> Response<R> {
+    let headers = [("Content-Type", kind), ("Cache-Control", "no-cache"), ("X-Content-Type-Options", "nosniff")];
+    headers.into_iter().fold(response, |response, (name, value)| {
+        response.with_header(Header::from_bytes(name, value).expect("a header of plain letters"))
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use std::io::{Read, Write};
+    use std::io::Write;
     use std::net::TcpStream;
     use std::time::Duration;
 
@@ -88,7 +150,7 @@ mod tests {
         for stream in &mut open {
             let answer = ask(stream, "/Cargo.toml").expect("an answer");
             assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
-            assert!(answer.contains("cache-control: no-cache"), "{answer}");
+            assert!(answer.contains("Cache-Control: no-cache"), "{answer}");
         }
     }
 
@@ -98,6 +160,7 @@ mod tests {
         let status = |path| ask(&mut connect(&address), path).expect("an answer")[9..12].to_owned();
         assert_eq!(status("/src/serve.rs?v=1"), "200");
         assert_eq!(status("/s%72c/serve.rs"), "200");
+        assert_eq!(status("/%"), "404");
         for outside in ["/../Cargo.toml", "/%2e%2e/Cargo.toml", "/src/../../Cargo.toml", "//etc/passwd", "/src/none.rs"]
         {
             assert_ne!(status(outside), "200", "{outside}");

@@ -1,5 +1,6 @@
 //! `cargo xtask test`: every suite, one after the other, and one line that sums them up.
 
+use std::cell::OnceCell;
 use std::time::Instant;
 
 use crate::install::{self, TARGET};
@@ -14,7 +15,21 @@ struct Count {
 }
 
 /// A suite: its name on the command line and how it runs.
-type Suite = (&'static str, fn() -> Outcome<Count>);
+type Suite = (&'static str, fn(&Products) -> Outcome<Count>);
+
+/// What several suites are run on, built once, when the first of them needs it.
+struct Products {
+    /// Whether the page is among what is wanted: then it is compiled together with pkg/.
+    with_page: bool,
+    built: OnceCell<Outcome>,
+}
+
+impl Products {
+    fn build(&self) -> Outcome {
+        let build = || if self.with_page { build::all() } else { build::pkg() };
+        self.built.get_or_init(build).clone()
+    }
+}
 
 const SUITES: [Suite; 5] = [("native", native), ("wasm", wasm), ("face", face), ("types", types), ("page", browser)];
 
@@ -24,14 +39,16 @@ pub fn command(names: &[String]) -> Outcome {
         let known = SUITES.map(|(suite, _)| suite).join(", ");
         return Err(format!("there is no suite {name}; the suites are {known}"));
     }
+    let wanted = |name: &str| names.is_empty() || names.iter().any(|wanted| wanted == name);
+    let products = Products { with_page: wanted("page"), built: OnceCell::new() };
     let (mut total, mut lines) = (Count::default(), Vec::new());
     for (name, suite) in SUITES {
-        if !names.is_empty() && names.iter().all(|wanted| wanted != name) {
+        if !wanted(name) {
             continue;
         }
         println!("== {name}");
         let began = Instant::now();
-        let (count, note) = match suite() {
+        let (count, note) = match suite(&products) {
             Ok(count) => (count, String::new()),
             // A suite that cannot run is a failure, and the others still say what they have to say.
             Err(message) => (Count { passed: 0, failed: 1 }, format!(": {message}")),
@@ -45,37 +62,29 @@ pub fn command(names: &[String]) -> Outcome {
     if total.failed == 0 { Ok(()) } else { Err("the tests failed".into()) }
 }
 
-/// Cargo's runner of wasm tests: Node, without the `--quiet` that `cargo test -q` hands on.
-pub fn runner(arguments: &[String]) -> Outcome {
-    install::node()?;
-    let arguments = arguments.iter().filter(|argument| *argument != "--quiet");
-    let all = std::iter::once("wasm-bindgen-test-runner").chain(arguments.map(String::as_str));
-    wasm_bindgen_cli::wasm_bindgen_test_runner::run_cli_with_args(all).map_err(|error| format!("{error:#}"))
-}
-
-fn native() -> Outcome<Count> {
+fn native(_: &Products) -> Outcome<Count> {
     counted(&mut cargo(&["test", "--workspace", "--no-fail-fast"]), rust_count)
 }
 
-fn wasm() -> Outcome<Count> {
+fn wasm(_: &Products) -> Outcome<Count> {
     install::target()?;
     install::node()?;
     let arguments = ["test", "--target", TARGET, "--package", "sightline", "--lib", "--tests", "--no-fail-fast"];
     counted(&mut cargo(&arguments), rust_count)
 }
 
-fn face() -> Outcome<Count> {
+fn face(products: &Products) -> Outcome<Count> {
     install::packages()?;
-    build::pkg()?;
+    products.build()?;
     // Its numbers are compared with those that the engine gives natively.
     let native = build::example("targets")?;
     node_tests("tests/face", &[("SIGHTLINE_NATIVE", &native)])
 }
 
 /// The declarations of pkg/ with a program that uses them, under the strictest compiler.
-fn types() -> Outcome<Count> {
+fn types(products: &Products) -> Outcome<Count> {
     install::packages()?;
-    build::pkg()?;
+    products.build()?;
     let compiled = watch(
         &mut program("node", &["e2e/node_modules/typescript/bin/tsc", "--project", "tests/face/tsconfig.json"]),
         |_| (),
@@ -84,12 +93,11 @@ fn types() -> Outcome<Count> {
 }
 
 /// The page in a headless browser, against a server of dist/.
-fn browser() -> Outcome<Count> {
+fn browser(products: &Products) -> Outcome<Count> {
     install::packages()?;
     let chromium = install::chromium()?;
     // The page's numbers are compared with those that Node has.
-    build::pkg()?;
-    build::dist()?;
+    products.build()?;
     let address = serve::background(root().join("dist"))?;
     node_tests("e2e", &[("SIGHTLINE_URL", &address), ("CHROMIUM", &chromium)])
 }

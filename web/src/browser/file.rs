@@ -28,10 +28,6 @@ impl Blob {
         Ok(Uint8Array::new(&buffer).to_vec())
     }
 
-    pub(super) fn from_js(value: &JsValue) -> Self {
-        Self(value.clone().unchecked_into())
-    }
-
     pub(super) fn as_js(&self) -> JsValue {
         self.0.clone().into()
     }

@@ -3,11 +3,6 @@
 use wasm_bindgen::prelude::*;
 use web_sys::{HtmlElement, Window};
 
-/// Whether this is a page and not a worker.
-pub fn is_page() -> bool {
-    js_sys::global().is_instance_of::<Window>()
-}
-
 fn window() -> Option<Window> {
     web_sys::window()
 }

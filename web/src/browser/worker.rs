@@ -1,14 +1,15 @@
-//! Both ends of a worker: the page starts it with its own compiled module and posts requests; the worker answers.
+//! The page's end of a worker: it is started with the engine's compiled module and gets requests; it answers.
 
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use js_sys::{Array, Object, Reflect, Uint8Array};
+use js_sys::{Array, Object, Promise, Reflect, Uint8Array, WebAssembly};
+use sightline_protocol::{Request, to_text};
 use wasm_bindgen::prelude::*;
-use web_sys::{DedicatedWorkerGlobalScope, ErrorEvent, MessageEvent, WorkerOptions, WorkerType};
+use wasm_bindgen_futures::{JsFuture, future_to_promise, spawn_local};
+use web_sys::{ErrorEvent, MessageEvent, Response, WorkerOptions, WorkerType};
 
 use super::file::Blob;
-use crate::protocol::{Answer, Request};
 
 /// Bytes that stay on JavaScript's side.
 #[derive(Clone)]
@@ -24,8 +25,8 @@ impl Bytes {
 pub enum Message {
     /// It has started and takes requests.
     Ready,
-    /// Progress or the end of its request, with the bytes that belong to it.
-    Answer(Answer, Vec<Bytes>),
+    /// A word on its task, with the bytes that belong to it.
+    Said(String, Vec<Bytes>),
     /// It is lost (out of memory, for instance).
     Crashed(String),
 }
@@ -38,13 +39,13 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// Starts a worker that runs this page's module.
+    /// Starts a worker that runs the engine's module.
     pub fn start(on_message: impl FnMut(Message) + 'static) -> Result<Self, String> {
         let inner = spawn().map_err(|e| describe(&e))?;
         let listener = Rc::new(RefCell::new(on_message));
-        let for_errors = listener.clone();
+        let (for_errors, for_the_module) = (listener.clone(), listener.clone());
         let on_message = Closure::new(move |event: MessageEvent| {
-            if let Some(message) = read_answer(&event.data()) {
+            if let Some(message) = read_message(&event.data()) {
                 (listener.borrow_mut())(message);
             }
         });
@@ -53,18 +54,30 @@ impl Worker {
         });
         inner.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
         inner.set_onerror(Some(on_error.as_ref().unchecked_ref()));
-        let start = Object::new();
-        set(&start, "module", &wasm_bindgen::module());
-        set(&start, "glue", &glue_address().into());
-        inner.post_message(&start).map_err(|e| describe(&e))?;
+        let worker = inner.clone();
+        spawn_local(async move {
+            let posted = match JsFuture::from(engine()).await {
+                Ok(module) => {
+                    let start = Object::new();
+                    set(&start, "module", &module);
+                    worker.post_message(&start)
+                }
+                Err(error) => {
+                    forget_engine();
+                    Err(error)
+                }
+            };
+            if let Err(error) = posted {
+                (for_the_module.borrow_mut())(Message::Crashed(describe(&error)));
+            }
+        });
         Ok(Self { inner, _on_message: on_message, _on_error: on_error })
     }
 
     /// Sends a request with the files it works on; the worker reads them itself.
     pub fn post(&self, request: &Request, files: &[Blob]) -> Result<(), String> {
         let message = Object::new();
-        let body = to_text(request).map_err(|e| e.to_string())?;
-        set(&message, "body", &body.into());
+        set(&message, "body", &to_text(request).into());
         set(&message, "files", &files.iter().map(Blob::as_js).collect::<Array>());
         self.inner.post_message(&message).map_err(|e| describe(&e))
     }
@@ -89,73 +102,51 @@ fn spawn() -> Result<web_sys::Worker, JsValue> {
     }
 }
 
-/// The page preloads the module's glue, under whatever name the build gave it.
-fn glue_address() -> String {
-    let document = web_sys::window().and_then(|w| w.document());
-    let link = document.and_then(|d| d.query_selector("link[rel=modulepreload]").ok().flatten());
-    link.map(|l| l.unchecked_into::<web_sys::HtmlLinkElement>().href()).unwrap_or_default()
+/// The engine's module in dist/, beside its glue of the same name.
+const MODULE: &str = "sightline-worker_bg.wasm";
+
+thread_local! {
+    /// Compiled once for all workers.
+    static ENGINE: RefCell<Option<Promise>> = const { RefCell::new(None) };
 }
 
-fn read_answer(data: &JsValue) -> Option<Message> {
+/// Fetches and compiles the engine's module unless that is under way: the page calls it as soon as it stands.
+pub fn engine() -> Promise {
+    ENGINE.with_borrow_mut(|engine| engine.get_or_insert_with(|| future_to_promise(compile())).clone())
+}
+
+/// After a failure (no network, say) the next worker tries again.
+fn forget_engine() {
+    ENGINE.with_borrow_mut(|engine| *engine = None);
+}
+
+async fn compile() -> Result<JsValue, JsValue> {
+    let fetched = || web_sys::window().ok_or(JsValue::from("no window")).map(|window| window.fetch_with_str(MODULE));
+    match JsFuture::from(WebAssembly::compile_streaming(&fetched()?)).await {
+        Ok(module) => Ok(module),
+        // Hosts that do not know the type of wasm files: compiled from its bytes.
+        Err(_) => {
+            let response: Response = JsFuture::from(fetched()?).await?.dyn_into()?;
+            if !response.ok() {
+                return Err(format!("{MODULE}: {} {}", response.status(), response.status_text()).into());
+            }
+            let bytes = JsFuture::from(response.array_buffer()?).await?;
+            JsFuture::from(WebAssembly::compile(&bytes)).await
+        }
+    }
+}
+
+fn read_message(data: &JsValue) -> Option<Message> {
     let field = |name: &str| Reflect::get(data, &name.into()).ok();
     if let Some(reason) = field("crashed").and_then(|v| v.as_string()) {
         return Some(Message::Crashed(reason));
     }
+    if field("ready").is_some_and(|ready| ready.is_truthy()) {
+        return Some(Message::Ready);
+    }
     let body = field("body")?.as_string()?;
     let bytes = Array::from(&field("bytes")?).iter().map(|b| Bytes(b.unchecked_into())).collect();
-    Some(match serde_json::from_str::<Answer>(&body) {
-        Ok(Answer::Ready) => Message::Ready,
-        Ok(answer) => Message::Answer(answer, bytes),
-        Err(error) => Message::Crashed(error.to_string()),
-    })
-}
-
-/// Serves a request with the bytes of its files; the last argument answers.
-pub type Serve = fn(Request, Vec<Vec<u8>>, Reply);
-/// Sends an answer with the bytes that belong to it.
-pub type Reply<'a> = &'a mut dyn FnMut(Answer, Vec<Vec<u8>>);
-
-/// Waits for requests in a worker and hands each to `serve` with a way to answer.
-pub fn serve_requests(serve: Serve) {
-    let scope: DedicatedWorkerGlobalScope = js_sys::global().unchecked_into();
-    let on_message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
-        wasm_bindgen_futures::spawn_local(async move {
-            let data = event.data();
-            let field = |name: &str| Reflect::get(&data, &name.into()).unwrap_or_default();
-            let body = field("body").as_string().unwrap_or_default();
-            let mut files = Vec::new();
-            for file in Array::from(&field("files")).iter() {
-                match Blob::from_js(&file).read().await {
-                    Ok(bytes) => files.push(bytes),
-                    Err(detail) => return answer(&Answer::Unreadable { detail }, &[]),
-                }
-            }
-            match serde_json::from_str(&body) {
-                Ok(request) => serve(request, files, &mut |a, bytes| answer(&a, &bytes)),
-                Err(error) => answer(&Answer::Unreadable { detail: error.to_string() }, &[]),
-            }
-        });
-    });
-    scope.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
-    on_message.forget();
-    answer(&Answer::Ready, &[]);
-}
-
-fn answer(answer: &Answer, bytes: &[Vec<u8>]) {
-    let scope: DedicatedWorkerGlobalScope = js_sys::global().unchecked_into();
-    let message = Object::new();
-    let body = to_text(answer).unwrap_or_default();
-    let arrays = bytes.iter().map(|b| Uint8Array::from(&b[..])).collect::<Vec<_>>();
-    let transfer = arrays.iter().map(Uint8Array::buffer).collect::<Array>();
-    set(&message, "body", &body.into());
-    set(&message, "bytes", &arrays.iter().collect::<Array>());
-    // Fails only where the page has gone, which then needs no answer.
-    let _ = scope.post_message_with_transfer(&message, &transfer);
-}
-
-/// By way of a value, which has every name once: an adjusted camera's sigmas and its own share one.
-fn to_text(message: &impl serde::Serialize) -> serde_json::Result<String> {
-    serde_json::to_string(&serde_json::to_value(message)?)
+    Some(Message::Said(body, bytes))
 }
 
 fn set(object: &Object, name: &str, value: &JsValue) {

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use sightline::adjustment::{AdjustOptions, Iteration};
 use sightline::project::Parameter;
+use sightline_protocol::{Adjust, Adjusted, Adjusting, Match};
 
 use super::document::{self, Change};
-use super::pool;
+use super::pool::{self, Failure};
 use super::{Desk, JobKind, Step};
 use crate::format;
-use crate::i18n::{errors, text};
-use crate::protocol::{Answer, Request};
+use crate::i18n::text;
 
 impl Desk {
     /// Orients what is not oriented and adjusts everything.
@@ -26,33 +26,29 @@ impl Desk {
         self.notice.set(None);
         self.go(Step::Adjust);
         let batch = self.start_job(JobKind::Adjusting, options.max_iterations, || {});
-        let request = Request::Adjust { project: Box::new((*input).clone()), options };
-        let on_outcome = move |outcome: pool::Outcome| match outcome {
-            pool::Outcome::Answer(Answer::Oriented { notes }, _) => self.notes.set(notes),
-            pool::Outcome::Answer(Answer::Iteration(iteration), _) => {
+        let task = Adjust { project: (*input).clone(), options };
+        let on_outcome = move |outcome: pool::Outcome<Adjust>| match outcome {
+            pool::Outcome::Progress(Adjusting::Oriented(notes)) => self.notes.set(notes),
+            pool::Outcome::Progress(Adjusting::Iteration(iteration)) => {
                 self.iterations.update(|all: &mut Vec<Iteration>| all.push(iteration));
                 self.step_job(batch);
             }
-            pool::Outcome::Answer(Answer::Adjusted { oriented, adjustment }, _) => {
+            pool::Outcome::Done(Adjusted { oriented, adjustment }, _) => {
                 self.end_job();
-                let outcome =
-                    document::Outcome { input: input.clone(), oriented: Arc::new(*oriented), adjustment: *adjustment };
+                let outcome = document::Outcome { input: input.clone(), oriented: Arc::new(oriented), adjustment };
                 self.iterations.set(outcome.adjustment.iterations.clone());
                 self.change(Change::Adjusted, |document| document.result = Some(Arc::new(outcome)));
                 then(self);
             }
-            pool::Outcome::Answer(Answer::Failed(error), _) => {
+            pool::Outcome::Failed(failure) => {
                 self.end_job();
-                self.adjust_failure.set(Some(*error.clone()));
-                self.warn(move || errors::sentence(&error));
+                if let Failure::Refused(error) = &failure {
+                    self.adjust_failure.set(Some(error.clone()));
+                }
+                self.tell_failure(failure);
             }
-            pool::Outcome::Answer(Answer::Unreadable { detail }, _) | pool::Outcome::Crashed(detail) => {
-                self.end_job();
-                self.warn_crash(detail);
-            }
-            pool::Outcome::Answer(..) => {}
         };
-        self.pool.with_value(|pool| pool.submit(batch, request, Vec::new(), on_outcome));
+        self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
     }
 
     /// Names the targets without a code by where the oriented photos see them.
@@ -76,25 +72,20 @@ impl Desk {
             (oriented, d.photo_targets())
         });
         let batch = self.start_job(JobKind::Matching, 1, || {});
-        let request = Request::Match { project: Box::new(project), targets };
-        let on_outcome = move |outcome: pool::Outcome| {
-            if let pool::Outcome::Answer(Answer::Iteration(_) | Answer::Oriented { .. }, _) = outcome {
-                return;
+        let task = Match { project, targets };
+        let on_outcome = move |outcome: pool::Outcome<Match>| match outcome {
+            pool::Outcome::Progress(_) => {}
+            pool::Outcome::Done(matching, _) => {
+                self.end_job();
+                self.take_matching(matching);
+                then(self);
             }
-            self.end_job();
-            match outcome {
-                pool::Outcome::Answer(Answer::Matched(matching), _) => {
-                    self.take_matching(*matching);
-                    then(self);
-                }
-                pool::Outcome::Answer(Answer::Failed(error), _) => self.warn(move || errors::sentence(&error)),
-                pool::Outcome::Answer(Answer::Unreadable { detail }, _) | pool::Outcome::Crashed(detail) => {
-                    self.warn_crash(detail);
-                }
-                pool::Outcome::Answer(..) => {}
+            pool::Outcome::Failed(failure) => {
+                self.end_job();
+                self.tell_failure(failure);
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, request, Vec::new(), on_outcome));
+        self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
     }
 
     /// Lets a camera's parameter be estimated or held.

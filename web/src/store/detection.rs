@@ -2,12 +2,12 @@
 
 use leptos::prelude::*;
 use sightline::detection::Detection;
+use sightline_protocol::Detect;
 
 use super::document::Change;
-use super::pool::Outcome;
+use super::pool::{Failure, Outcome};
 use super::{Desk, JobKind};
 use crate::i18n::{errors, text};
-use crate::protocol::{Answer, Request};
 
 impl Desk {
     /// Finds the targets of every photo whose file is here.
@@ -25,25 +25,25 @@ impl Desk {
         self.change(Change::TargetsDetected, |_| {});
         let batch = self.start_job(JobKind::Detecting, photos.len(), || {});
         for (id, file) in photos {
-            let on_outcome = move |outcome: Outcome| {
+            let on_outcome = move |outcome: Outcome<Detect>| {
                 match outcome {
-                    Outcome::Answer(Answer::Detected(detection), _) => self.add_detection(&id, *detection),
-                    Outcome::Answer(Answer::Failed(error), _) => {
+                    Outcome::Done(detection, _) => self.add_detection(&id, detection),
+                    Outcome::Failed(Failure::Refused(error)) => {
                         let photo = id.clone();
                         self.warn(move || text::photo_failed(&photo, errors::sentence(&error)));
                     }
-                    Outcome::Answer(Answer::Unreadable { detail }, _) | Outcome::Crashed(detail) => {
+                    Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => {
                         let photo = id.clone();
                         self.warn(move || text::photo_failed(&photo, text::worker_lost(&detail)));
                     }
-                    Outcome::Answer(..) => return,
+                    Outcome::Progress(nothing) => match nothing {},
                 }
                 if self.step_job(batch) {
                     self.end_job();
                 }
             };
-            let request = Request::Detect { options: options.clone() };
-            self.pool.with_value(|pool| pool.submit(batch, request, vec![file], on_outcome));
+            let task = Detect { options: options.clone() };
+            self.pool.with_value(|pool| pool.submit(batch, task, vec![file], on_outcome));
         }
     }
 

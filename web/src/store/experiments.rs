@@ -4,17 +4,15 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use sightline::exchange::package;
-use sightline::experiments::{self, Experiment, ExperimentOptions, NAMES};
+use sightline::experiments::{Experiment, ExperimentOptions, NAMES};
 use sightline::project::Project;
+use sightline_protocol::{ExportExperiment, RunExperiment};
 
 use super::document::{Change, Document};
 use super::plates::Plates;
 use super::pool::Outcome;
 use super::{Desk, JobKind, Selection, Step};
-use crate::browser::{file, page};
-use crate::i18n::{errors, text};
-use crate::protocol::{Answer, Request};
+use crate::browser::page;
 
 /// What an experiment gave, with what it was run on.
 #[derive(Clone, Debug)]
@@ -90,27 +88,23 @@ impl Desk {
         let began = page::now();
         self.notice.set(None);
         let batch = self.start_job(JobKind::Experiment, 1, || {});
-        let request = Request::Experiment { name: name.to_owned(), options: options.clone() };
-        let on_outcome = move |outcome: Outcome| match outcome {
-            Outcome::Answer(Answer::Step { done, of }, _) => self.count_job(batch, done, of),
-            Outcome::Answer(Answer::Experiment(experiment), _) => {
+        let task = RunExperiment { name: name.to_owned(), options: options.clone() };
+        let on_outcome = move |outcome: Outcome<RunExperiment>| match outcome {
+            Outcome::Progress((done, of)) => self.count_job(batch, done, of),
+            Outcome::Done(experiment, _) => {
                 self.end_job();
                 let seconds = (page::now() - began) / 1000.0;
-                let ran = Ran { options: options.clone(), experiment: *experiment, seconds };
+                let ran = Ran { options: options.clone(), experiment, seconds };
                 self.experiments.ran.update(|all| {
                     all.insert(name, Arc::new(ran));
                 });
             }
-            Outcome::Answer(Answer::Failed(error), _) => {
+            Outcome::Failed(failure) => {
                 self.end_job();
-                self.warn(move || errors::sentence(&error));
-            }
-            other => {
-                self.end_job();
-                self.tell_failure(other);
+                self.tell_failure(failure);
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, request, Vec::new(), on_outcome));
+        self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
     }
 
     /// Puts the experiment's project on the desk; the one that was open can be got back by undoing.
@@ -137,16 +131,17 @@ impl Desk {
     pub fn export_experiment(self, only: Option<&str>) {
         let name = self.experiments.shown.get_untracked();
         let Some(ran) = untrack(|| self.experiments.current(name)) else { return };
-        let files = experiments::csv(&ran.experiment);
-        let given = match only.map(|id| format!("{name}-{}.csv", id.replace('/', "-"))) {
-            Some(wanted) => files.get(&wanted).map(|bytes| file::download(&wanted, "text/csv", bytes)),
-            None => match package::archive(&files) {
-                Ok(bytes) => Some(file::download(&format!("{name}.zip"), "application/zip", &bytes)),
-                Err(error) => return self.warn_error(error),
-            },
+        let only = only.map(|id| format!("{name}-{}.csv", id.replace('/', "-")));
+        let (file, kind) = match &only {
+            Some(wanted) => (wanted.clone(), "text/csv"),
+            None => (format!("{name}.zip"), "application/zip"),
         };
-        if let Some(Err(detail)) = given {
-            self.warn(move || text::cannot_save(&detail));
-        }
+        let task = ExportExperiment { experiment: ran.experiment.clone(), only };
+        let on_outcome = move |outcome: Outcome<ExportExperiment>| match outcome {
+            Outcome::Done((), bytes) => bytes.iter().for_each(|bytes| self.hand_over(&file, kind, bytes)),
+            Outcome::Failed(failure) => self.tell_failure(failure),
+            Outcome::Progress(nothing) => match nothing {},
+        };
+        self.pool.with_value(|pool| pool.submit_first(task, Vec::new(), on_outcome));
     }
 }

@@ -8,13 +8,13 @@ use sightline::detection::{Detection, Target};
 use sightline::exchange::mark_points;
 use sightline::matching::{Mark, Matching, PhotoTargets, Snapped, name_coded, snap};
 use sightline::project::{Observation, Point, Project, Role, Sigma};
+use sightline_protocol::Measure;
 
 use super::document::{Change, Document};
 use super::pool::Outcome;
 use super::{Desk, Step};
 use crate::format;
-use crate::i18n::{errors, text};
-use crate::protocol::{Answer, Request};
+use crate::i18n::text;
 
 /// Standard error of a place that was set by hand, in pixels.
 pub const BY_HAND_SIGMA: f64 = 0.5;
@@ -192,18 +192,16 @@ impl Desk {
         };
         let options = self.detect_options.get_untracked();
         let photo = photo.to_owned();
-        let on_outcome = move |outcome: Outcome| match outcome {
-            Outcome::Answer(Answer::Measured(Some(target)), _) => self.add_target(&photo, *target),
-            Outcome::Answer(Answer::Measured(None), _) => {
+        let on_outcome = move |outcome: Outcome<Measure>| match outcome {
+            Outcome::Done(Some(target), _) => self.add_target(&photo, target),
+            Outcome::Done(None, _) => {
                 self.tell(|| text::placed_by_hand().to_owned());
                 self.add_by_hand(&photo, u, v);
             }
-            Outcome::Answer(Answer::Failed(error), _) => self.warn(move || errors::sentence(&error)),
-            Outcome::Answer(Answer::Unreadable { detail }, _) | Outcome::Crashed(detail) => self.warn_crash(detail),
-            Outcome::Answer(..) => {}
+            Outcome::Failed(failure) => self.tell_failure(failure),
+            Outcome::Progress(nothing) => match nothing {},
         };
-        self.pool
-            .with_value(|pool| pool.submit_first(Request::Measure { digest, u, v, options }, vec![file], on_outcome));
+        self.pool.with_value(|pool| pool.submit_first(Measure { digest, u, v, options }, vec![file], on_outcome));
     }
 
     /// A target measured on request joins the photo's list and is chosen, to be named.

@@ -7,16 +7,16 @@ use std::rc::Rc;
 use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::project::{Photo, Project};
+use sightline_protocol::Open;
 
 use super::cameras::{self, Signature};
 use super::document::Change;
-use super::pool::Outcome;
+use super::pool::{Failure, Outcome};
 use super::saving::{is_project, is_text};
 use super::{Desk, JobKind, PhotoFile, Problem, Reason, Step};
 use crate::browser::file::NamedFile;
 use crate::browser::picture::Picture;
 use crate::i18n::text;
-use crate::protocol::{Answer, Request};
 
 /// Longest side of the small pictures, sharp on twice as dense screens.
 pub const SMALL_SIDE: u32 = 320;
@@ -62,7 +62,7 @@ impl Desk {
         for (place, file) in files.into_iter().enumerate() {
             let taken = taken.clone();
             let content = file.content.clone();
-            let on_outcome = move |outcome: Outcome| {
+            let on_outcome = move |outcome: Outcome<Open>| {
                 let (file, taken) = (file.clone(), taken.clone());
                 spawn_local(async move {
                     let result = look_into(file, outcome).await;
@@ -74,7 +74,7 @@ impl Desk {
                 });
             };
             self.pool.with_value(|pool| {
-                pool.submit(batch, Request::Open { max_side: SMALL_SIDE }, vec![content], on_outcome);
+                pool.submit(batch, Open { max_side: SMALL_SIDE }, vec![content], on_outcome);
             });
         }
     }
@@ -171,21 +171,19 @@ impl Desk {
     }
 }
 
-async fn look_into(file: NamedFile, outcome: Outcome) -> Result<PhotoFile, Problem> {
+async fn look_into(file: NamedFile, outcome: Outcome<Open>) -> Result<PhotoFile, Problem> {
     let NamedFile { name, content } = file;
     let failed = |reason| Problem { file: name.clone(), reason };
     match outcome {
-        Outcome::Answer(Answer::Opened(opened), bytes) => {
+        Outcome::Done(opened, bytes) => {
             let bytes = bytes.into_iter().next().ok_or_else(|| failed(Reason::Unreadable(String::new())))?;
             let small = Picture::from_rgba(bytes, opened.small[0], opened.small[1]).await;
             let small = small.map_err(|detail| failed(Reason::Unreadable(detail)))?;
             Ok(PhotoFile { name, content, size: opened.size, info: opened.info, small, digest: opened.digest })
         }
-        Outcome::Answer(Answer::Failed(error), _) => Err(failed(Reason::Engine(*error))),
-        Outcome::Answer(Answer::Unreadable { detail }, _) | Outcome::Crashed(detail) => {
-            Err(failed(Reason::Unreadable(detail)))
-        }
-        Outcome::Answer(..) => Err(failed(Reason::Unreadable(String::new()))),
+        Outcome::Failed(Failure::Refused(error)) => Err(failed(Reason::Engine(error))),
+        Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => Err(failed(Reason::Unreadable(detail))),
+        Outcome::Progress(nothing) => match nothing {},
     }
 }
 

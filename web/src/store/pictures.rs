@@ -2,12 +2,12 @@
 
 use leptos::prelude::*;
 use leptos::task::spawn_local;
+use sightline_protocol::{ShowPhoto, Shown as Decoded};
 
 use super::Desk;
-use super::pool::Outcome;
+use super::pool::{Failure, Outcome};
 use crate::browser::picture::Picture;
 use crate::i18n::{errors, text};
-use crate::protocol::{Answer, Request};
 
 /// Decoded pictures kept: a photo of 24 megapixels takes 96 MB.
 const KEPT: usize = 3;
@@ -42,8 +42,8 @@ impl Desk {
                 all.remove(0);
             }
         });
-        let on_outcome = move |outcome: Outcome| match outcome {
-            Outcome::Answer(Answer::Picture { width, height }, bytes) => {
+        let on_outcome = move |outcome: Outcome<ShowPhoto>| match outcome {
+            Outcome::Done(Decoded { width, height }, bytes) => {
                 let Some(bytes) = bytes.into_iter().next() else { return };
                 let photo = photo.clone();
                 spawn_local(async move {
@@ -57,16 +57,16 @@ impl Desk {
                     }
                 });
             }
-            Outcome::Answer(Answer::Failed(error), _) => {
+            Outcome::Failed(Failure::Refused(error)) => {
                 let photo = photo.clone();
                 self.warn(move || text::photo_failed(&photo, errors::sentence(&error)));
             }
-            Outcome::Answer(Answer::Unreadable { detail }, _) | Outcome::Crashed(detail) => {
+            Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => {
                 let photo = photo.clone();
                 self.warn(move || text::photo_failed(&photo, text::unreadable(&detail)));
             }
-            Outcome::Answer(..) => {}
+            Outcome::Progress(nothing) => match nothing {},
         };
-        self.pool.with_value(|pool| pool.submit_first(Request::Picture, vec![file], on_outcome));
+        self.pool.with_value(|pool| pool.submit_first(ShowPhoto {}, vec![file], on_outcome));
     }
 }

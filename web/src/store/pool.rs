@@ -4,39 +4,68 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, VecDeque};
 use std::rc::Rc;
 
+use sightline::Error;
+use sightline_protocol::{Request, Said, SaidTo, Task, from_text};
+
 use crate::browser::file::Blob;
 use crate::browser::page;
 use crate::browser::worker::{Bytes, Message, Worker};
-use crate::protocol::{Answer, Request};
 
-/// What becomes of a task.
-pub enum Outcome {
-    /// The engine's answer (progress or end) with its bytes.
-    Answer(Answer, Vec<Bytes>),
-    /// The worker was lost; its words.
-    Crashed(String),
+/// What becomes of a task. Everything but progress ends it.
+pub enum Outcome<T: Task> {
+    /// It goes on.
+    Progress(T::Progress),
+    /// It is done; the bytes belong to the answer.
+    Done(T::Answer, Vec<Bytes>),
+    /// It gave nothing.
+    Failed(Failure),
 }
+
+/// Why a task gave nothing.
+pub enum Failure {
+    /// The engine refused.
+    Refused(Error),
+    /// A file could not be read; the browser's words.
+    Unreadable(String),
+    /// The worker was lost, or said what is no answer to this task.
+    Lost(String),
+}
+
+/// What a worker says to a task, before it is known what that means.
+enum Heard {
+    Said(String, Vec<Bytes>),
+    Lost(String),
+}
+
+/// What was heard, understood: whether it ends the task, and the telling of it.
+struct Understood {
+    ends: bool,
+    tell: Box<dyn FnOnce()>,
+}
+
+/// Understands what is said to a task.
+type Listener = Rc<dyn Fn(Heard) -> Understood>;
 
 /// Tasks that are cancelled together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Batch(usize);
 
-struct Task {
+struct Job {
     batch: Batch,
     request: Request,
     files: Vec<Blob>,
-    on_outcome: Rc<RefCell<dyn FnMut(Outcome)>>,
+    listener: Listener,
 }
 
 struct Slot {
     worker: Worker,
     ready: bool,
-    task: Option<Task>,
+    task: Option<Job>,
 }
 
 #[derive(Default)]
 struct Inner {
-    queue: VecDeque<Task>,
+    queue: VecDeque<Job>,
     slots: BTreeMap<usize, Slot>,
     next: usize,
 }
@@ -54,17 +83,26 @@ impl Pool {
     }
 
     /// Queues a task.
-    pub fn submit(&self, batch: Batch, request: Request, files: Vec<Blob>, on_outcome: impl FnMut(Outcome) + 'static) {
-        let task = Task { batch, request, files, on_outcome: Rc::new(RefCell::new(on_outcome)) };
-        self.0.borrow_mut().queue.push_back(task);
+    pub fn submit<T: Task + Into<Request>>(
+        &self,
+        batch: Batch,
+        task: T,
+        files: Vec<Blob>,
+        on_outcome: impl FnMut(Outcome<T>) + 'static,
+    ) {
+        self.0.borrow_mut().queue.push_back(job(batch, task, files, on_outcome));
         self.pump();
     }
 
     /// Puts a task before all others: somebody waits for it with the pointer in hand.
-    pub fn submit_first(&self, request: Request, files: Vec<Blob>, on_outcome: impl FnMut(Outcome) + 'static) -> Batch {
+    pub fn submit_first<T: Task + Into<Request>>(
+        &self,
+        task: T,
+        files: Vec<Blob>,
+        on_outcome: impl FnMut(Outcome<T>) + 'static,
+    ) -> Batch {
         let batch = self.batch();
-        let task = Task { batch, request, files, on_outcome: Rc::new(RefCell::new(on_outcome)) };
-        self.0.borrow_mut().queue.push_front(task);
+        self.0.borrow_mut().queue.push_front(job(batch, task, files, on_outcome));
         self.pump();
         batch
     }
@@ -120,7 +158,7 @@ impl Pool {
             }
         }
         for (task, detail) in failures {
-            (task.on_outcome.borrow_mut())(Outcome::Crashed(detail));
+            ((task.listener)(Heard::Lost(detail)).tell)();
         }
     }
 
@@ -131,19 +169,20 @@ impl Pool {
                     slot.ready = true;
                 }
             }
-            Message::Answer(answer, bytes) => {
+            Message::Said(body, bytes) => {
                 let listener = {
-                    let mut inner = self.0.borrow_mut();
-                    let Some(slot) = inner.slots.get_mut(&id) else { return };
-                    let listener = slot.task.as_ref().map(|task| task.on_outcome.clone());
-                    if !answer.is_progress() {
-                        slot.task = None;
-                    }
-                    listener
+                    let inner = self.0.borrow();
+                    inner.slots.get(&id).and_then(|slot| slot.task.as_ref()).map(|task| task.listener.clone())
                 };
-                if let Some(listener) = listener {
-                    (listener.borrow_mut())(Outcome::Answer(answer, bytes));
+                let Some(listener) = listener else { return };
+                let understood = listener(Heard::Said(body, bytes));
+                // Free before it is told: who hears of it may submit what comes next.
+                if understood.ends
+                    && let Some(slot) = self.0.borrow_mut().slots.get_mut(&id)
+                {
+                    slot.task = None;
                 }
+                (understood.tell)();
             }
             Message::Crashed(detail) => {
                 let Some(mut slot) = self.0.borrow_mut().slots.remove(&id) else { return };
@@ -152,7 +191,7 @@ impl Pool {
                 let waiting = if slot.ready { None } else { self.0.borrow_mut().queue.pop_front() };
                 discard(vec![slot]);
                 for task in task.into_iter().chain(waiting) {
-                    (task.on_outcome.borrow_mut())(Outcome::Crashed(detail.clone()));
+                    ((task.listener)(Heard::Lost(detail.clone())).tell)();
                 }
             }
         }
@@ -180,4 +219,30 @@ fn discard(slots: Vec<Slot>) {
         slot.worker.terminate();
     }
     page::after(0, move || drop(slots));
+}
+
+/// A task with the way in which its words are understood: what is no answer to it ends it, and is told.
+fn job<T: Task + Into<Request>>(
+    batch: Batch,
+    task: T,
+    files: Vec<Blob>,
+    on_outcome: impl FnMut(Outcome<T>) + 'static,
+) -> Job {
+    let on_outcome = Rc::new(RefCell::new(on_outcome));
+    let listener = move |heard: Heard| {
+        let outcome = match heard {
+            Heard::Said(body, bytes) => match from_text::<SaidTo<T>>(&body) {
+                Ok(Said::Progress(progress)) => Outcome::Progress(progress),
+                Ok(Said::Done(answer)) => Outcome::Done(answer, bytes),
+                Ok(Said::Refused(error)) => Outcome::Failed(Failure::Refused(*error)),
+                Ok(Said::Unreadable(detail)) => Outcome::Failed(Failure::Unreadable(detail)),
+                Err(detail) => Outcome::Failed(Failure::Lost(detail)),
+            },
+            Heard::Lost(detail) => Outcome::Failed(Failure::Lost(detail)),
+        };
+        let ends = !matches!(outcome, Outcome::Progress(_));
+        let on_outcome = on_outcome.clone();
+        Understood { ends, tell: Box::new(move || (on_outcome.borrow_mut())(outcome)) }
+    };
+    Job { batch, request: task.into(), files, listener: Rc::new(listener) }
 }

@@ -7,7 +7,8 @@ use std::rc::Rc;
 use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::detection::Detection;
-use sightline::sample;
+use sightline::project::Project;
+use sightline_protocol::{Opened, Sample, SamplePhoto, SamplePhotoMade};
 
 use super::document::{Change, Document};
 use super::intake::SMALL_SIDE;
@@ -17,49 +18,63 @@ use crate::browser::file::Blob;
 use crate::browser::picture::Picture;
 use crate::browser::worker::Bytes;
 use crate::i18n::text;
-use crate::protocol::{Answer, Opened, Request};
 
 type Made = Rc<RefCell<BTreeMap<String, (PhotoFile, Detection)>>>;
 
 impl Desk {
     /// Opens the sample project and adjusts it; the project that was open can be got back by undoing.
     pub fn open_sample(self) {
-        let names = sample::files();
+        let batch = self.start_job(JobKind::Sample, 1, || {});
+        let on_outcome = move |outcome: Outcome<Sample>| match outcome {
+            Outcome::Done(project, _) => {
+                self.end_job();
+                self.make_sample(Rc::new(project));
+            }
+            Outcome::Failed(failure) => {
+                self.end_job();
+                self.tell_failure(failure);
+            }
+            Outcome::Progress(nothing) => match nothing {},
+        };
+        self.pool.with_value(|pool| pool.submit(batch, Sample {}, Vec::new(), on_outcome));
+    }
+
+    /// Has the sample's photos rendered and measured.
+    fn make_sample(self, project: Rc<Project>) {
         let made = Made::default();
-        let keep = made.clone();
-        let batch = self.start_job(JobKind::Sample, names.len(), move || self.put_sample(&keep));
+        let (keep, kept) = (made.clone(), project.clone());
+        let names = project.photos.iter().map(|photo| photo.file.clone()).collect::<Vec<_>>();
+        let batch = self.start_job(JobKind::Sample, names.len(), move || self.put_sample(&kept, &keep));
         for name in names {
-            let made = made.clone();
-            let request = Request::SamplePhoto { name: name.clone(), max_side: SMALL_SIDE };
-            let on_outcome = move |outcome: Outcome| match outcome {
-                Outcome::Answer(Answer::SamplePhoto { opened, detection }, bytes) => {
-                    let (made, name) = (made.clone(), name.clone());
+            let (made, project) = (made.clone(), project.clone());
+            let task = SamplePhoto { name: name.clone(), max_side: SMALL_SIDE };
+            let on_outcome = move |outcome: Outcome<SamplePhoto>| match outcome {
+                Outcome::Done(SamplePhotoMade { opened, detection }, bytes) => {
+                    let (made, project, name) = (made.clone(), project.clone(), name.clone());
                     spawn_local(async move {
-                        if let Some(file) = photo_file(name.clone(), *opened, bytes).await {
-                            made.borrow_mut().insert(name, (file, *detection));
+                        if let Some(file) = photo_file(name.clone(), opened, bytes).await {
+                            made.borrow_mut().insert(name, (file, detection));
                         }
                         if self.step_job(batch) {
                             self.end_job();
-                            self.put_sample(&made);
+                            self.put_sample(&project, &made);
                             self.match_then_adjust();
                         }
                     });
                 }
-                other => {
+                Outcome::Failed(failure) => {
                     self.end_job();
-                    self.tell_failure(other);
+                    self.tell_failure(failure);
                 }
+                Outcome::Progress(nothing) => match nothing {},
             };
-            self.pool.with_value(|pool| pool.submit(batch, request, Vec::new(), on_outcome));
+            self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
         }
     }
 
     /// Puts the sample on the desk with the photos that are made.
-    fn put_sample(self, made: &Made) {
-        let mut project = match sample::project() {
-            Ok(project) => project,
-            Err(error) => return self.warn_error(error),
-        };
+    fn put_sample(self, project: &Project, made: &Made) {
+        let mut project = project.clone();
         let made = made.take();
         project.photos.retain(|photo| made.contains_key(&photo.file));
         project.name = text::sample_name().to_owned();

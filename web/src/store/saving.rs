@@ -7,15 +7,15 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::detection::Detection;
 use sightline::exchange::encoding;
+use sightline_protocol::{Content, Export, Pack, Unpack, Unpacked};
 
 use super::document::{self, Change, Document};
-use super::pool::Outcome;
+use super::pool::{Failure, Outcome};
 use super::{Desk, JobKind, Step};
 use crate::browser::file::{self, Blob, NamedFile};
 use crate::browser::page;
 use crate::browser::worker::Bytes;
-use crate::i18n::{errors, text};
-use crate::protocol::{Answer, Content, Request};
+use crate::i18n::text;
 
 /// Ending of project files.
 pub const EXTENSION: &str = "sightline";
@@ -73,12 +73,12 @@ impl Desk {
                 }
             });
         }
-        let request = Request::Pack { content: Box::new(content(&document)), names };
+        let task = Pack { content: content(&document), names };
         let batch = self.start_job(JobKind::Saving, 1, || {});
-        let on_outcome = move |outcome: Outcome| {
+        let on_outcome = move |outcome: Outcome<Pack>| {
             self.end_job();
             match outcome {
-                Outcome::Answer(Answer::Packed, bytes) => {
+                Outcome::Done((), bytes) => {
                     let name = format!("{}.{EXTENSION}", file_stem(&document.project.name));
                     let packed = bytes.first().map(Bytes::to_vec).unwrap_or_default();
                     match file::download(&name, "application/zip", &packed) {
@@ -86,18 +86,18 @@ impl Desk {
                         Err(detail) => self.warn(move || text::cannot_save(&detail)),
                     }
                 }
-                other => self.tell_failure(other),
+                Outcome::Failed(failure) => self.tell_failure(failure),
+                Outcome::Progress(nothing) => match nothing {},
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, request, files, on_outcome));
+        self.pool.with_value(|pool| pool.submit(batch, task, files, on_outcome));
     }
 
-    /// Tells why a request gave no answer of the kind that was asked for.
-    pub(super) fn tell_failure(self, outcome: Outcome) {
-        match outcome {
-            Outcome::Answer(Answer::Failed(error), _) => self.warn(move || errors::sentence(&error)),
-            Outcome::Answer(Answer::Unreadable { detail }, _) | Outcome::Crashed(detail) => self.warn_crash(detail),
-            Outcome::Answer(..) => {}
+    /// Tells why a task gave nothing.
+    pub(super) fn tell_failure(self, failure: Failure) {
+        match failure {
+            Failure::Refused(error) => self.warn_error(error),
+            Failure::Unreadable(detail) | Failure::Lost(detail) => self.warn_crash(detail),
         }
     }
 
@@ -105,23 +105,21 @@ impl Desk {
     pub fn open_project(self, file: NamedFile) {
         let batch = self.start_job(JobKind::OpeningProject, 1, || {});
         let name = file.name.clone();
-        let on_outcome = move |outcome: Outcome| {
+        let on_outcome = move |outcome: Outcome<Unpack>| {
             self.end_job();
             match outcome {
-                Outcome::Answer(Answer::Unpacked { content, names }, bytes) => {
+                Outcome::Done(Unpacked { content, names }, bytes) => {
                     let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_owned();
-                    self.take_content(*content, &stem, &names, &bytes);
+                    self.take_content(content, &stem, &names, &bytes);
                     let document = self.document.get_untracked();
                     self.saved.set(Some((page::clock(), document)));
                 }
-                Outcome::Answer(Answer::Failed(error), _) => {
-                    let error = error.in_file(&name);
-                    self.warn(move || errors::sentence(&error));
-                }
-                other => self.tell_failure(other),
+                Outcome::Failed(Failure::Refused(error)) => self.warn_error(error.in_file(&name)),
+                Outcome::Failed(failure) => self.tell_failure(failure),
+                Outcome::Progress(nothing) => match nothing {},
             }
         };
-        self.pool.with_value(|pool| pool.submit(batch, Request::Unpack, vec![file.content], on_outcome));
+        self.pool.with_value(|pool| pool.submit(batch, Unpack {}, vec![file.content], on_outcome));
     }
 
     /// Puts a document on the desk, with the photos that came with it.
@@ -171,20 +169,28 @@ impl Desk {
 
     /// Hands over a file of the engine's making.
     pub fn export(self, format: &str) {
-        let exported = self.document.with_untracked(|d| {
-            let adjustment = d.current().map(|r| &r.adjustment);
-            sightline::exchange::export(format, &d.project, adjustment)
+        let task = self.document.with_untracked(|d| Export {
+            format: format.to_owned(),
+            project: (*d.project).clone(),
+            adjustment: d.current().map(|result| result.adjustment.clone()),
         });
-        match exported {
-            Ok(files) => {
-                let stem = self.document.with_untracked(|d| file_stem(&d.project.name));
-                for (name, bytes) in files {
-                    if let Err(detail) = file::download(&format!("{stem}-{name}"), "text/csv", &bytes) {
-                        self.warn(move || text::cannot_save(&detail));
-                    }
+        let stem = file_stem(&task.project.name);
+        let on_outcome = move |outcome: Outcome<Export>| match outcome {
+            Outcome::Done(names, bytes) => {
+                for (name, bytes) in names.iter().zip(bytes) {
+                    self.hand_over(&format!("{stem}-{name}"), "text/csv", &bytes);
                 }
             }
-            Err(error) => self.warn_error(error),
+            Outcome::Failed(failure) => self.tell_failure(failure),
+            Outcome::Progress(nothing) => match nothing {},
+        };
+        self.pool.with_value(|pool| pool.submit_first(task, Vec::new(), on_outcome));
+    }
+
+    /// Gives a file to the browser to save.
+    pub(super) fn hand_over(self, name: &str, kind: &str, bytes: &Bytes) {
+        if let Err(detail) = file::download(name, kind, &bytes.to_vec()) {
+            self.warn(move || text::cannot_save(&detail));
         }
     }
 

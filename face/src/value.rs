@@ -8,13 +8,13 @@ use serde::de::DeserializeOwned;
 use wasm_bindgen::prelude::*;
 
 use super::table;
-use crate::adjustment::Adjustment;
-use crate::detection::Detection;
-use crate::error::{Error, Expected, Names, Place, Reason, Result, shortened};
-use crate::exchange::Files;
-use crate::image::{Grey, Samples};
-use crate::orient::Oriented;
-use crate::project::Project;
+use sightline::adjustment::Adjustment;
+use sightline::detection::Detection;
+use sightline::error::{Error, Expected, Names, Place, Reason, Result, shortened};
+use sightline::exchange::Files;
+use sightline::image::{Grey, Samples};
+use sightline::orient::Oriented;
+use sightline::project::Project;
 
 /// An error in a named field.
 pub fn invalid(field: &str, reason: Reason) -> Error {

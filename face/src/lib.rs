@@ -1,7 +1,7 @@
 //! The JavaScript face: the engine's functions on plain objects and bytes. Nothing is computed here.
 //!
-//! What crosses the border has the field names of the document ([`crate::project`]) and of the results
-//! ([`crate::adjustment`], [`crate::detection`]); `sightline.d.ts` declares them. Arguments of a wrong kind and unknown options are
+//! What crosses the border has the field names of the document ([`sightline::project`]) and of the results
+//! ([`sightline::adjustment`], [`sightline::detection`]); `sightline.d.ts` declares them. Arguments of a wrong kind and unknown options are
 //! errors that name the field. Errors are thrown as Error with `code`, `message`, `where` and `data`.
 
 mod fault;
@@ -12,17 +12,17 @@ use js_sys::{Uint8Array, Uint8ClampedArray, Uint16Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
-use crate::adjustment::{AdjustOptions, Iteration};
-use crate::detection::DetectOptions;
-use crate::error::Expected;
-use crate::experiments::ExperimentOptions;
-use crate::image::{Grey, Samples};
-use crate::network::Network;
-use crate::{Error, adjust, decode, detect, exchange, exif, experiments, matching, network, orient};
 use fault::thrown;
+use sightline::adjustment::{AdjustOptions, Iteration};
+use sightline::detection::DetectOptions;
+use sightline::error::Expected;
+use sightline::experiments::ExperimentOptions;
+use sightline::image::{Grey, Samples};
+use sightline::network::Network;
+use sightline::{Error, adjust, decode, detect, exchange, exif, experiments, matching, network, orient};
 
 #[wasm_bindgen(typescript_custom_section)]
-const DECLARATIONS: &str = include_str!("wasm/sightline.d.ts");
+const DECLARATIONS: &str = include_str!("sightline.d.ts");
 
 type Thrown<T = JsValue> = Result<T, JsValue>;
 
@@ -67,12 +67,12 @@ pub fn detect_grey(
     found().map(value::detection_object).map_err(|error| thrown(&error))
 }
 
-fn grey_of(width: &JsValue, height: &JsValue, samples: &JsValue) -> crate::Result<Grey> {
+fn grey_of(width: &JsValue, height: &JsValue, samples: &JsValue) -> sightline::Result<Grey> {
     let (width, height) = (value::whole(width, "width")?, value::whole(height, "height")?);
     Ok(Grey { width, height, samples: samples_of(samples)? })
 }
 
-fn samples_of(samples: &JsValue) -> crate::Result<Samples> {
+fn samples_of(samples: &JsValue) -> sightline::Result<Samples> {
     if let Some(bytes) = samples.dyn_ref::<Uint8Array>() {
         return Ok(Samples::U8(bytes.to_vec()));
     }
@@ -111,7 +111,7 @@ fn measured_at(
     u: &JsValue,
     v: &JsValue,
     options: &JsValue,
-    picture: impl FnOnce(&DetectOptions) -> crate::Result<Grey>,
+    picture: impl FnOnce(&DetectOptions) -> sightline::Result<Grey>,
 ) -> Thrown {
     let found = || {
         let options: DetectOptions = value::options(options, &[])?;

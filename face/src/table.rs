@@ -5,12 +5,12 @@ use std::collections::HashMap;
 use js_sys::{Array, Float64Array, JsString, Object, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use crate::adjustment::{AdjustedObservation, AdjustedPoint};
-use crate::detection::{self, Rejected};
-use crate::error::{Error, Expected, Place, Reason, Result};
-use crate::project::{Observation, Point, Role, Sigma};
+use sightline::adjustment::{AdjustedObservation, AdjustedPoint};
+use sightline::detection::{self, Rejected};
+use sightline::error::{Error, Expected, Place, Reason, Result};
+use sightline::project::{Observation, Point, Role, Sigma};
 
-#[wasm_bindgen(module = "/src/wasm/tables.js")]
+#[wasm_bindgen(module = "/src/tables.js")]
 extern "C" {
     type Columns;
     #[wasm_bindgen(method, getter)]

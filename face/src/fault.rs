@@ -4,7 +4,7 @@ use js_sys::{Error as JsError, Reflect};
 use wasm_bindgen::prelude::*;
 
 use super::value;
-use crate::error::Error;
+use sightline::error::Error;
 
 /// What is thrown for an error of the engine.
 pub fn thrown(error: &Error) -> JsValue {

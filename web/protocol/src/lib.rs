@@ -1,0 +1,276 @@
+//! What page and workers say to each other. A task, what is said on its way and what it ends with belong together by
+//! type; pictures and files travel beside these as bytes.
+
+use std::collections::BTreeMap;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use sightline::adjustment::{AdjustOptions, Adjustment, Iteration};
+use sightline::detection::{DetectOptions, Detection, Target};
+use sightline::exif::PhotoInfo;
+use sightline::experiments::{Experiment, ExperimentOptions};
+use sightline::matching::{Matching, PhotoTargets};
+use sightline::orient::Note;
+use sightline::project::Project;
+use sightline::{Error, Result};
+
+/// Work for a worker. The files it needs come with it.
+pub trait Task: Serialize + DeserializeOwned + 'static {
+    /// What is said while it lasts.
+    type Progress: Serialize + DeserializeOwned + 'static;
+    /// What it ends with.
+    type Answer: Serialize + DeserializeOwned + 'static;
+}
+
+/// A worker's word on a task; every task ends with exactly one that is not progress.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum Said<P, A> {
+    /// It goes on.
+    Progress(P),
+    /// It is done.
+    Done(A),
+    /// The engine refused.
+    Refused(Box<Error>),
+    /// A file that came with it could not be read.
+    Unreadable(String),
+}
+
+/// What is said to a task.
+pub type SaidTo<T> = Said<<T as Task>::Progress, <T as Task>::Answer>;
+
+/// Of a task that says nothing on its way.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum Nothing {}
+
+/// Sends progress of a task.
+pub type Progress<'a, P> = &'a mut dyn FnMut(P);
+/// Sends a word on a task, with the bytes that belong to it.
+pub type Say<'a> = &'a mut dyn FnMut(String, Vec<Vec<u8>>);
+/// The answer to a task, with the bytes that belong to it.
+pub type Served<A> = Result<(A, Vec<Vec<u8>>)>;
+
+/// Who does a task, with the bytes of the files that came along.
+pub trait Service<T: Task> {
+    /// Does it.
+    ///
+    /// # Errors
+    /// Those of the engine.
+    fn serve(&self, task: T, files: Vec<Vec<u8>>, progress: Progress<T::Progress>) -> Served<T::Answer>;
+}
+
+/// The tasks with their types, the request that carries any of them, and its way to the task's own service.
+macro_rules! tasks {
+    ($($(#[$doc:meta])* $task:ident $fields:tt => $progress:ty, $answer:ty;)*) => {
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Debug, Serialize, Deserialize)]
+            pub struct $task $fields
+
+            impl Task for $task {
+                type Progress = $progress;
+                type Answer = $answer;
+            }
+
+            impl From<$task> for Request {
+                fn from(task: $task) -> Self {
+                    Self::$task(Box::new(task))
+                }
+            }
+        )*
+
+        /// Any task.
+        #[derive(Clone, Debug, Serialize, Deserialize)]
+        #[expect(missing_docs, reason = "each is the task of its name")]
+        pub enum Request {
+            $($task(Box<$task>),)*
+        }
+
+        impl Request {
+            /// Has the task done; `say` gets each word on it as text, with the bytes that belong to it.
+            pub fn serve<S>(self, by: &S, files: Vec<Vec<u8>>, say: Say)
+            where
+                $(S: Service<$task>,)*
+            {
+                match self {
+                    $(Self::$task(task) => serve(by, *task, files, say),)*
+                }
+            }
+
+            /// Says that a file of the task could not be read.
+            pub fn unreadable(&self, detail: String) -> String {
+                to_text(&Said::<Nothing, Nothing>::Unreadable(detail))
+            }
+        }
+    };
+}
+
+fn serve<T: Task>(by: &impl Service<T>, task: T, files: Vec<Vec<u8>>, say: Say) {
+    let outcome =
+        by.serve(task, files, &mut |progress| say(to_text::<SaidTo<T>>(&Said::Progress(progress)), Vec::new()));
+    match outcome {
+        Ok((answer, bytes)) => say(to_text::<SaidTo<T>>(&Said::Done(answer)), bytes),
+        Err(error) => say(to_text::<SaidTo<T>>(&Said::Refused(Box::new(error))), Vec::new()),
+    }
+}
+
+/// A message as text. By way of a value, which has every name once: an adjusted camera's sigmas and its own share one.
+pub fn to_text<M: Serialize>(message: &M) -> String {
+    // Fails for types that JSON has no form for, which no message holds; the other side tells an empty text.
+    serde_json::to_value(message).and_then(|value| serde_json::to_string(&value)).unwrap_or_default()
+}
+
+/// A message from its text.
+///
+/// # Errors
+/// Where the text is another message's: what was found.
+pub fn from_text<M: DeserializeOwned>(text: &str) -> std::result::Result<M, String> {
+    serde_json::from_str(text).map_err(|error| error.to_string())
+}
+
+tasks! {
+    /// Look into a photo: size, EXIF, a small picture, whose bytes come along.
+    Open { /** Longest side of the small picture. */ pub max_side: u32 } => Nothing, Opened;
+    /// Decode a photo for the screen; its bytes come along.
+    ShowPhoto {} => Nothing, Shown;
+    /// Find the targets of a photo.
+    Detect { /** How. */ pub options: DetectOptions } => Nothing, Detection;
+    /// Measure at one place of a photo; by the file's digest a worker knows the photo that it decoded last.
+    Measure {
+        /** Of the file. */ pub digest: u64,
+        /** Pixels to the right. */ pub u: f64,
+        /** Pixels down. */ pub v: f64,
+        /** How. */ pub options: DetectOptions,
+    } => Nothing, Option<Target>;
+    /// Orient what is not oriented and adjust; progress per iteration.
+    Adjust { /** What. */ pub project: Project, /** How. */ pub options: AdjustOptions } => Adjusting, Adjusted;
+    /// Name uncoded targets by the geometry of the photos, which are oriented and adjusted first where they are not.
+    Match {
+        /** Of the photos. */ pub project: Project,
+        /** Of each photo. */ pub targets: Vec<PhotoTargets>,
+    } => Vec<Note>, Matching;
+    /// Write a project file with the photos that come along; its bytes come back.
+    Pack { /** All but photos. */ pub content: Content, /** Of the photos. */ pub names: Vec<String> } => Nothing, ();
+    /// Read a project file; the photos' bytes come along.
+    Unpack {} => Nothing, Unpacked;
+    /// Write a foreign format; the files' bytes come along, in the order of their names.
+    Export {
+        /** Its name. */ pub format: String,
+        /** What. */ pub project: Project,
+        /** Of the project, where there is one. */ pub adjustment: Option<Adjustment>,
+    } => Nothing, Vec<String>;
+    /// Run one of the papers' experiments; progress in steps done of all.
+    RunExperiment {
+        /** Which. */ pub name: String,
+        /** Its inputs. */ pub options: ExperimentOptions,
+    } => (usize, usize), Experiment;
+    /// Write an experiment's tables: the file of this name, or all of them in an archive.
+    ExportExperiment {
+        /** What was run. */ pub experiment: Experiment,
+        /** One file. */ pub only: Option<String>,
+    } => Nothing, ();
+    /// The sample project, without its photos.
+    Sample {} => Nothing, Project;
+    /// Render a photo of the sample project and find its targets; its file and its small picture come along.
+    SamplePhoto {
+        /** Of the file. */ pub name: String,
+        /** Longest side of the small picture. */ pub max_side: u32,
+    } => Nothing, SamplePhotoMade;
+}
+
+/// What a photo's file says.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Opened {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// EXIF.
+    pub info: PhotoInfo,
+    /// Width and height of the small picture.
+    pub small: [u32; 2],
+    /// Tells files with the same content.
+    pub digest: u64,
+}
+
+/// A decoded photo.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Shown {
+    /// In pixels.
+    pub width: u32,
+    /// In pixels.
+    pub height: u32,
+}
+
+/// On the way to an adjustment.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum Adjusting {
+    /// The initial values are there, with what there is to say about them.
+    Oriented(Vec<Note>),
+    /// An iteration is done.
+    Iteration(Iteration),
+}
+
+/// The project with its initial values, and the adjustment made from it.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Adjusted {
+    /// The project that was adjusted.
+    pub oriented: Project,
+    /// Its result.
+    pub adjustment: Adjustment,
+}
+
+/// A photo of the sample project.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct SamplePhotoMade {
+    /// What its file says.
+    pub opened: Opened,
+    /// Its targets.
+    pub detection: Detection,
+}
+
+/// A project file's content, and the names that its photos' bytes belong to.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Unpacked {
+    /// All but photos.
+    pub content: Content,
+    /// Of the photos.
+    pub names: Vec<String>,
+}
+
+/// What a project file holds besides photos.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Content {
+    /// The document.
+    pub project: Project,
+    /// Targets by photo.
+    pub targets: BTreeMap<String, Detection>,
+    /// Of the document.
+    pub adjustment: Option<Adjustment>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_of_another_task_is_not_taken_for_an_answer() {
+        let shown = to_text::<SaidTo<ShowPhoto>>(&Said::Done(Shown { width: 3, height: 2 }));
+        assert!(matches!(from_text::<SaidTo<ShowPhoto>>(&shown), Ok(Said::Done(Shown { width: 3, height: 2 }))));
+        assert!(from_text::<SaidTo<Detect>>(&shown).is_err());
+        assert!(from_text::<SaidTo<ShowPhoto>>("").is_err());
+    }
+
+    #[test]
+    fn requests_come_back_as_they_went() {
+        let request =
+            Request::from(Measure { digest: u64::MAX, u: 0.1 + 0.2, v: 1.0 / 3.0, options: DetectOptions::default() });
+        let back = from_text::<Request>(&to_text(&request)).expect("a request");
+        let Request::Measure(task) = back else { panic!("another task") };
+        assert_eq!((task.digest, task.u, task.v), (u64::MAX, 0.1 + 0.2, 1.0 / 3.0));
+    }
+
+    #[test]
+    fn that_a_file_is_unreadable_is_understood_by_every_task() {
+        let text = Request::from(ShowPhoto {}).unreadable("gone".into());
+        assert!(matches!(from_text::<SaidTo<ShowPhoto>>(&text), Ok(Said::Unreadable(detail)) if detail == "gone"));
+        assert!(matches!(from_text::<SaidTo<Adjust>>(&text), Ok(Said::Unreadable(_))));
+    }
+}

@@ -1,0 +1,184 @@
+//! How the engine does each task: every one is a call into it.
+
+use std::cell::RefCell;
+use std::collections::HashSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use sightline::adjust::{adjust, apply};
+use sightline::adjustment::{AdjustOptions, StatisticsChoice};
+use sightline::detection::{Channel, Codes, DetectOptions, Detection, Target};
+use sightline::exchange::export;
+use sightline::exchange::package::{self, Package};
+use sightline::experiments::{self, Experiment};
+use sightline::image::Grey;
+use sightline::matching::{MatchOptions, Matching, match_uncoded};
+use sightline::orient::{Note, orient};
+use sightline::project::Project;
+use sightline::{Result, decode, detect, exif, sample};
+use sightline_protocol::{
+    Adjust, Adjusted, Adjusting, Content, Detect, Export, ExportExperiment, Match, Measure, Nothing, Open, Opened,
+    Pack, Progress, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served, Service, ShowPhoto, Shown, Unpack,
+    Unpacked,
+};
+
+type Files = Vec<Vec<u8>>;
+
+/// Does every task of the page.
+pub struct Engine;
+
+impl Service<Open> for Engine {
+    fn serve(&self, task: Open, files: Files, _: Progress<Nothing>) -> Served<Opened> {
+        let (opened, small) = look_into(first(&files), task.max_side)?;
+        Ok((opened, vec![small]))
+    }
+}
+
+impl Service<ShowPhoto> for Engine {
+    fn serve(&self, _: ShowPhoto, files: Files, _: Progress<Nothing>) -> Served<Shown> {
+        let picture = decode::picture(first(&files), None)?;
+        Ok((Shown { width: picture.width, height: picture.height }, vec![picture.rgba]))
+    }
+}
+
+impl Service<Detect> for Engine {
+    fn serve(&self, task: Detect, files: Files, _: Progress<Nothing>) -> Served<Detection> {
+        let grey = decode::grey(first(&files), task.options.channel)?;
+        Ok((detect::detect(&grey.view()?, &task.options)?, Vec::new()))
+    }
+}
+
+impl Service<Measure> for Engine {
+    fn serve(&self, task: Measure, files: Files, _: Progress<Nothing>) -> Served<Option<Target>> {
+        let Measure { digest, u, v, options } = task;
+        CLICKED.with_borrow_mut(|clicked| {
+            let known = clicked.take().filter(|(of, channel, _)| (*of, *channel) == (digest, options.channel));
+            let grey = match known {
+                Some((.., grey)) => grey,
+                None => decode::grey(first(&files), options.channel)?,
+            };
+            let target = detect::measure_at(&grey.view()?, u, v, &options);
+            *clicked = Some((digest, options.channel, grey));
+            Ok((target?, Vec::new()))
+        })
+    }
+}
+
+impl Service<Adjust> for Engine {
+    fn serve(&self, task: Adjust, _: Files, progress: Progress<Adjusting>) -> Served<Adjusted> {
+        let oriented = with_what_is_oriented(&task.project, &mut |notes| progress(Adjusting::Oriented(notes)))?;
+        let adjustment = adjust(&oriented, &task.options, &mut |iteration| {
+            progress(Adjusting::Iteration(iteration.clone()));
+            true
+        })?;
+        Ok((Adjusted { oriented, adjustment }, Vec::new()))
+    }
+}
+
+impl Service<Match> for Engine {
+    fn serve(&self, task: Match, _: Files, progress: Progress<Vec<Note>>) -> Served<Matching> {
+        let oriented = with_what_is_oriented(&task.project, progress)?;
+        let options = AdjustOptions { statistics: StatisticsChoice::None, ..AdjustOptions::default() };
+        let adjustment = adjust(&oriented, &options, &mut |_| true)?;
+        let matching = match_uncoded(&apply(&oriented, &adjustment), &task.targets, &MatchOptions::default())?;
+        Ok((matching, Vec::new()))
+    }
+}
+
+impl Service<Pack> for Engine {
+    fn serve(&self, task: Pack, files: Files, _: Progress<Nothing>) -> Served<()> {
+        let Content { project, targets, adjustment } = task.content;
+        let photos = task.names.into_iter().zip(files).collect();
+        Ok(((), vec![package::write(&Package { project, targets, adjustment, photos })?]))
+    }
+}
+
+impl Service<Unpack> for Engine {
+    fn serve(&self, _: Unpack, files: Files, _: Progress<Nothing>) -> Served<Unpacked> {
+        let Package { project, targets, adjustment, photos } = package::read(first(&files))?;
+        let (names, bytes) = photos.into_iter().unzip();
+        Ok((Unpacked { content: Content { project, targets, adjustment }, names }, bytes))
+    }
+}
+
+impl Service<Export> for Engine {
+    fn serve(&self, task: Export, _: Files, _: Progress<Nothing>) -> Served<Vec<String>> {
+        Ok(export(&task.format, &task.project, task.adjustment.as_ref())?.into_iter().unzip())
+    }
+}
+
+impl Service<RunExperiment> for Engine {
+    fn serve(&self, task: RunExperiment, _: Files, progress: Progress<(usize, usize)>) -> Served<Experiment> {
+        let ran = experiments::run(&task.name, &task.options, &mut |done, of| {
+            progress((done, of));
+            true
+        })?;
+        Ok((ran, Vec::new()))
+    }
+}
+
+impl Service<ExportExperiment> for Engine {
+    fn serve(&self, task: ExportExperiment, _: Files, _: Progress<Nothing>) -> Served<()> {
+        let mut files = experiments::csv(&task.experiment);
+        let bytes = match task.only {
+            Some(name) => files.remove(&name).into_iter().collect(),
+            None => vec![package::archive(&files)?],
+        };
+        Ok(((), bytes))
+    }
+}
+
+impl Service<Sample> for Engine {
+    fn serve(&self, _: Sample, _: Files, _: Progress<Nothing>) -> Served<Project> {
+        Ok((sample::project()?, Vec::new()))
+    }
+}
+
+impl Service<SamplePhoto> for Engine {
+    fn serve(&self, task: SamplePhoto, _: Files, _: Progress<Nothing>) -> Served<SamplePhotoMade> {
+        let file = sample::file(&task.name)?;
+        let (opened, small) = look_into(&file, task.max_side)?;
+        let options = DetectOptions { codes: Codes::Auto, ..DetectOptions::default() };
+        let grey = decode::grey(&file, options.channel)?;
+        let detection = detect::detect(&grey.view()?, &options)?;
+        Ok((SamplePhotoMade { opened, detection }, vec![file, small]))
+    }
+}
+
+fn first(files: &[Vec<u8>]) -> &[u8] {
+    files.first().map(Vec::as_slice).unwrap_or_default()
+}
+
+/// Size, EXIF, small picture.
+fn look_into(file: &[u8], max_side: u32) -> Result<(Opened, Vec<u8>)> {
+    let size = decode::size(file)?;
+    let info = exif::read(file);
+    // Decoding all of it finds what is damaged before anything is built on it.
+    let small = decode::picture(file, Some(max_side))?;
+    let mut hasher = DefaultHasher::new();
+    file.hash(&mut hasher);
+    let size = [size.width, size.height];
+    let opened = Opened { size, info, small: [small.width, small.height], digest: hasher.finish() };
+    Ok((opened, small.rgba))
+}
+
+thread_local! {
+    /// The photo of the last click, decoded: the next one is most often in the same photo, and decoding takes a hundred times
+    /// as long as measuring.
+    static CLICKED: RefCell<Option<(u64, Channel, Grey)>> = const { RefCell::new(None) };
+}
+
+/// What orientation gave, as an input of the adjustment: what could not be oriented takes no part, and is not taken away.
+fn with_what_is_oriented(project: &Project, tell: &mut dyn FnMut(Vec<Note>)) -> Result<Project> {
+    let oriented = orient(project)?;
+    tell(oriented.notes);
+    let mut project = oriented.project;
+    for photo in &mut project.photos {
+        photo.enabled &= photo.position.is_some() && photo.rotation.is_some();
+    }
+    let placed = project.points.iter().filter(|p| p.xyz.is_some()).map(|p| p.id.clone());
+    let placed = placed.collect::<HashSet<_>>();
+    for observation in &mut project.observations {
+        observation.enabled &= placed.contains(&observation.point);
+    }
+    Ok(project)
+}
