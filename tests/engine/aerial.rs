@@ -6,9 +6,6 @@ use sightline::adjustment::{AdjustOptions, Adjustment};
 use sightline::exchange::{self, photomodeler};
 use sightline::orient::orient;
 use sightline::project::{DatumKind, Project, Role, Sigma};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 /// What the exports' local coordinates have been reduced by.
 const OFFSET: [f64; 3] = [999_779.506_31, 112_260.591, 139.832_1];
 

@@ -8,9 +8,6 @@ use sightline::adjustment::{AdjustOptions, Adjustment, StatisticsChoice, Termina
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Observation, Parameter, Project, Role, Sigma};
 use sightline::rotation;
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 fn run(project: &Project) -> Adjustment {
     adjust(project, &AdjustOptions::default(), &mut |_| true).expect("solvable")
 }

@@ -1,14 +1,11 @@
 //! Ring codes of every family, turned, tilted, blurred, in uneven light: read rightly or not at all.
 
+use crate::painter::Uniform;
 use sightline::detect::detect;
 use sightline::detection::{Codes, DetectOptions, Detection, Reason};
 use sightline::image::{GreyView, SamplesView};
 use sightline::noise::Noise;
 use sightline::ring_code::valid_codes;
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
-use crate::painter::Uniform;
 
 const FAMILIES: [(u32, Codes); 4] =
     [(12, Codes::Ring12), (14, Codes::Ring14), (16, Codes::Ring16), (20, Codes::Ring20)];

@@ -7,9 +7,6 @@ use sightline::adjust::{adjust, apply};
 use sightline::adjustment::{AdjustOptions, ResidualPlace, Robust};
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 /// Iterations of one of these documents before it counts as endless: every round of a search for gross errors has some.
 const MOST_ITERATIONS: usize = 5000;
 

@@ -10,9 +10,6 @@ use sightline::error::{Defect, Error};
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Photo, Project, Role};
 use sightline::rotation;
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 fn run(project: &Project) -> Adjustment {
     adjust(project, &AdjustOptions::default(), &mut |_| true).expect("solvable")
 }

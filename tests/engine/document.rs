@@ -1,9 +1,6 @@
 //! The project format as other programs write it.
 
 use sightline::project::{DatumKind, Interior, Parameter, Project, Role, Sigma};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 const FOREIGN: &str = r#"{
   "format": "sightline", "version": 1, "name": "n", "unit": "m", "later": true,
   "cameras": [

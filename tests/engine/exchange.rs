@@ -1,11 +1,8 @@
 //! Files of other programs, as they come.
 
+use crate::data::{data, text};
 use sightline::exchange::{self, Files, control_csv};
 use sightline::project::{Interior, Project, Role, Sigma};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
-use crate::data::{data, text};
 
 fn import(format: &str, paths: &[&str]) -> Option<Project> {
     let mut files = Files::new();

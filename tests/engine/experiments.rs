@@ -1,9 +1,6 @@
 //! The papers' figures.
 
 use sightline::experiments::{Experiment, ExperimentOptions, NAMES, run};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 fn result(name: &str) -> Experiment {
     run(name, &ExperimentOptions::default(), &mut |_, _| true).expect(name)
 }

@@ -5,9 +5,6 @@ use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Given, GrossErrorAction, Robust, Termination};
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 const PLANTED: [(usize, f64); 5] = [(3, 5.0), (20, -3.0), (41, 40.0), (60, 2.5), (77, -8.0)];
 
 fn spoiled() -> (Project, Project) {

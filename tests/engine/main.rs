@@ -1,4 +1,4 @@
-//! The engine from outside, natively and as wasm in Node: one binary, one topic a module.
+//! The engine from outside, natively: one binary, one topic a module. That it gives the same as wasm is tested in tests/face.
 
 mod aerial;
 mod behaviour;

@@ -9,9 +9,6 @@ use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project};
 use sightline::statistics::distribution::{ALPHA, GLOBAL_ALPHA, critical_w};
 use statrs::distribution::{Binomial, DiscreteCDF};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 const COPIES: usize = 1000;
 
 /// Test values of observations of every kind, image coordinates first; none where nothing checks the observation.

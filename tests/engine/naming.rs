@@ -2,15 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::orientation::{network, uniform};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use sightline::detection::{Polarity, Quality, Target};
 use sightline::matching::{MatchOptions, Matching, PhotoTargets, match_uncoded};
 use sightline::project::{Point, Project};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
-use crate::orientation::{network, uniform};
 
 fn target(u: f64, v: f64) -> Target {
     Target {

@@ -8,9 +8,6 @@ use sightline::adjustment::{AdjustOptions, Adjustment, Given, ResidualPlace, Ter
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project};
 use sightline::statistics::distribution::noncentrality;
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 fn close(got: f64, expected: f64, scale: f64, what: &str) {
     assert!((got - expected).abs() <= 1e-9 * scale, "{what}: {got} against {expected}");
 }

@@ -1,5 +1,6 @@
 //! From nothing to initial values: control fields, free networks, what cannot be oriented.
 
+use crate::data::text;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -13,10 +14,6 @@ use sightline::matching::without_gross_errors;
 use sightline::orient::{Note, Oriented, PhotoReason, PointReason, ScaleSource, orient};
 use sightline::project::{Camera, Distance, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
 use sightline::rotation;
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
-use crate::data::text;
 
 pub fn uniform(g: &mut ChaCha8Rng) -> f64 {
     2.0 * ((g.next_u64() >> 11) as f64 / (1u64 << 53) as f64) - 1.0

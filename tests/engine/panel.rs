@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::data::{data, text};
 use nalgebra::Vector3;
 use sightline::adjustment::{AdjustOptions, StatisticsChoice, Termination};
 use sightline::camera::pixel_from_camera_point;
@@ -13,10 +14,6 @@ use sightline::initial::similarity::fit;
 use sightline::matching::{MatchOptions, PhotoTargets, match_uncoded, name_coded, without_gross_errors};
 use sightline::orient::orient;
 use sightline::project::{Camera, DatumKind, Distance, Interior, Parameter, Photo, Project};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
-use crate::data::{data, text};
 
 const PHOTOS: [&str; 8] =
     ["043_0005", "043_0013", "043_0021", "043_0029", "043_0035", "043_0041", "671_0021", "671_0041"];

@@ -1,13 +1,10 @@
 //! Photo files of real cameras.
 
+use crate::data::data;
 use sightline::decode::{Size, grey, picture, size};
 use sightline::detection::Channel;
 use sightline::exif;
 use sightline::image::Samples;
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
-use crate::data::data;
 
 #[test]
 fn a_camera_jpeg_with_exif() {

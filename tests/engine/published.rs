@@ -6,9 +6,6 @@ use sightline::adjustment::{AdjustOptions, Adjustment, Termination};
 use sightline::error::{Defect, Error};
 use sightline::exchange::photomodeler;
 use sightline::project::{Camera, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 pub const HEIGHT_MM: f64 = 5.43764;
 
 fn solve(project: &Project) -> Adjustment {

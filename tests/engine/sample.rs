@@ -7,9 +7,6 @@ use sightline::matching::{MatchOptions, PhotoTargets, match_uncoded, name_coded}
 use sightline::orient::orient;
 use sightline::project::{Parameter, Point, Project};
 use sightline::{decode, detect, sample};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 fn add(project: &mut Project, points: Vec<Point>) {
     let new = points.into_iter().filter(|p| project.points.iter().all(|known| known.id != p.id));
     let new: Vec<Point> = new.map(|p| Point { xyz: None, ..p }).collect();

@@ -1,14 +1,11 @@
 //! What makes targets hard: blur, clipping, flatness, size, neighbours, the border, glare, gradients, 16 bits. Whatever is
 //! reported must be as good as its sigma says; where the light alone limits it, it must reach the Cramér-Rao bound.
 
+use crate::painter::{Canvas, Spot, Uniform, bound};
 use sightline::detect::{detect, measure_at};
 use sightline::detection::{DetectOptions, Detection, Reason, Target};
 use sightline::image::{Grey, Samples};
 use sightline::noise::Noise;
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
-use crate::painter::{Canvas, Spot, Uniform, bound};
 
 const DISC: Spot = Spot { u: 0.0, v: 0.0, a: 5.0, b: 5.0, angle: 0.0, contrast: 100.0 };
 

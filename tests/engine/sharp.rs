@@ -3,9 +3,6 @@
 use sightline::detect::detect;
 use sightline::detection::{DetectOptions, Method};
 use sightline::image::{GreyView, SamplesView};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 /// A bright disc on dark ground, each pixel the mean of 16 x 16 places.
 fn disc(width: usize, height: usize, [u, v]: [f64; 2], radius: f64) -> Vec<u8> {
     let inside = |x: usize, y: usize| {

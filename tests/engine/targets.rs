@@ -1,15 +1,12 @@
 //! Accuracy gates of the target operators: bias, scatter against the Cramér-Rao bound, and honest sigmas, on pictures from
 //! an independent renderer; and what must not change a centre.
 
+use crate::data::{data, text};
+use crate::painter::{Canvas, Spot, Uniform};
 use sightline::detect::{detect, measure_all, measure_at};
 use sightline::detection::{Channel, Codes, DetectOptions, Detection, Method, Polarity, Target};
 use sightline::image::{Grey, GreyView, Samples, SamplesView};
 use sightline::{Error, decode};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
-use crate::data::{data, text};
-use crate::painter::{Canvas, Spot, Uniform};
 
 fn detected(picture: &Grey, options: &DetectOptions) -> Detection {
     detect(&picture.view().expect("a picture"), options).expect("valid options")

@@ -1,4 +1,4 @@
-// The same photo gives the same targets natively and as wasm: to 1e-9 px, and every other number as nearly.
+// The same photo gives the same targets natively and as wasm, the same network the same adjustment: to 1e-9, every number.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
@@ -10,11 +10,11 @@ import { compare } from './compare.mjs';
 import { dataPath, sightline, skip } from './engine.mjs';
 import { tiff } from './tiff.mjs';
 
-/** What examples/targets.rs, built by `cargo xtask test face`, finds in a file. */
-function natively(file, options) {
-  const program = process.env.SIGHTLINE_NATIVE;
-  if (!program) throw new Error('run these tests with: cargo xtask test face');
-  const { status, stdout, stderr, error } = spawnSync(program, [file, JSON.stringify(options)], { encoding: 'utf8', maxBuffer: 1 << 28 });
+/** What an example of the engine, built by `cargo xtask test face`, makes of a file. */
+function natively(example, file, options) {
+  const folder = process.env.SIGHTLINE_EXAMPLES;
+  if (!folder) throw new Error('run these tests with: cargo xtask test face');
+  const { status, stdout, stderr, error } = spawnSync(join(folder, example), [file, JSON.stringify(options)], { encoding: 'utf8', maxBuffer: 1 << 28 });
   assert.equal(status, 0, error?.message ?? stderr);
   return JSON.parse(stdout);
 }
@@ -23,7 +23,7 @@ function check(t, file, options, atLeast) {
   const bytes = readFileSync(file);
   const here = sightline.detect(bytes, options);
   assert.ok(here.targets.length >= atLeast, `${file}: ${here.targets.length} targets`);
-  compare(here, natively(file, options), 1e-9, `${file} ${JSON.stringify(options)}`);
+  compare(here, natively('targets', file, options), 1e-9, `${file} ${JSON.stringify(options)}`);
   t.diagnostic(`${here.targets.length} targets alike, ${JSON.stringify(options)}`);
 }
 
@@ -62,4 +62,43 @@ test('a rendered photo: every method, codes, 8 and 16 bits', (t) => {
 test('photographs: JPEG in colour, compressed TIFF with codes', { skip }, (t) => {
   for (const name of ['P8250021.JPG', 'P8250030.JPG']) check(t, dataPath(`camcal/photos/${name}`), { channel: 'green' }, 90);
   for (const name of ['043_0005_Scaled.tif', '671_0021_Scaled.tif']) check(t, dataPath(`panel/${name}`), { codes: 'ring-14' }, 40);
+});
+
+/** A ring of aimed stations around a dome of points, with control, a distance and noise. */
+const network = (model, seed) => ({
+  seed,
+  cameras: [
+    model === 'brown'
+      ? { id: 'c', width: 2000, height: 1500, pixel_pitch: [0.005, 0.005], model, c: 10, k1: 2e-4, p1: 1e-5, free: ['c', 'x0', 'y0', 'k1', 'k2', 'p1', 'p2', 'b1'], sigma: { k2: 1e-4 } }
+      : { id: 'c', width: 2000, height: 1500, pixel_pitch: [0.005, 0.005], model, fx: 2000, fy: 2000, cx: 1000, cy: 750, k1: -0.01, free: ['f', 'cx', 'cy', 'k1'] },
+  ],
+  stations: Array.from({ length: 8 }, (_, k) => ({
+    id: `s${k}`,
+    camera: 'c',
+    position: [3000 * Math.cos(k), 3000 * Math.sin(k), 1500 + 200 * k],
+    look_at: [0, 0, 0],
+    roll: (k * Math.PI) / 2,
+  })),
+  points: Array.from({ length: 40 }, (_, k) => {
+    const [x, y] = [70 * Math.sqrt(k) * Math.cos(2.4 * k), 70 * Math.sqrt(k) * Math.sin(2.4 * k)];
+    return { id: `p${k}`, xyz: [x, y, 300 - (x * x + y * y) / 700], diameter: null, ...(k % 9 === 0 && { role: 'control', sigma: [0.05, 0.05, 0.05] }) };
+  }),
+  distances: [{ from: 'p1', to: 'p7', sigma: 0.01 }],
+});
+
+test('networks: every datum, both camera models, robust and with snooping, with gross errors', () => {
+  const folder = mkdtempSync(join(tmpdir(), 'sightline-native-'));
+  for (const model of ['brown', 'opencv']) {
+    for (const kind of ['control', 'minimal', 'free']) {
+      const project = { ...sightline.simulate(network(model, 11)), datum: { kind, points: null } };
+      project.observations[17].u += 3;
+      project.observations[301].v -= 2;
+      const file = join(folder, `${model}-${kind}.json`);
+      writeFileSync(file, JSON.stringify(project));
+      for (const options of [{}, { robust: 'huber' }, { snooping: true }, { residuals: 'corrected' }]) {
+        const here = sightline.adjust(project, options);
+        compare(JSON.parse(JSON.stringify(here)), natively('adjust', file, options), 1e-9, `${model} ${kind} ${JSON.stringify(options)}`);
+      }
+    }
+  }
 });

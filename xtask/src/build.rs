@@ -105,10 +105,10 @@ pub fn metadata() -> Outcome<Value> {
     serde_json::from_str(&text).map_err(|error| format!("cargo metadata: {error}"))
 }
 
-/// Builds an example of the engine natively, with what the tests are built with, and gives its path.
-pub fn example(name: &str) -> Outcome<String> {
-    run(&mut cargo(&["build", "--profile", "test", "--package", "sightline", "--example", name]))?;
-    Ok(format!("{}/debug/examples/{name}{}", target_directory()?, std::env::consts::EXE_SUFFIX))
+/// Builds the examples of the engine natively, with what the tests are built with, and gives their folder.
+pub fn examples() -> Outcome<String> {
+    run(&mut cargo(&["build", "--package", "sightline", "--examples"]))?;
+    Ok(format!("{}/debug/examples", target_directory()?))
 }
 
 /// Where cargo builds.
