@@ -32,7 +32,11 @@ test('21 photos become a calibration', { skip: folder ? false : 'skipped, no dat
     await drop(page, [join(folder, 'camcal-fixed.txt')]);
     await page.waitForSelector('.preview tr.new');
     assert.equal(await page.locator('.preview tr.new').count(), 4);
+    // Nothing in the file says that the sheet is 1 m and not 1 mm wide.
+    assert.ok(await page.isDisabled('.columns .primary'));
+    await page.selectOption('[name=pasted-unit]', 'm');
     await page.click('.columns .primary');
+    assert.equal(await page.inputValue('[name=unit]'), 'm');
     await adjust(page);
 
     const c = await parameter(page, 'C4040Z', 'c');

@@ -69,7 +69,7 @@ export async function idle(page, timeout = 300_000) {
 export async function detect(page, options) {
   await go(page, 'targets');
   for (const [name, label] of Object.entries(options)) await page.selectOption(`select[name=${name}]`, { label });
-  await page.click('.action .primary');
+  await page.click('[data-action=detect]');
   await idle(page);
 }
 
@@ -198,4 +198,36 @@ function nearestRotation(m) {
     [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
     [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z],
   ];
+}
+
+/** Clicks a place of the photo that is shown whole, in its pixels. */
+export async function clickPhoto(page, [u, v], { width = 1632, height = 1224, modifiers, touch } = {}) {
+  const box = await page.locator('canvas.photo').boundingBox();
+  const scale = Math.min(box.width / width, box.height / height);
+  const x = box.x + (box.width - width * scale) / 2 + u * scale;
+  const y = box.y + (box.height - height * scale) / 2 + v * scale;
+  for (const key of modifiers ?? []) await page.keyboard.down(key);
+  if (touch) await page.touchscreen.tap(x, y);
+  else await page.mouse.click(x, y);
+  for (const key of modifiers ?? []) await page.keyboard.up(key);
+}
+
+/** Chooses a point in the table of identities and gives where each photo has it: u, v and sigma by photo. */
+export async function choosePoint(page, point) {
+  await page.click(`.columns tr[data-key="${point}"]`);
+  await page.waitForFunction((name) => document.querySelector('[name=point-name]')?.value === name, point);
+  return places(page);
+}
+
+/** Where each photo has the chosen point. */
+export async function places(page) {
+  const rows = await page.$$eval('.panel.point tbody tr', (all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  return Object.fromEntries(rows.map(([photo, u, v, sigma]) => [photo, { u: number(u), v: number(v), sigma: number(sigma) }]));
+}
+
+/** Shows a photo and waits until it is drawn whole. */
+export async function showPhoto(page, photo) {
+  await page.click(`[data-photo="${photo}"]`);
+  await page.click('.stage-button[aria-label="Fit"]');
+  await page.waitForTimeout(300);
 }

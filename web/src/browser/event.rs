@@ -89,6 +89,8 @@ pub struct Key {
     pub modifiers: Modifiers,
     /// Text is being typed (a field has the focus or a composition is under way): shortcuts are suspended.
     pub typing: bool,
+    /// The key goes to a table itself, and not to a button in it.
+    pub on_table: bool,
 }
 
 pub fn key(event: &KeyboardEvent) -> Key {
@@ -103,6 +105,7 @@ pub fn key(event: &KeyboardEvent) -> Key {
             control: event.ctrl_key() || event.meta_key(),
         },
         typing,
+        on_table: tag == "TABLE",
     }
 }
 

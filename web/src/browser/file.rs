@@ -28,6 +28,10 @@ impl Blob {
         Ok(Uint8Array::new(&buffer).to_vec())
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.0.size() == 0.0
+    }
+
     pub(super) fn as_js(&self) -> JsValue {
         self.0.clone().into()
     }

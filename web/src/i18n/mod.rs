@@ -1,30 +1,48 @@
-//! Every word of the desk in every language: a text is a function, so that a missing translation does not compile.
+//! Every word of the desk in every language: one file a language, and a text missing in one does not compile.
 //!
-//! Used in a view, a text follows the language switch by itself, for it reads the language signal.
+//! `en.rs` declares the texts; the files of other languages translate them. A text is a function: used in a view it follows
+//! the language switch by itself, for it reads the language signal. A further language is one more file and its lines in
+//! the enum and the macro `spoken` below.
 
+mod en;
 pub mod errors;
-pub mod experiments;
+mod ko;
+mod particles;
 mod reasons;
+mod template;
 pub mod text;
-mod weights;
 
 use leptos::prelude::*;
+
+pub use en::experiments;
 
 use crate::browser::page;
 
 /// The desk's languages.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
-    #[default]
     English,
     Korean,
 }
 
+/// A language's texts, as a trait's object.
+macro_rules! spoken {
+    ($in:expr) => {
+        match $in {
+            $crate::i18n::Language::English => &$crate::i18n::en::English,
+            $crate::i18n::Language::Korean => &$crate::i18n::ko::Korean,
+        }
+    };
+}
+use spoken;
+
 thread_local! {
-    static LANGUAGE: ArcRwSignal<Language> = ArcRwSignal::new(Language::default());
+    static LANGUAGE: ArcRwSignal<Language> = ArcRwSignal::new(Language::English);
 }
 
 impl Language {
+    const ALL: [Self; 2] = [Self::English, Self::Korean];
+
     pub fn tag(self) -> &'static str {
         match self {
             Self::English => "en",
@@ -33,14 +51,13 @@ impl Language {
     }
 
     fn from_tag(tag: &str) -> Self {
-        if tag.starts_with("ko") { Self::Korean } else { Self::English }
+        Self::ALL.into_iter().find(|language| tag.starts_with(language.tag())).unwrap_or(Self::English)
     }
 
+    /// The next one in the row of languages.
     pub fn other(self) -> Self {
-        match self {
-            Self::English => Self::Korean,
-            Self::Korean => Self::English,
-        }
+        let at = Self::ALL.iter().position(|language| *language == self).unwrap_or(0);
+        Self::ALL[(at + 1) % Self::ALL.len()]
     }
 }
 
@@ -65,48 +82,121 @@ pub fn restore_language() {
     set_language(Language::from_tag(&tag));
 }
 
-/// Whether a number, as it is shown, is one.
-pub(crate) fn is_one(count: &impl std::fmt::Display) -> bool {
-    count.to_string() == "1"
-}
+/// Name, values and template of a text, for the test of all of them.
+#[cfg(test)]
+type Declared = (&'static str, &'static [&'static str], &'static str);
 
-/// Declares texts: `name: "English", "Korean";` or, with values, `name(a, b): "English {a} {b}", "Korean {b} {a}";`. What
-/// English words become of a count stands before it: `name(n) [point = n "point" "points"]: "{n} {point}", "{n}점";`.
-macro_rules! texts {
-    ($($name:ident $(($($value:ident),+))? $([$($word:ident = $count:ident $one:literal $many:literal),+])? : $english:literal, $korean:literal;)+) => {
-        $($crate::i18n::texts!(@one $name $(($($value),+))? $([$($word = $count $one $many),+])? $english, $korean);)+
-    };
-    (@one $name:ident $english:literal, $korean:literal) => {
-        pub fn $name() -> &'static str {
-            match $crate::i18n::language() {
-                $crate::i18n::Language::English => $english,
-                $crate::i18n::Language::Korean => $korean,
+/// Declares a part's texts in English: `name: "words";` or, with values, `name(a, b): "words {a} {b:one|many}";`. Each becomes
+/// a function of the part's module, and a method of its trait `Words`, which every language implements.
+macro_rules! declare {
+    ($part:ident { $($name:ident $(($($value:ident),+))? : $text:literal;)+ }) => {
+        pub mod $part {
+            use std::fmt::Display;
+
+            /// What every language says.
+            pub trait Words: Sync {
+                $($crate::i18n::declare!(@method $name $(($($value),+))?);)+
+                #[cfg(test)]
+                fn all(&self) -> Vec<$crate::i18n::Declared>;
             }
+
+            /// The texts in a language.
+            pub fn words(language: $crate::i18n::Language) -> &'static dyn Words {
+                $crate::i18n::spoken!(language)
+            }
+
+            $($crate::i18n::declare!(@function $name $(($($value),+))?);)+
+        }
+        $crate::i18n::translate! { English $part { $($name $(($($value),+))? : $text;)+ } }
+    };
+    (@method $name:ident) => { fn $name(&self) -> &'static str; };
+    (@method $name:ident ($($value:ident),+)) => { fn $name(&self, $($value: &dyn Display),+) -> String; };
+    (@function $name:ident) => {
+        pub fn $name() -> &'static str {
+            words($crate::i18n::language()).$name()
         }
     };
-    (@one $name:ident ($($value:ident),+) $([$($word:ident = $count:ident $one:literal $many:literal),+])? $english:literal, $korean:literal) => {
-        pub fn $name($($value: impl std::fmt::Display),+) -> String {
-            match $crate::i18n::language() {
-                $crate::i18n::Language::English => {
-                    $($(let $word = if $crate::i18n::is_one(&$count) { $one } else { $many };)+)?
-                    format!($english)
-                }
-                $crate::i18n::Language::Korean => format!($korean),
-            }
+    (@function $name:ident ($($value:ident),+)) => {
+        pub fn $name($($value: impl Display),+) -> String {
+            words($crate::i18n::language()).$name($(&$value),+)
         }
     };
 }
-pub(crate) use texts;
+use declare;
+
+/// Says a part's texts in a language; `choose` of its file picks between two forms by the value before them.
+macro_rules! translate {
+    ($language:ident $part:ident { $($name:ident $(($($value:ident),+))? : $text:literal;)+ }) => {
+        impl $crate::i18n::en::$part::Words for $language {
+            $($crate::i18n::translate!(@method $name $(($($value),+))? $text);)+
+            #[cfg(test)]
+            fn all(&self) -> Vec<$crate::i18n::Declared> {
+                vec![$((stringify!($name), &[$($(stringify!($value)),+)?], $text)),+]
+            }
+        }
+    };
+    (@method $name:ident $text:literal) => {
+        fn $name(&self) -> &'static str {
+            $text
+        }
+    };
+    (@method $name:ident ($($value:ident),+) $text:literal) => {
+        fn $name(&self, $($value: &dyn std::fmt::Display),+) -> String {
+            $crate::i18n::template::fill($text, &[$((stringify!($value), $value)),+], choose)
+        }
+    };
+}
+use translate;
 
 #[cfg(test)]
 mod tests {
-    use super::text;
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    /// Every text, in every language.
+    fn all() -> Vec<(Language, Declared)> {
+        let of = |language: Language| {
+            let parts = [
+                en::desk::words(language).all(),
+                en::experiments::words(language).all(),
+                en::errors::words(language).all(),
+            ];
+            parts.into_iter().flatten().map(move |text| (language, text))
+        };
+        Language::ALL.into_iter().flat_map(of).collect()
+    }
 
     #[test]
-    fn one_is_no_plural() {
-        assert_eq!(text::n_points(1), "1 point");
-        assert_eq!(text::n_points(21), "21 points");
-        let told = text::photos_sentence(1, 2);
-        assert!(told.starts_with("1 photo, 2 cameras. Photos"), "{told}");
+    fn every_text_says_something_and_uses_its_values_and_no_others() {
+        let mut seen = BTreeSet::new();
+        for (language, (name, values, template)) in all() {
+            assert!(!template.trim().is_empty(), "{language:?} {name}");
+            let used = template::values(template).unwrap_or_else(|fault| panic!("{language:?} {name}: {fault}"));
+            for value in &used {
+                assert!(values.contains(&value.as_str()) || values.is_empty(), "{language:?} {name}: {value}");
+            }
+            for value in values {
+                assert!(used.contains(*value), "{language:?} {name} leaves out {value}");
+            }
+            seen.insert(language.tag());
+        }
+        assert_eq!(seen.len(), Language::ALL.len());
+    }
+
+    #[test]
+    fn no_particle_is_left_to_choose_and_no_plural_to_guess() {
+        for (language, (name, _, template)) in all() {
+            for undecided in ["을(를)", "은(는)", "이(가)", "와(과)", "(으)로", "(s)"] {
+                assert!(!template.contains(undecided), "{language:?} {name}");
+            }
+        }
+    }
+
+    #[test]
+    fn languages_are_known_by_their_tags() {
+        assert_eq!(Language::from_tag("ko-KR"), Language::Korean);
+        assert_eq!(Language::from_tag("fr"), Language::English);
+        assert_eq!(Language::English.other().other(), Language::English);
     }
 }

@@ -1,7 +1,17 @@
 //! Why the engine refuses something, in Korean. The English is the engine's own.
 
+use std::fmt::Display;
+
 use sightline::error::{Damage, Expected, Lack, PhotoModelerPart, Reason, Thing};
 use sightline::initial::Degeneracy;
+
+use super::particles::after;
+use super::template;
+
+/// A sentence whose particles follow its values.
+fn told(template: &str, values: &[(&str, &dyn Display)]) -> String {
+    template::fill(template, values, after)
+}
 
 /// What is not allowed where it stands.
 pub fn reason(reason: &Reason) -> String {
@@ -49,23 +59,47 @@ pub fn reason(reason: &Reason) -> String {
         }
 
         R::OutsidePicture { name, value, size } => {
-            return format!("{name}이(가) {value}입니다. 사진 안의 위치는 0부터 {size}까지입니다");
+            return told(
+                "{name}{name:이|가} {value}입니다. 사진 안의 위치는 0부터 {size}까지입니다",
+                &[("name", name), ("value", value), ("size", size)],
+            );
         }
-        R::NotPixels { name, value } => return format!("{name}이(가) {value}입니다. 양의 화소 수여야 합니다"),
+        R::NotPixels { name, value } => {
+            return told(
+                "{name}{name:이|가} {value}입니다. 양의 화소 수여야 합니다",
+                &[("name", name), ("value", value)],
+            );
+        }
         R::DiametersSwapped { min_diameter, max_diameter } => {
-            return format!("최소 지름 {min_diameter}이(가) 최대 지름 {max_diameter}보다 큽니다");
+            return told(
+                "최소 지름 {min_diameter}{min_diameter:이|가} 최대 지름 {max_diameter}보다 큽니다",
+                &[("min_diameter", min_diameter), ("max_diameter", max_diameter)],
+            );
         }
         R::Samples { samples, width, height } => {
             return format!("표본 {samples}개로는 {width} × {height} 화소의 사진이 되지 않습니다");
         }
 
         R::NotText => "UTF-8, UTF-16, CP949 텍스트가 아닙니다. UTF-8 텍스트 파일로 저장하십시오",
-        R::Missing { name } => return format!("{name}이(가) 없습니다"),
-        R::MissingField { name, fields } => return format!("{name}이(가) 없습니다. 이 행의 항목은 {fields}개입니다"),
-        R::NotANumber { name, text } => return format!("{name}이(가) 수가 아닙니다: \"{text}\""),
-        R::NotWhole { name, text } => return format!("{name}이(가) 정수가 아닙니다: \"{text}\""),
-        R::NotPositive { name, value } => return format!("{name}이(가) 양수가 아닙니다: {value}"),
-        R::Negative { name, value } => return format!("{name}이(가) 음수입니다: {value}"),
+        R::Missing { name } => return told("{name}{name:이|가} 없습니다", &[("name", name)]),
+        R::MissingField { name, fields } => {
+            return told(
+                "{name}{name:이|가} 없습니다. 이 행의 항목은 {fields}개입니다",
+                &[("name", name), ("fields", fields)],
+            );
+        }
+        R::NotANumber { name, text } => {
+            return told("{name}{name:이|가} 수가 아닙니다: \"{text}\"", &[("name", name), ("text", text)]);
+        }
+        R::NotWhole { name, text } => {
+            return told("{name}{name:이|가} 정수가 아닙니다: \"{text}\"", &[("name", name), ("text", text)]);
+        }
+        R::NotPositive { name, value } => {
+            return told("{name}{name:이|가} 양수가 아닙니다: {value}", &[("name", name), ("value", value)]);
+        }
+        R::Negative { name, value } => {
+            return told("{name}{name:이|가} 음수입니다: {value}", &[("name", name), ("value", value)]);
+        }
         R::CommaAmongPoints { name, text } => {
             return format!(
                 "{name}: 다른 수는 소수점을 쓰는데 쉼표가 있습니다: \"{text}\" (천 단위 구분 없이 쓰십시오)"
@@ -77,7 +111,10 @@ pub fn reason(reason: &Reason) -> String {
             );
         }
         R::NoneOf { name, choices, text } => {
-            return format!("{name}은(는) {choices} 가운데 하나여야 합니다: \"{text}\"");
+            return told(
+                "{name}{name:은|는} {choices} 가운데 하나여야 합니다: \"{text}\"",
+                &[("name", name), ("choices", choices), ("text", text)],
+            );
         }
         R::ControlColumns { columns } => {
             return format!("기준점에는 네 열(id, X, Y, Z)이 필요한데 표의 열은 {columns}개입니다");
@@ -109,10 +146,18 @@ pub fn reason(reason: &Reason) -> String {
         R::NotDbat => "DBAT 프로젝트가 아닙니다. document와 input이 없습니다",
         R::NoColumn { column } => return format!("형식에 {column} 열이 없습니다"),
         R::ColumnsNotNamed { file } => return format!("{file}의 열 이름이 없습니다"),
-        R::Numbers { name, count, text } => return format!("{name}은(는) 수 {count}개여야 합니다: \"{text}\""),
+        R::Numbers { name, count, text } => {
+            return told(
+                "{name}{name:은|는} 수 {count}개여야 합니다: \"{text}\"",
+                &[("name", name), ("count", count), ("text", text)],
+            );
+        }
         R::SizeNotPositive { name } => return format!("{name}의 폭과 높이는 양수여야 합니다"),
         R::LensModel { model } => {
-            return format!("렌즈 모델 {model}은(는) 이상점을 왜곡합니다. 측정점을 보정하는 모델(1부터)만 읽습니다");
+            return told(
+                "렌즈 모델 {model}{model:은|는} 이상점을 왜곡합니다. 측정점을 보정하는 모델(1부터)만 읽습니다",
+                &[("model", model)],
+            );
         }
         R::Skew => "비직교(skew)는 0만 읽습니다",
         R::CamerasNotTold { cameras } => {
@@ -122,7 +167,9 @@ pub fn reason(reason: &Reason) -> String {
         R::DamagedXml { message } => return format!("XML이 손상되었습니다: {message}"),
         R::XmlTooDeep { limit } => return format!("XML 요소가 {limit}단계보다 깊게 겹쳐 있습니다"),
         R::XmlEntity { name } => return format!("XML이 손상되었습니다: 알 수 없는 개체 {name}"),
-        R::XmlOpen { name } => return format!("XML이 손상되었습니다: {name}이(가) 닫히지 않았습니다"),
+        R::XmlOpen { name } => {
+            return told("XML이 손상되었습니다: {name}{name:이|가} 닫히지 않았습니다", &[("name", name)]);
+        }
         R::XmlEmpty => "XML이 손상되었습니다: 비어 있습니다",
 
         R::PitchMissing => "사진좌표는 밀리미터입니다. 카메라에 화소 간격을 주십시오",
@@ -148,7 +195,10 @@ pub fn reason(reason: &Reason) -> String {
         R::StationDirection => "촬영점에는 회전각이나 바라보는 점이 필요합니다",
         R::StationAim => "촬영점은 자신을 바라볼 수 없습니다",
         R::Face { index } => {
-            return format!("면 {index}은(는) 유한한 밝기와 0보다 큰 결을 가진 평행사변형이 아닙니다");
+            return told(
+                "면 {index}{index:은|는} 유한한 밝기와 0보다 큰 결을 가진 평행사변형이 아닙니다",
+                &[("index", index)],
+            );
         }
         R::Disc => "표적에는 유한한 중심, 방향, 0보다 큰 지름이 필요합니다",
         R::CodeRing => "코드 고리는 2~24구획이며 비트 수는 구획 수를 넘지 않습니다",
@@ -273,8 +323,8 @@ mod tests {
     #[test]
     fn values_are_carried_over() {
         let told = reason(&Reason::NotANumber { name: "Y".into(), text: "zwei".into() });
-        assert_eq!(told, "Y이(가) 수가 아닙니다: \"zwei\"");
+        assert_eq!(told, "Y가 수가 아닙니다: \"zwei\"");
         let told = reason(&Reason::DiametersSwapped { min_diameter: 9.5.into(), max_diameter: 4.0.into() });
-        assert_eq!(told, "최소 지름 9.5이(가) 최대 지름 4보다 큽니다");
+        assert_eq!(told, "최소 지름 9.5가 최대 지름 4보다 큽니다");
     }
 }

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::adjustment::{AdjustOptions, Iteration};
-use sightline::project::Parameter;
 use sightline_protocol::{Adjust, Adjusted, Adjusting, Match};
 
 use super::document::{self, Change};
 use super::pool::{self, Failure};
 use super::{Desk, JobKind, Step};
+use crate::edit::targets;
 use crate::format;
 use crate::i18n::text;
 
@@ -23,7 +23,6 @@ impl Desk {
         let (input, options) = self.document.with_untracked(|d| (d.project.clone(), d.options.clone()));
         self.iterations.set(Vec::new());
         self.adjust_failure.set(None);
-        self.notice.set(None);
         self.go(Step::Adjust);
         let batch = self.start_job(JobKind::Adjusting, options.max_iterations, || {});
         let task = Adjust { project: (*input).clone(), options };
@@ -56,11 +55,13 @@ impl Desk {
         self.match_then(|_| {});
     }
 
-    /// Matches, adjusts and shows the result.
+    /// Matches, adjusts and shows the result of a project that nobody has worked on.
     pub fn match_then_adjust(self) {
         self.match_then(|desk| {
-            desk.notice.set(None);
-            desk.adjust_then(|desk| desk.go(Step::Results));
+            desk.adjust_then(|desk| {
+                desk.is_pristine();
+                desk.go(Step::Results);
+            });
         });
     }
 
@@ -69,7 +70,7 @@ impl Desk {
             let oriented = d
                 .current()
                 .map_or_else(|| (*d.project).clone(), |r| sightline::adjust::apply(&r.oriented, &r.adjustment));
-            (oriented, d.photo_targets())
+            (oriented, targets::by_photo(d))
         });
         let batch = self.start_job(JobKind::Matching, 1, || {});
         let task = Match { project, targets };
@@ -88,21 +89,6 @@ impl Desk {
         self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
     }
 
-    /// Lets a camera's parameter be estimated or held.
-    pub fn set_free(self, camera: &str, parameter: Parameter, free: bool) {
-        self.change(Change::ParametersChosen(camera.to_owned()), |document| {
-            if let Some(camera) = document.project_mut().cameras.iter_mut().find(|c| c.id == camera) {
-                camera.free.retain(|p| *p != parameter);
-                camera.sigma.remove(&parameter);
-                if free {
-                    camera.free.push(parameter);
-                    let order = camera.interior.parameters().to_vec();
-                    camera.free.sort_by_key(|p| order.iter().position(|o| o == p));
-                }
-            }
-        });
-    }
-
     /// Chooses how image coordinates are weighted and what is done about gross errors.
     pub fn set_options(self, choose: impl FnOnce(&mut AdjustOptions)) {
         self.change(Change::OptionsChosen, |document| choose(&mut document.options));
@@ -112,11 +98,7 @@ impl Desk {
     pub fn set_unmodelled(self, typed: &str) {
         match format::parse(typed).filter(|px| *px >= 0.0 && *px < 1000.0) {
             Some(px) => self.set_options(|options| options.unmodelled = px),
-            None => {
-                let typed = typed.to_owned();
-                self.warn(move || text::not_a_number(&typed));
-                self.document.notify();
-            }
+            None => self.refuse(typed, text::not_a_number),
         }
     }
 
@@ -126,24 +108,7 @@ impl Desk {
         if diameter.is_some() || typed.trim().is_empty() {
             self.set_options(|options| options.target_diameter = diameter);
         } else {
-            let typed = typed.to_owned();
-            self.warn(move || text::no_diameter(&typed));
-            self.document.notify();
+            self.refuse(typed, text::no_diameter);
         }
-    }
-
-    /// Takes an initial value of a camera's parameter as typed.
-    pub fn set_initial(self, camera: &str, parameter: Parameter, typed: &str) {
-        let Some(value) = format::parse(typed) else {
-            let typed = typed.to_owned();
-            self.warn(move || text::not_a_number(&typed));
-            self.document.notify();
-            return;
-        };
-        self.change(Change::ParametersChosen(camera.to_owned()), |document| {
-            if let Some(camera) = document.project_mut().cameras.iter_mut().find(|c| c.id == camera) {
-                camera.interior.set(parameter, value);
-            }
-        });
     }
 }

@@ -4,10 +4,11 @@ use leptos::prelude::*;
 use sightline::Error;
 use sightline::error::Lack;
 use sightline::exchange::control_csv::{self, ControlTable};
-use sightline::project::{DatumKind, Distance, Point, Role};
+use sightline::project::{DatumKind, Distance, Role};
 
+use super::Desk;
 use super::document::Change;
-use super::{Desk, Step};
+use crate::edit::control::{self, DistanceFault};
 use crate::format;
 use crate::i18n::text;
 
@@ -16,82 +17,96 @@ use crate::i18n::text;
 pub struct Pasted {
     pub source: String,
     pub table: ControlTable,
-}
-
-/// What a distance lacks before it can be taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DistanceFault {
-    SamePoint,
-    NoSuchPoint,
-    Length,
-    Sigma,
+    /// The unit of its coordinates; none: it has to be asked for.
+    pub unit: Option<String>,
 }
 
 impl Desk {
-    /// Reads control points and shows what they would become.
-    pub fn read_control(self, source: String, content: &str) {
+    /// Reads control points, to be looked at before they are taken; whether there are any.
+    pub fn read_control(self, source: String, content: &str) -> bool {
         let table = control_csv::parse(content);
         if table.rows.is_empty() {
             self.warn_error(Error::Empty { what: Lack::Points });
-            return;
+            return false;
         }
-        self.pasted.set(Some(Pasted { source, table }));
-        self.go(Step::Control);
+        // Coordinates beside others are in their unit unless someone says otherwise; the first ones could be in any.
+        let known = self.document.with_untracked(|d| control::has_lengths(&d.project).then(|| d.project.unit.clone()));
+        let chosen = self.pasted.with_untracked(|p| p.as_ref().and_then(|p| p.unit.clone()));
+        self.pasted.set(Some(Pasted { source, table, unit: known.or(chosen) }));
+        true
+    }
+
+    /// Says in which unit the coordinates waiting to be taken are.
+    pub fn set_pasted_unit(self, unit: &str) {
+        let unit = Some(unit.trim().to_owned()).filter(|unit| !unit.is_empty());
+        self.pasted.update(|pasted| {
+            if let Some(pasted) = pasted {
+                pasted.unit = unit;
+            }
+        });
     }
 
     /// Takes the rows that were understood.
     pub fn take_control(self) {
         let Some(pasted) = self.pasted.get_untracked() else { return };
+        let Some(unit) = pasted.unit.clone() else {
+            return self.warn_here(|| text::which_unit().to_owned());
+        };
         let (points, _) = pasted.table.split();
         if points.is_empty() {
             return;
         }
         self.change(Change::ControlTaken(points.len()), |document| {
-            let project = document.project_mut();
-            for point in points {
-                let role = if point.role == Role::Tie { Role::Control } else { point.role };
-                match project.points.iter_mut().find(|p| p.id == point.id) {
-                    Some(known) => {
-                        let diameter = point.diameter.or(known.diameter);
-                        let normal = point.normal.or(known.normal);
-                        *known = Point { role, diameter, normal, ..point };
-                    }
-                    None => project.points.push(Point { role, ..point }),
-                }
-            }
-            // Three points fix a system: the control system is then what people expect to stand in.
-            let control = project.points.iter().filter(|p| p.role == Role::Control).count();
-            if control >= 3 && project.datum.kind == DatumKind::Free && project.datum.points.is_none() {
-                project.datum.kind = DatumKind::Control;
-            }
+            control::take_points(document.project_mut(), points, &unit);
         });
         self.pasted.set(None);
     }
 
     pub fn set_role(self, id: &str, role: Role) {
-        self.change(Change::RoleSet(id.to_owned()), |document| {
-            if let Some(point) = document.project_mut().points.iter_mut().find(|p| p.id == id) {
-                point.role = role;
-            }
+        self.change(Change::RoleSet(id.to_owned()), |document| control::set_role(document.project_mut(), id, role));
+    }
+
+    /// Takes one of a point's coordinates as typed.
+    pub fn set_coordinate(self, id: &str, axis: usize, typed: &str) {
+        let Some(value) = format::parse(typed) else { return self.refuse(typed, text::not_a_number) };
+        self.change(Change::ControlEdited(id.to_owned()), |document| {
+            control::set_coordinate(document.project_mut(), id, axis, value);
+        });
+    }
+
+    /// Takes the standard error of one of a point's coordinates as typed; nothing or 0 fixes it.
+    pub fn set_control_sigma(self, id: &str, axis: usize, typed: &str) {
+        let sigma = format::parse(typed).filter(|sigma| *sigma >= 0.0);
+        if sigma.is_none() && !typed.trim().is_empty() {
+            return self.refuse(typed, text::no_sigma);
+        }
+        self.change(Change::ControlEdited(id.to_owned()), |document| {
+            control::set_sigma(document.project_mut(), id, axis, sigma.filter(|sigma| *sigma > 0.0));
         });
     }
 
     /// Adds a measured distance, or says what it lacks.
     pub fn add_distance(self, from: &str, to: &str, length: &str, sigma: &str) -> Result<(), DistanceFault> {
+        let number = |typed: &str| format::parse(typed).unwrap_or(f64::NAN);
         let (from, to) = (from.trim().to_owned(), to.trim().to_owned());
-        let known = |id: &str| self.document.with_untracked(|d| d.project.points.iter().any(|p| p.id == id));
-        if !known(&from) || !known(&to) {
-            return Err(DistanceFault::NoSuchPoint);
-        }
-        if from == to {
-            return Err(DistanceFault::SamePoint);
-        }
-        let length = format::parse(length).filter(|l| *l > 0.0).ok_or(DistanceFault::Length)?;
-        let sigma = format::parse(sigma).filter(|s| *s > 0.0).ok_or(DistanceFault::Sigma)?;
-        self.change(Change::DistanceAdded { from: from.clone(), to: to.clone() }, |document| {
-            document.project_mut().distances.push(Distance { from, to, length, sigma });
-        });
+        let distance = Distance { from: from.clone(), to: to.clone(), length: number(length), sigma: number(sigma) };
+        let mut project = self.document.with_untracked(|d| (*d.project).clone());
+        control::add_distance(&mut project, distance)?;
+        self.change(Change::DistanceAdded { from, to }, |document| *document.project_mut() = project);
         Ok(())
+    }
+
+    /// Changes a distance in one of its numbers, as typed.
+    pub fn edit_distance(self, place: usize, typed: &str, set: fn(&mut Distance, f64)) {
+        let Some(mut distance) = self.document.with_untracked(|d| d.project.distances.get(place).cloned()) else {
+            return;
+        };
+        set(&mut distance, format::parse(typed).unwrap_or(f64::NAN));
+        if let Err(fault) = control::check_distance(&distance) {
+            return self.warn_here(move || distance_fault(fault).to_owned());
+        }
+        let change = Change::DistanceEdited { from: distance.from.clone(), to: distance.to.clone() };
+        self.change(change, |document| document.project_mut().distances[place] = distance);
     }
 
     pub fn remove_distance(self, place: usize) {
@@ -107,8 +122,7 @@ impl Desk {
 
     pub fn set_unit(self, unit: &str) {
         let unit = unit.trim();
-        if unit.is_empty() {
-            self.document.notify();
+        if unit.is_empty() || self.document.with_untracked(|d| d.project.unit == unit) {
             return;
         }
         self.change(Change::UnitSet, |document| document.project_mut().unit = unit.to_owned());

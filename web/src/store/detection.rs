@@ -6,7 +6,8 @@ use sightline_protocol::Detect;
 
 use super::document::Change;
 use super::pool::{Failure, Outcome};
-use super::{Desk, JobKind};
+use super::{Desk, JobKind, Until};
+use crate::edit::targets;
 use crate::i18n::{errors, text};
 
 impl Desk {
@@ -30,11 +31,11 @@ impl Desk {
                     Outcome::Done(detection, _) => self.add_detection(&id, detection),
                     Outcome::Failed(Failure::Refused(error)) => {
                         let photo = id.clone();
-                        self.warn(move || text::photo_failed(&photo, errors::sentence(&error)));
+                        self.say(true, Until::NextWork, move || text::photo_failed(&photo, errors::sentence(&error)));
                     }
                     Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => {
                         let photo = id.clone();
-                        self.warn(move || text::photo_failed(&photo, text::worker_lost(&detail)));
+                        self.say(true, Until::NextWork, move || text::photo_failed(&photo, text::worker_lost(&detail)));
                     }
                     Outcome::Progress(nothing) => match nothing {},
                 }
@@ -48,6 +49,6 @@ impl Desk {
     }
 
     fn add_detection(self, photo: &str, detection: Detection) {
-        self.change_on(|document| document.take_detection(photo, detection));
+        self.change_on(|document| targets::take_detection(document, photo, detection));
     }
 }

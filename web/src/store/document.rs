@@ -6,7 +6,7 @@ use std::sync::Arc;
 use sightline::adjustment::{AdjustOptions, Adjustment};
 use sightline::detection::Detection;
 use sightline::matching::Doubtful;
-use sightline::project::Project;
+use sightline::project::{Parameter, Project};
 
 /// Everything that is undone and saved together. Parts are shared between states, so that a state is cheap to keep.
 #[derive(Clone, Debug, Default)]
@@ -16,6 +16,8 @@ pub struct Document {
     pub detections: Arc<BTreeMap<String, Arc<Detection>>>,
     /// Targets whose name is in doubt, from the last matching.
     pub doubtful: Arc<Vec<Doubtful>>,
+    /// What parameters that are held now were observed with, by camera: it is back when they are estimated again.
+    pub sigmas_of_held: BTreeMap<(String, Parameter), f64>,
     /// How the next adjustment is made.
     pub options: AdjustOptions,
     /// The last adjustment, whether or not the project has changed since.
@@ -94,6 +96,10 @@ pub enum Change {
     Matched(usize),
     ControlTaken(usize),
     RoleSet(String),
+    ControlEdited(String),
+    CentreObserved(String),
+    CentreForgotten(String),
+    DistanceEdited { from: String, to: String },
     DistanceAdded { from: String, to: String },
     DistanceRemoved { from: String, to: String },
     DatumChosen,

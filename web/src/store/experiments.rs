@@ -86,7 +86,6 @@ impl Desk {
         let name = self.experiments.shown.get_untracked();
         let options = untrack(|| self.experiments.options(name));
         let began = page::now();
-        self.notice.set(None);
         let batch = self.start_job(JobKind::Experiment, 1, || {});
         let task = RunExperiment { name: name.to_owned(), options: options.clone() };
         let on_outcome = move |outcome: Outcome<RunExperiment>| match outcome {
@@ -111,14 +110,17 @@ impl Desk {
     pub fn open_experiment(self) {
         let name = self.experiments.shown.get_untracked();
         let Some(ran) = untrack(|| self.experiments.current(name)) else { return };
-        self.put_project(ran.experiment.project.clone());
-        self.go(Step::Adjust);
+        self.over_unsaved(move || {
+            self.put_project(ran.experiment.project.clone());
+            self.go(Step::Adjust);
+        });
     }
 
     /// Opens a project of the engine's making.
     pub(super) fn put_project(self, project: Project) {
         let first = project.photos.first().map(|photo| photo.id.clone());
         self.change(Change::Opened, |document| *document = Document { project: project.into(), ..Document::default() });
+        self.is_pristine();
         self.iterations.set(Vec::new());
         self.forget_waiting();
         // Reduced plates lie on a grid of their own, not on the pixels of a scan.

@@ -1,25 +1,21 @@
 //! Who is who: names of targets, by code, by an earlier measurement, by hand, by matching.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
+use std::collections::BTreeSet;
 
 use leptos::prelude::*;
-use sightline::detection::{Detection, Target};
+use sightline::detection::{Codes, Target};
 use sightline::exchange::mark_points;
-use sightline::matching::{Mark, Matching, PhotoTargets, Snapped, name_coded, snap};
-use sightline::project::{Observation, Point, Project, Role, Sigma};
+use sightline::matching::{Mark, Matching, Snapped, snap};
+use sightline::project::{Observation, Sigma};
 use sightline_protocol::Measure;
 
-use super::document::{Change, Document};
+use super::Desk;
+use super::document::Change;
 use super::pool::Outcome;
-use super::{Desk, Step};
+use crate::edit::points::{self, Naming, Renamed};
+use crate::edit::targets;
 use crate::format;
 use crate::i18n::text;
-
-/// Standard error of a place that was set by hand, in pixels.
-pub const BY_HAND_SIGMA: f64 = 0.5;
-/// How far a name follows its target when the photo is measured again, in pixels.
-const FOLLOW: f64 = 2.0;
 
 /// Marks of an earlier measurement, waiting to be taken.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,93 +23,6 @@ pub struct Marks {
     pub file: String,
     pub marks: Vec<Mark>,
     pub radius: f64,
-}
-
-impl Document {
-    /// Targets of all photos, as matching takes them.
-    pub fn photo_targets(&self) -> Vec<PhotoTargets> {
-        let of = |(photo, detection): (&String, &Arc<Detection>)| PhotoTargets {
-            photo: photo.clone(),
-            targets: detection.targets.clone(),
-        };
-        self.detections.iter().map(of).collect()
-    }
-
-    /// Takes a new detection of a photo: names follow their targets, codes name the rest.
-    pub fn take_detection(&mut self, photo: &str, detection: Detection) {
-        let new = [PhotoTargets { photo: photo.to_owned(), targets: detection.targets.clone() }];
-        let old = self.detections.get(photo).cloned();
-        let (before, others): (Vec<_>, Vec<_>) =
-            self.project.observations.iter().cloned().partition(|o: &Observation| o.photo == photo);
-        let coded = name_coded(&new);
-        let mut doubtful = (*self.doubtful).clone();
-        doubtful.retain(|d| d.photo != photo);
-        doubtful.extend(coded.doubtful);
-        self.doubtful = Arc::new(doubtful);
-        let project = self.project_mut();
-        let marks = before.iter().map(|o| Mark {
-            photo: photo.to_owned(),
-            point: o.point.clone(),
-            u: o.u,
-            v: o.v,
-            sigma: o.sigma.both()[0],
-        });
-        let snapped = snap(&marks.collect::<Vec<_>>(), &new, FOLLOW);
-        let mut now = coded.observations;
-        let named = now.iter().map(|o| (o.point.clone(), place(o.u, o.v))).collect::<Vec<_>>();
-        let free = |o: &Observation| !named.iter().any(|(point, at)| *point == o.point || *at == place(o.u, o.v));
-        now.extend(snapped.observations.into_iter().filter(free));
-        let was_target = |o: &Observation| {
-            old.as_ref().is_some_and(|d| d.targets.iter().any(|t| place(t.u, t.v) == place(o.u, o.v)))
-        };
-        let still_here = now.iter().map(|o| o.point.clone()).collect::<BTreeSet<_>>();
-        now.extend(before.iter().filter(|o| !still_here.contains(&o.point) && !was_target(o)).cloned());
-        for observation in &mut now {
-            if let Some(earlier) = before.iter().find(|o| o.point == observation.point) {
-                observation.enabled = earlier.enabled;
-            }
-        }
-        project.observations = others;
-        project.observations.append(&mut now);
-        tidy_points(project);
-        self.detections_mut().insert(photo.to_owned(), Arc::new(detection));
-    }
-
-    /// Names a target, a place or an earlier observation of a photo.
-    fn observe(&mut self, observation: Observation) {
-        let project = self.project_mut();
-        let same = |o: &Observation| {
-            o.photo == observation.photo
-                && (o.point == observation.point || place(o.u, o.v) == place(observation.u, observation.v))
-        };
-        project.observations.retain(|o| !same(o));
-        project.observations.push(observation);
-        tidy_points(project);
-    }
-}
-
-/// A place as something that can be compared: names belong to exactly the centre they were given to.
-pub fn place(u: f64, v: f64) -> (u64, u64) {
-    (u.to_bits(), v.to_bits())
-}
-
-/// Every observed point is in the list; tie points that nothing observes and nothing names are not.
-fn tidy_points(project: &mut Project) {
-    let observed = project.observations.iter().map(|o| o.point.as_str()).collect::<BTreeSet<_>>();
-    let in_distance = |id: &str| project.distances.iter().any(|d| d.from == id || d.to == id);
-    let keep = |p: &Point| p.role != Role::Tie || observed.contains(p.id.as_str()) || in_distance(&p.id);
-    let mut points = project.points.iter().filter(|p| keep(p)).cloned().collect::<Vec<_>>();
-    let known = points.iter().map(|p| p.id.clone()).collect::<BTreeSet<_>>();
-    let new =
-        observed.iter().filter(|id| !known.contains(**id)).map(|id| Point { id: (*id).to_owned(), ..Point::default() });
-    let mut new = new.collect::<Vec<_>>();
-    new.sort_by(|a, b| super::intake::natural(&a.id, &b.id));
-    points.extend(new);
-    project.points = points;
-}
-
-fn sigma_of(target: &Target) -> Sigma {
-    Sigma::Two([target.sigma_u, target.sigma_v])
 }
 
 impl Desk {
@@ -133,7 +42,7 @@ impl Desk {
         });
         self.selection.update(|s| {
             s.point = Some(point.to_owned());
-            s.target = None;
+            (s.target, s.spot) = (None, None);
             if let Some(observation) = &place {
                 s.photo = Some(observation.photo.clone());
             }
@@ -146,7 +55,7 @@ impl Desk {
         self.selection.update(|s| {
             s.photo = Some(photo.to_owned());
             s.point = Some(point.to_owned());
-            s.target = None;
+            (s.target, s.spot) = (None, None);
         });
         let place = self.document.with_untracked(|d| {
             let here = |o: &&Observation| o.photo == photo && o.point == point;
@@ -155,48 +64,76 @@ impl Desk {
         self.centre_on.set(place);
     }
 
-    /// Gives the selected target of the photo a name.
-    pub fn name_target(self, photo: &str, target: usize, point: &str) {
-        let point = point.trim().to_owned();
-        let found =
-            self.document.with_untracked(|d| d.detections.get(photo).and_then(|d| d.targets.get(target).cloned()));
-        let (Some(target), false) = (found, point.is_empty()) else { return };
-        let photo = photo.to_owned();
-        let sigma = sigma_of(&target);
-        self.change(Change::Named(point.clone()), |document| {
-            document.observe(Observation {
-                photo,
-                point: point.clone(),
-                u: target.u,
-                v: target.v,
-                sigma,
-                enabled: true,
-            });
+    /// What a click in the photo means: the target there with the name it has, else an observation that lies on no target.
+    pub fn choose_in_photo(self, photo: &str, target: Option<usize>, point: Option<String>) {
+        self.selection.update(|s| {
+            s.photo = Some(photo.to_owned());
+            (s.target, s.point, s.spot) = (target, point, None);
         });
-        self.selection.update(|s| s.point = Some(point));
     }
 
-    /// Leaves the chosen target without a name.
-    pub fn ask_no_more(self) {
-        if self.selection.with_untracked(|s| s.target.is_some()) {
-            self.selection.update(|s| s.target = None);
+    /// Chooses a place of the photo that has no target, to be named.
+    pub fn choose_spot(self, photo: &str, spot: [f64; 2]) {
+        self.selection.update(|s| {
+            s.photo = Some(photo.to_owned());
+            (s.target, s.point, s.spot) = (None, None, Some(spot));
+        });
+    }
+
+    /// Gives a place of the photo a name: a target's centre, or a place set by hand.
+    pub fn name_place(self, photo: &str, asked: Asked, point: &str) {
+        let point = point.trim().to_owned();
+        let found = match asked {
+            Asked::Target(target) => self.document.with_untracked(|d| {
+                let target = d.detections.get(photo)?.targets.get(target)?;
+                Some(([target.u, target.v], Sigma::Two([target.sigma_u, target.sigma_v])))
+            }),
+            Asked::Spot(spot) => Some((spot, Sigma::One(points::BY_HAND_SIGMA))),
+        };
+        let (Some(([u, v], sigma)), false) = (found, point.is_empty()) else { return };
+        let observation = Observation { photo: photo.to_owned(), point: point.clone(), u, v, sigma, enabled: true };
+        let mut naming = Naming::default();
+        self.change(Change::Named(point.clone()), |d| naming = points::observe(d.project_mut(), observation));
+        self.selection.update(|s| (s.point, s.spot) = (Some(point.clone()), None));
+        self.tell_naming(photo, &point, naming, matches!(asked, Asked::Spot(_)));
+    }
+
+    fn tell_naming(self, photo: &str, point: &str, naming: Naming, by_hand: bool) {
+        let (photo, point) = (photo.to_owned(), point.to_owned());
+        match naming {
+            Naming { before: Some(before), .. } => {
+                self.tell_here(move || text::name_taken_from(&before, &photo, &point));
+            }
+            Naming { elsewhere: true, .. } => self.tell_here(move || text::name_moved(&point, &photo)),
+            _ if by_hand => self.tell_here(|| text::placed_by_hand().to_owned()),
+            _ => {}
         }
     }
 
-    /// Measures at a place of the photo; where there is nothing to measure, the place itself is taken.
+    /// Leaves the chosen target or place without a name.
+    pub fn ask_no_more(self) {
+        if self.selection.with_untracked(|s| s.point.is_none() && (s.target.is_some() || s.spot.is_some())) {
+            self.selection.update(|s| (s.target, s.spot) = (None, None));
+        }
+    }
+
+    /// Measures at a place of the photo; where there is nothing to measure, says how to place a point freely.
     pub fn measure_at(self, photo: &str, u: f64, v: f64) {
         let file = self.files.with_untracked(|f| f.get(photo).map(|f| (f.content.clone(), f.digest)));
         let Some((file, digest)) = file else {
-            self.warn(|| text::no_photo_files().to_owned());
+            self.warn_here(|| text::no_photo_files().to_owned());
             return;
         };
-        let options = self.detect_options.get_untracked();
+        let mut options = self.detect_options.get_untracked();
+        // One ring may be a code of several families: its name is known only where the family is.
+        if options.codes == Codes::Auto {
+            options.codes = Codes::None;
+        }
         let photo = photo.to_owned();
         let on_outcome = move |outcome: Outcome<Measure>| match outcome {
             Outcome::Done(Some(target), _) => self.add_target(&photo, target),
             Outcome::Done(None, _) => {
-                self.tell(|| text::placed_by_hand().to_owned());
-                self.add_by_hand(&photo, u, v);
+                self.tell_here(|| text::nothing_to_measure().to_owned());
             }
             Outcome::Failed(failure) => self.tell_failure(failure),
             Outcome::Progress(nothing) => match nothing {},
@@ -204,144 +141,104 @@ impl Desk {
         self.pool.with_value(|pool| pool.submit_first(Measure { digest, u, v, options }, vec![file], on_outcome));
     }
 
-    /// A target measured on request joins the photo's list and is chosen, to be named.
+    /// A target measured on request joins the photo's list and is chosen: with its code for a name, or to be named.
     fn add_target(self, photo: &str, target: Target) {
-        let mut at = 0;
+        let code = target.code.map(|code| code.to_string());
+        let (mut at, mut point) = (0, None);
         self.change(Change::TargetMeasured(photo.to_owned()), |document| {
-            let detections = document.detections_mut();
-            let mut detection = detections.get(photo).map(|d| (**d).clone()).unwrap_or_default();
-            let same = |t: &Target| (t.u - target.u).hypot(t.v - target.v) < 0.5;
-            at = detection.targets.iter().position(same).unwrap_or(detection.targets.len());
-            if at == detection.targets.len() {
-                detection.targets.push(target);
+            let (u, v, sigma) = (target.u, target.v, Sigma::Two([target.sigma_u, target.sigma_v]));
+            at = targets::add(document, photo, target);
+            let project = document.project_mut();
+            point = points::observation_at(project, photo, u, v).map(|o| o.point.clone());
+            let free = |code: &String| !project.observations.iter().any(|o| o.photo == photo && o.point == *code);
+            if let (None, Some(code)) = (&point, code.filter(free)) {
+                let observation =
+                    Observation { photo: photo.to_owned(), point: code.clone(), u, v, sigma, enabled: true };
+                points::observe(project, observation);
+                point = Some(code);
             }
-            detections.insert(photo.to_owned(), Arc::new(detection));
         });
-        self.selection.update(|s| {
-            s.photo = Some(photo.to_owned());
-            s.target = Some(at);
-            s.point = None;
-        });
-    }
-
-    fn add_by_hand(self, photo: &str, u: f64, v: f64) {
-        let point = self.free_name();
-        let photo = photo.to_owned();
-        self.change(Change::Named(point.clone()), |document| {
-            document.observe(Observation {
-                photo,
-                point: point.clone(),
-                u,
-                v,
-                sigma: Sigma::One(BY_HAND_SIGMA),
-                enabled: true,
-            });
-        });
-        self.selection.update(|s| {
-            s.point = Some(point);
-            s.target = None;
-        });
+        self.choose_in_photo(photo, Some(at), point);
     }
 
     /// A point name that is not in use.
     pub fn free_name(self) -> String {
-        self.document.with_untracked(|d| {
-            let largest = d.project.points.iter().filter_map(|p| p.id.parse::<u64>().ok()).max().unwrap_or(0);
-            (largest.max(9000) + 1).to_string()
-        })
+        self.document.with_untracked(|d| points::free_name(&d.project))
     }
 
     /// Moves the chosen observation; its place is then by hand.
     pub fn nudge(self, step: [f64; 2]) {
         let Some(chosen) = untrack(|| self.chosen_observation()) else { return };
         let change = Change::Moved { point: chosen.point.clone(), photo: chosen.photo.clone() };
-        self.change(change, |document| {
-            let same = |o: &&mut Observation| o.photo == chosen.photo && o.point == chosen.point;
-            if let Some(observation) = document.project_mut().observations.iter_mut().find(same) {
-                observation.u += step[0];
-                observation.v += step[1];
-                observation.sigma = Sigma::One(BY_HAND_SIGMA);
-            }
+        self.change(change, |d| {
+            points::nudge(d.project_mut(), &chosen.photo, &chosen.point, step);
         });
     }
 
     /// Takes an observation away; the target stays, without a name.
     pub fn remove_observation(self, photo: &str, point: &str) {
         let change = Change::ObservationRemoved { point: point.to_owned(), photo: photo.to_owned() };
-        self.change(change, |document| {
-            let project = document.project_mut();
-            project.observations.retain(|o| o.photo != photo || o.point != point);
-            tidy_points(project);
-        });
+        self.change(change, |d| points::remove_observation(d.project_mut(), photo, point));
+        // A point goes with its last observation.
+        let gone = self.document.with_untracked(|d| !d.project.points.iter().any(|p| p.id == point));
+        if gone && self.selection.with_untracked(|s| s.point.as_deref() == Some(point)) {
+            self.selection.update(|s| s.point = None);
+            let point = point.to_owned();
+            self.tell_here(move || text::point_went(&point));
+        }
     }
 
     /// Lets an observation take part or not.
     pub fn switch_observation(self, photo: &str, point: &str, enabled: bool) {
         let change = Change::ObservationSwitched { point: point.to_owned(), photo: photo.to_owned() };
-        self.change(change, |document| {
-            for o in &mut document.project_mut().observations {
-                if o.photo == photo && o.point == point {
-                    o.enabled = enabled;
-                }
-            }
-        });
+        self.change(change, |d| points::switch_observation(d.project_mut(), photo, point, enabled));
     }
 
-    /// Gives a point another name; an existing name joins the two, unless a photo shows both.
-    pub fn rename_point(self, from: &str, to: &str) {
+    /// Gives a point another name; an existing name joins the two, unless a photo shows both. False when it is refused.
+    pub fn rename_point(self, from: &str, to: &str) -> bool {
         let to = to.trim().to_owned();
         if to.is_empty() || to == from {
-            return;
+            return to == from;
         }
-        let clash = self.document.with_untracked(|d| {
-            let photos = |id: &str| {
-                let of = d.project.observations.iter().filter(|o| o.point == id);
-                of.map(|o| o.photo.clone()).collect::<BTreeSet<_>>()
-            };
-            photos(from).intersection(&photos(&to)).next().cloned()
-        });
+        let clash = self.document.with_untracked(|d| points::shared_photo(&d.project, from, &to));
+        let from = from.to_owned();
         if let Some(photo) = clash {
-            let from = from.to_owned();
-            self.warn(move || text::both_in_photo(&from, &to, &photo));
-            return;
+            self.warn_here(move || text::both_in_photo(&from, &to, &photo));
+            return false;
         }
+        let mut renamed = None;
+        let change = Change::Renamed { from: from.clone(), to: to.clone() };
+        self.change(change, |d| renamed = points::rename(d.project_mut(), &from, &to).ok());
+        self.selection.update(|s| s.point = Some(to.clone()));
+        match renamed {
+            Some(Renamed::Joined { photos }) => {
+                self.tell_here(move || text::points_joined(&from, &to, format::count(photos)));
+            }
+            Some(Renamed::Alone { photos }) => {
+                self.tell_here(move || text::point_renamed(&from, &to, format::count(photos)));
+            }
+            None => {}
+        }
+        true
+    }
+
+    /// Gives what one photo shows of a point to another point. False when it is refused.
+    pub fn rename_in_photo(self, photo: &str, from: &str, to: &str) -> bool {
+        let to = to.trim().to_owned();
+        if to.is_empty() || to == from {
+            return to == from;
+        }
+        let mut naming = Naming::default();
         let change = Change::Renamed { from: from.to_owned(), to: to.clone() };
-        self.change(change, |document| {
-            let project = document.project_mut();
-            for o in project.observations.iter_mut().filter(|o| o.point == from) {
-                o.point = to.clone();
-            }
-            for d in &mut project.distances {
-                for end in [&mut d.from, &mut d.to] {
-                    if *end == from {
-                        *end = to.clone();
-                    }
-                }
-            }
-            if let Some(points) = &mut project.datum.points {
-                for id in points.iter_mut().filter(|id| *id == from) {
-                    *id = to.clone();
-                }
-            }
-            let exists = project.points.iter().any(|p| p.id == to);
-            if exists {
-                project.points.retain(|p| p.id != from);
-            } else if let Some(point) = project.points.iter_mut().find(|p| p.id == from) {
-                point.id = to.clone();
-            }
-            tidy_points(project);
-        });
-        self.selection.update(|s| s.point = Some(to));
+        self.change(change, |d| naming = points::rename_here(d.project_mut(), photo, from, &to));
+        self.selection.update(|s| s.point = Some(to.clone()));
+        self.tell_naming(photo, &to, naming, false);
+        true
     }
 
     /// Takes a point out of the project with its observations and distances.
     pub fn remove_point(self, id: &str) {
-        self.change(Change::PointRemoved(id.to_owned()), |document| {
-            let project = document.project_mut();
-            project.observations.retain(|o| o.point != id);
-            project.distances.retain(|d| d.from != id && d.to != id);
-            project.points.retain(|p| p.id != id);
-        });
+        self.change(Change::PointRemoved(id.to_owned()), |d| points::remove(d.project_mut(), id));
         self.selection.update(|s| s.point = None);
     }
 
@@ -349,63 +246,45 @@ impl Desk {
     pub fn take_matching(self, matching: Matching) {
         let found = matching.observations.len();
         let doubtful = matching.doubtful.len();
-        self.change(Change::Matched(found), |document| {
-            document.doubtful = Arc::new(matching.doubtful);
-            let project = document.project_mut();
-            let taken =
-                project.observations.iter().map(|o| (o.photo.clone(), o.point.clone())).collect::<BTreeSet<_>>();
-            let centres =
-                project.observations.iter().map(|o| (o.photo.clone(), place(o.u, o.v))).collect::<BTreeSet<_>>();
-            let new = |o: &Observation| {
-                !taken.contains(&(o.photo.clone(), o.point.clone()))
-                    && !centres.contains(&(o.photo.clone(), place(o.u, o.v)))
-            };
-            project.observations.extend(matching.observations.into_iter().filter(new));
-            for point in matching.points {
-                if !project.points.iter().any(|p| p.id == point.id) {
-                    project.points.push(Point { xyz: None, ..point });
-                }
-            }
-            tidy_points(project);
-        });
+        self.change(Change::Matched(found), |document| targets::take_matching(document, matching));
         self.tell(move || text::matched(format::count(found), format::count(doubtful)));
     }
 
-    /// Reads a file of marks and shows what they would become.
-    pub fn read_marks(self, file: String, content: &str) {
+    /// Reads a file of marks, to be looked at before they are taken; whether there are any.
+    pub fn read_marks(self, file: String, content: &str) -> bool {
         match mark_points::parse(content) {
             Ok(marks) => {
                 self.marks.set(Some(Marks { file, marks, radius: 5.0 }));
-                self.go(Step::Identities);
+                true
             }
-            Err(error) => self.warn_error(error.in_file(&file)),
+            Err(error) => {
+                self.warn_error(error.in_file(&file));
+                false
+            }
         }
     }
 
     /// What the marks snap to at the radius that is set.
     pub fn snapped(self) -> Option<(Marks, Snapped)> {
         let marks = self.marks.get()?;
-        let snapped = self.document.with(|d| snap(&marks.marks, &d.photo_targets(), marks.radius));
+        let snapped = self.document.with(|d| snap(&marks.marks, &targets::by_photo(d), marks.radius));
         Some((marks, snapped))
     }
 
     /// Takes the marks that snapped as observations of the measured centres.
     pub fn take_marks(self, snapped: &Snapped) {
-        let mut taken = BTreeMap::<(String, String), Observation>::new();
-        for o in &snapped.observations {
-            taken.insert((o.photo.clone(), o.point.clone()), o.clone());
-        }
-        let centres = taken.values().map(|o| (o.photo.clone(), place(o.u, o.v))).collect::<BTreeSet<_>>();
-        self.change(Change::MarksTaken(taken.len()), |document| {
-            let project = document.project_mut();
-            let replaced = |o: &Observation| {
-                taken.contains_key(&(o.photo.clone(), o.point.clone()))
-                    || centres.contains(&(o.photo.clone(), place(o.u, o.v)))
-            };
-            project.observations.retain(|o| !replaced(o));
-            project.observations.extend(taken.into_values());
-            tidy_points(project);
+        let places = snapped.observations.iter().map(|o| (&o.photo, &o.point)).collect::<BTreeSet<_>>();
+        self.change(Change::MarksTaken(places.len()), |d| {
+            targets::take_marks(d.project_mut(), snapped);
         });
         self.marks.set(None);
     }
+}
+
+/// A place of a photo that is asked a name for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Asked {
+    /// By its place in the photo's list of targets.
+    Target(usize),
+    Spot([f64; 2]),
 }

@@ -1,7 +1,6 @@
 //! Files that come in: photos are looked into by the workers, and what cannot be used is named while the rest goes on.
 
 use std::cell::RefCell;
-use std::cmp::Ordering;
 use std::rc::Rc;
 
 use leptos::prelude::*;
@@ -9,13 +8,14 @@ use leptos::task::spawn_local;
 use sightline::project::{Photo, Project};
 use sightline_protocol::Open;
 
-use super::cameras::{self, Signature};
 use super::document::Change;
 use super::pool::{Failure, Outcome};
 use super::saving::{is_project, is_text};
-use super::{Desk, JobKind, PhotoFile, Problem, Reason, Step};
+use super::{Desk, JobKind, PhotoFile, Problem, Reason, Step, Until};
 use crate::browser::file::NamedFile;
 use crate::browser::picture::Picture;
+use crate::edit::cameras::{self, Signature};
+use crate::edit::natural;
 use crate::i18n::text;
 
 /// Longest side of the small pictures, sharp on twice as dense screens.
@@ -30,7 +30,7 @@ impl Desk {
             return;
         }
         if self.job.with_untracked(Option::is_some) {
-            self.warn(|| text::busy().to_owned());
+            self.say(true, Until::WorkEnds, || text::busy().to_owned());
             return;
         }
         let (mut projects, others): (Vec<_>, Vec<_>) = files.into_iter().partition(|f| is_project(&f.name));
@@ -38,38 +38,46 @@ impl Desk {
             self.open_project(project);
             return;
         }
-        let (mut texts, photos): (Vec<_>, Vec<_>) = others.into_iter().partition(|f| is_text(&f.name));
-        if !photos.is_empty() {
-            self.take_photos(photos);
-        }
-        if texts.is_empty() {
-            return;
-        }
-        if matches!(self.step.get_untracked(), Step::Control | Step::Identities) {
-            if let Some(text) = texts.pop() {
-                self.take_text(text);
-            }
+        let (texts, photos): (Vec<_>, Vec<_>) = others.into_iter().partition(|f| is_text(&f.name));
+        self.problems.set(Vec::new());
+        let (empty, texts): (Vec<_>, Vec<_>) = texts.into_iter().partition(|f| f.content.is_empty());
+        self.add_problems(empty.into_iter().map(|f| Problem { file: f.name, reason: Reason::Empty }).collect());
+        if photos.is_empty() {
+            self.take_texts(texts, false);
         } else {
-            self.take_plates(texts);
+            self.take_photos(photos, texts);
         }
     }
 
-    fn take_photos(self, mut files: Vec<NamedFile>) {
+    /// Lists files that were not taken.
+    pub(super) fn add_problems(self, new: Vec<Problem>) {
+        if new.is_empty() {
+            return;
+        }
+        self.problems.update(|problems| {
+            problems.extend(new);
+            problems.dedup();
+        });
+    }
+
+    /// Takes photos, then the texts that came with them.
+    fn take_photos(self, mut files: Vec<NamedFile>, texts: Vec<NamedFile>) {
         files.sort_by(|a, b| natural(&a.name, &b.name));
         let taken = Taken::default();
         let keep = taken.clone();
         let batch = self.start_job(JobKind::Opening, files.len(), move || self.add_photos(&keep));
         for (place, file) in files.into_iter().enumerate() {
-            let taken = taken.clone();
+            let (taken, texts) = (taken.clone(), texts.clone());
             let content = file.content.clone();
             let on_outcome = move |outcome: Outcome<Open>| {
-                let (file, taken) = (file.clone(), taken.clone());
+                let (file, taken, texts) = (file.clone(), taken.clone(), texts.clone());
                 spawn_local(async move {
                     let result = look_into(file, outcome).await;
                     taken.borrow_mut().push((place, result));
                     if self.step_job(batch) {
                         self.end_job();
                         self.add_photos(&taken);
+                        self.take_texts(texts, true);
                     }
                 });
             };
@@ -128,8 +136,9 @@ impl Desk {
                 self.select_photo(&photo.id);
             }
         });
+        // Where nothing could be taken the start page stays, and says why.
         let empty = self.document.with_untracked(|d| d.project.photos.is_empty());
-        if self.step.get_untracked() == Step::Start && !(empty && self.problems.with_untracked(Vec::is_empty)) {
+        if self.step.get_untracked() == Step::Start && !empty {
             self.go(Step::Photos);
         }
     }
@@ -144,30 +153,13 @@ impl Desk {
 
     fn add_photo(self, project: &mut Project, file: &PhotoFile) -> String {
         let signature = Signature::of(&file.name, &file.info, file.size);
-        let shares = |photo: &&Photo| {
-            self.files.with_untracked(|files| {
+        let shares = self.files.with_untracked(|files| {
+            let shares = |photo: &&Photo| {
                 files.get(&photo.id).is_some_and(|f| Signature::of(&f.name, &f.info, f.size) == signature)
-            })
-        };
-        let camera = match project.photos.iter().rev().find(shares) {
-            Some(photo) => photo.camera.clone(),
-            None => {
-                let camera = cameras::camera(&signature, &file.info, project);
-                let id = camera.id.clone();
-                project.cameras.push(camera);
-                id
-            }
-        };
-        let largest = project.photos.iter().filter_map(|p| p.id.parse::<u32>().ok()).max().unwrap_or(0);
-        let id = (largest + 1).to_string();
-        project.photos.push(Photo {
-            id: id.clone(),
-            camera,
-            file: file.name.clone(),
-            enabled: true,
-            ..Photo::default()
+            };
+            project.photos.iter().rev().find(shares).map(|photo| photo.id.clone())
         });
-        id
+        cameras::add_photo(project, &file.name, &file.info, file.size, shares.as_deref())
     }
 }
 
@@ -175,6 +167,7 @@ async fn look_into(file: NamedFile, outcome: Outcome<Open>) -> Result<PhotoFile,
     let NamedFile { name, content } = file;
     let failed = |reason| Problem { file: name.clone(), reason };
     match outcome {
+        Outcome::Failed(Failure::Refused(_)) if content.is_empty() => Err(failed(Reason::Empty)),
         Outcome::Done(opened, bytes) => {
             let bytes = bytes.into_iter().next().ok_or_else(|| failed(Reason::Unreadable(String::new())))?;
             let small = Picture::from_rgba(bytes, opened.small[0], opened.small[1]).await;
@@ -184,48 +177,5 @@ async fn look_into(file: NamedFile, outcome: Outcome<Open>) -> Result<PhotoFile,
         Outcome::Failed(Failure::Refused(error)) => Err(failed(Reason::Engine(error))),
         Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => Err(failed(Reason::Unreadable(detail))),
         Outcome::Progress(nothing) => match nothing {},
-    }
-}
-
-/// Order of names in which numbers count as numbers.
-pub fn natural(a: &str, b: &str) -> Ordering {
-    let (mut a, mut b) = (a.chars().peekable(), b.chars().peekable());
-    loop {
-        match (a.peek().copied(), b.peek().copied()) {
-            (None, None) => return Ordering::Equal,
-            (None, _) => return Ordering::Less,
-            (_, None) => return Ordering::Greater,
-            (Some(x), Some(y)) if x.is_ascii_digit() && y.is_ascii_digit() => {
-                let number = |chars: &mut std::iter::Peekable<std::str::Chars<'_>>| {
-                    let mut digits = String::new();
-                    while let Some(digit) = chars.next_if(char::is_ascii_digit) {
-                        digits.push(digit);
-                    }
-                    let digits = digits.trim_start_matches('0').to_owned();
-                    (digits.len(), digits)
-                };
-                match number(&mut a).cmp(&number(&mut b)) {
-                    Ordering::Equal => {}
-                    unequal => return unequal,
-                }
-            }
-            (Some(x), Some(y)) if x == y => {
-                a.next();
-                b.next();
-            }
-            (Some(x), Some(y)) => return x.cmp(&y),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_in_names_count_as_numbers() {
-        let mut names = ["IMG_10.jpg", "IMG_9.jpg", "IMG_009b.jpg", "A.jpg", "IMG_1.jpg"];
-        names.sort_by(|a, b| natural(a, b));
-        assert_eq!(names, ["A.jpg", "IMG_1.jpg", "IMG_9.jpg", "IMG_009b.jpg", "IMG_10.jpg"]);
     }
 }

@@ -13,6 +13,7 @@ pub mod plates;
 pub mod pool;
 pub mod sample;
 pub mod saving;
+pub mod texts;
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -28,7 +29,7 @@ use sightline::orient::Note;
 use crate::browser::file::Blob;
 use crate::browser::page;
 use crate::browser::picture::Picture;
-use crate::i18n::{errors, text};
+use crate::i18n::{Text, errors, text};
 use control::Pasted;
 use document::{Change, Document, History};
 use experiments::Experiments;
@@ -108,6 +109,8 @@ pub struct Selection {
     pub point: Option<String>,
     /// Place in the photo's list of targets.
     pub target: Option<usize>,
+    /// A place in the photo that is no target, waiting for a name.
+    pub spot: Option<[f64; 2]>,
 }
 
 /// Work under way, in the one action slot.
@@ -162,13 +165,41 @@ pub enum Reason {
     Duplicate { of: String },
     /// The browser could not read it, or its worker was lost.
     Unreadable(String),
+    /// There is nothing in it.
+    Empty,
+    /// It is a text, but no list of anything that is read here.
+    NoList,
 }
 
-/// Something to tell, in whatever language is in use when it is read.
+/// A question that something waits for; cancelling it is always possible.
+#[derive(Clone)]
+pub struct Asking {
+    pub text: Rc<dyn Fn() -> String>,
+    /// What can be chosen, the most likely first.
+    pub choices: Vec<(Text, Rc<dyn Fn()>)>,
+}
+
+/// Something to tell, in whatever language is in use when it is read. It goes when its cause goes.
 #[derive(Clone)]
 pub struct Notice {
     pub warning: bool,
     pub text: Arc<dyn Fn() -> String + Send + Sync>,
+    until: Until,
+    /// The document, step and photo that it was told of.
+    of: (Document, Step, Option<String>),
+}
+
+/// How long there is reason to tell something; new work ends it in any case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Until {
+    /// It is of what was done last, and stays until something else is done.
+    NextWork,
+    /// It is of the document as it was.
+    Document,
+    /// It is of what is in sight: the document, the step and the photo.
+    Sight,
+    /// It is of the work under way.
+    WorkEnds,
 }
 
 /// The desk: signals of everything it knows. Copy it wherever it is needed.
@@ -183,6 +214,8 @@ pub struct Desk {
     pub cursor: RwSignal<Option<[f64; 2]>>,
     /// A place in the photo that the photo view should show.
     pub centre_on: RwSignal<Option<[f64; 2]>>,
+    /// Whether clicks in a photo place points freely, as with Alt.
+    pub placing: RwSignal<bool>,
     pub detect_options: RwSignal<DetectOptions>,
     /// Iterations of the adjustment under way or done last.
     pub iterations: RwSignal<Vec<Iteration>>,
@@ -198,6 +231,9 @@ pub struct Desk {
     pictures: RwSignal<Vec<pictures::Shown>, LocalStorage>,
     pub problems: RwSignal<Vec<Problem>>,
     pub notice: RwSignal<Option<Notice>>,
+    pub asking: RwSignal<Option<Asking>, LocalStorage>,
+    /// The document as it came, where nobody has worked on it: a sample, an experiment.
+    pristine: RwSignal<Option<Document>>,
     /// When the document was saved last, and as what.
     pub saved: RwSignal<Option<(String, Document)>>,
     pub job: RwSignal<Option<Job>, LocalStorage>,
@@ -222,6 +258,7 @@ impl Desk {
             selection: RwSignal::default(),
             cursor: RwSignal::default(),
             centre_on: RwSignal::default(),
+            placing: RwSignal::default(),
             // Whoever has coded targets expects them to be read; photos without rings are the same either way.
             detect_options: RwSignal::new(DetectOptions { codes: Codes::Auto, ..DetectOptions::default() }),
             iterations: RwSignal::default(),
@@ -233,6 +270,8 @@ impl Desk {
             pictures: RwSignal::new_local(Vec::new()),
             problems: RwSignal::default(),
             notice: RwSignal::default(),
+            asking: RwSignal::new_local(None),
+            pristine: RwSignal::default(),
             saved: RwSignal::default(),
             job: RwSignal::new_local(None),
             pool: StoredValue::new_local(Pool::default()),
@@ -304,14 +343,51 @@ impl Desk {
         self.theme.set(theme);
     }
 
-    /// Tells something until it is dismissed or something newer is told.
+    /// Tells something of the document as it is.
     pub fn tell(self, text: impl Fn() -> String + Send + Sync + 'static) {
-        self.notice.set(Some(Notice { warning: false, text: Arc::new(text) }));
+        self.say(false, Until::Document, text);
     }
 
-    /// Tells what went wrong.
+    /// Tells something of what is in sight.
+    pub fn tell_here(self, text: impl Fn() -> String + Send + Sync + 'static) {
+        self.say(false, Until::Sight, text);
+    }
+
+    /// Tells what is wrong with the document as it is.
     pub fn warn(self, text: impl Fn() -> String + Send + Sync + 'static) {
-        self.notice.set(Some(Notice { warning: true, text: Arc::new(text) }));
+        self.say(true, Until::Document, text);
+    }
+
+    /// Tells what is wrong with what was typed or pointed at.
+    pub fn warn_here(self, text: impl Fn() -> String + Send + Sync + 'static) {
+        self.say(true, Until::Sight, text);
+    }
+
+    /// Tells something until there is no reason to any more, until it is dismissed or until something newer is told.
+    pub fn say(self, warning: bool, until: Until, text: impl Fn() -> String + Send + Sync + 'static) {
+        let of = untrack(|| self.in_sight());
+        self.notice.set(Some(Notice { warning, text: Arc::new(text), until, of }));
+    }
+
+    fn in_sight(self) -> (Document, Step, Option<String>) {
+        (self.document.get(), self.step.get(), self.selection.with(|s| s.photo.clone()))
+    }
+
+    /// Takes the notice away when its cause is gone; to be run whenever something changes.
+    pub fn drop_stale_notice(self) {
+        let (document, step, photo) = self.in_sight();
+        let busy = self.job.with(Option::is_some);
+        let stale = self.notice.with_untracked(|notice| {
+            notice.as_ref().is_some_and(|notice| match notice.until {
+                Until::NextWork => false,
+                Until::Document => !document.same(&notice.of.0),
+                Until::Sight => !document.same(&notice.of.0) || (step, &photo) != (notice.of.1, &notice.of.2),
+                Until::WorkEnds => !busy,
+            })
+        });
+        if stale {
+            self.notice.set(None);
+        }
     }
 
     pub fn warn_error(self, error: Error) {
@@ -319,12 +395,13 @@ impl Desk {
     }
 
     pub fn warn_crash(self, detail: String) {
-        self.warn(move || text::worker_lost(&detail));
+        self.say(true, Until::NextWork, move || text::worker_lost(&detail));
     }
 
     /// Takes the action slot for long work.
     fn start_job(self, kind: JobKind, total: usize, keep: impl Fn() + 'static) -> Batch {
         let batch = self.pool.with_value(Pool::batch);
+        self.notice.set(None);
         self.job.set(Some(Job { kind, done: 0, total, batch, keep: Rc::new(keep) }));
         batch
     }
@@ -365,9 +442,10 @@ impl Desk {
 
     /// Takes back what is chosen or asked.
     pub fn escape(self) {
+        self.asking.set(None);
         self.selection.update(|s| {
             s.point = None;
-            s.target = None;
+            (s.target, s.spot) = (None, None);
         });
     }
 
@@ -388,7 +466,7 @@ impl Desk {
         self.selection.update(|s| {
             if s.photo.as_deref() != Some(photo) {
                 s.photo = Some(photo.to_owned());
-                s.target = None;
+                (s.target, s.spot) = (None, None);
             }
         });
     }

@@ -4,8 +4,8 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline_protocol::{ShowPhoto, Shown as Decoded};
 
-use super::Desk;
 use super::pool::{Failure, Outcome};
+use super::{Desk, Until};
 use crate::browser::picture::Picture;
 use crate::i18n::{errors, text};
 
@@ -53,17 +53,18 @@ impl Desk {
                                 shown.picture = Some(picture);
                             }
                         }),
-                        Err(detail) => self.warn(move || text::photo_failed(&photo, text::unreadable(&detail))),
+                        Err(detail) => self
+                            .say(true, Until::NextWork, move || text::photo_failed(&photo, text::unreadable(&detail))),
                     }
                 });
             }
             Outcome::Failed(Failure::Refused(error)) => {
                 let photo = photo.clone();
-                self.warn(move || text::photo_failed(&photo, errors::sentence(&error)));
+                self.say(true, Until::NextWork, move || text::photo_failed(&photo, errors::sentence(&error)));
             }
             Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => {
                 let photo = photo.clone();
-                self.warn(move || text::photo_failed(&photo, text::unreadable(&detail)));
+                self.say(true, Until::NextWork, move || text::photo_failed(&photo, text::unreadable(&detail)));
             }
             Outcome::Progress(nothing) => match nothing {},
         };

@@ -12,7 +12,7 @@ use sightline::film::comparator::Upwards;
 
 use super::{Desk, Step};
 use crate::browser::file::NamedFile;
-use crate::i18n::{experiments as words, text};
+use crate::i18n::experiments as words;
 
 /// Plates of one's own.
 #[derive(Clone, Copy, Default)]
@@ -24,37 +24,15 @@ pub struct Plates {
 }
 
 impl Desk {
-    /// Text files that were opened outside the steps that read some: plates, where they describe fiducial marks.
-    pub fn take_plates(self, files: Vec<NamedFile>) {
-        spawn_local(async move {
-            let names = files.iter().map(|file| file.name.clone()).collect::<Vec<_>>().join(", ");
-            let Some(all) = self.contents(files).await else { return };
-            if !comparator::recognises(&all) {
-                return self.warn(move || text::which_text(&names));
+    /// Texts that describe fiducial marks: plates.
+    pub(super) fn take_plates(self, files: &Files) {
+        match comparator::import(files) {
+            Ok(reduced) => {
+                self.experiments.plates.outcome.set(Some(Ok(Arc::new(reduced))));
+                self.open_plates();
             }
-            match comparator::import(&all) {
-                Ok(reduced) => {
-                    self.experiments.plates.outcome.set(Some(Ok(Arc::new(reduced))));
-                    self.open_plates();
-                }
-                Err(error) => self.warn_error(error),
-            }
-        });
-    }
-
-    /// Names and contents; none, and said so, where the browser cannot read one.
-    async fn contents(self, files: Vec<NamedFile>) -> Option<Files> {
-        let mut all = Files::new();
-        for file in files {
-            match file.content.read().await {
-                Ok(bytes) => all.insert(file.name, bytes),
-                Err(detail) => {
-                    self.warn(move || text::unreadable(&detail));
-                    return None;
-                }
-            };
+            Err(error) => self.warn_error(error),
         }
-        Some(all)
     }
 
     /// Reads files of readings, and whatever description comes with them, and carries them onto the fiducial marks.
@@ -85,10 +63,12 @@ impl Desk {
     /// Puts the reduced plates on the desk as a project.
     pub fn open_plates(self) {
         if let Some(Ok(reduced)) = self.experiments.plates.outcome.get_untracked() {
-            let mut project = reduced.project.clone();
-            project.name = words::plates().to_owned();
-            self.put_project(project);
-            self.go(Step::Adjust);
+            self.over_unsaved(move || {
+                let mut project = reduced.project.clone();
+                project.name = words::plates().to_owned();
+                self.put_project(project);
+                self.go(Step::Adjust);
+            });
         }
     }
 }

@@ -17,6 +17,7 @@ use super::{Desk, JobKind, PhotoFile, Selection, Step};
 use crate::browser::file::Blob;
 use crate::browser::picture::Picture;
 use crate::browser::worker::Bytes;
+use crate::edit::targets;
 use crate::i18n::text;
 
 type Made = Rc<RefCell<BTreeMap<String, (PhotoFile, Detection)>>>;
@@ -24,6 +25,11 @@ type Made = Rc<RefCell<BTreeMap<String, (PhotoFile, Detection)>>>;
 impl Desk {
     /// Opens the sample project and adjusts it; the project that was open can be got back by undoing.
     pub fn open_sample(self) {
+        self.over_unsaved(move || self.plan_sample());
+    }
+
+    /// Has the sample's project made.
+    fn plan_sample(self) {
         let batch = self.start_job(JobKind::Sample, 1, || {});
         let on_outcome = move |outcome: Outcome<Sample>| match outcome {
             Outcome::Done(project, _) => {
@@ -85,7 +91,7 @@ impl Desk {
         for (id, name) in photos {
             if let Some((file, detection)) = made.get(&name) {
                 files.insert(id.clone(), file.clone());
-                document.take_detection(&id, detection.clone());
+                targets::take_detection(&mut document, &id, detection.clone());
             }
         }
         self.change(Change::Opened, |d| *d = document);

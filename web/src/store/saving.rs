@@ -1,21 +1,21 @@
 //! Project files: saving, opening, exporting, and the sample project.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use leptos::task::spawn_local;
 use sightline::detection::Detection;
 use sightline::exchange::encoding;
 use sightline_protocol::{Content, Export, Pack, Unpack, Unpacked};
 
 use super::document::{self, Change, Document};
 use super::pool::{Failure, Outcome};
-use super::{Desk, JobKind, Step};
+use super::{Asking, Desk, JobKind, Step, Until};
 use crate::browser::file::{self, Blob, NamedFile};
 use crate::browser::page;
 use crate::browser::worker::Bytes;
-use crate::i18n::text;
+use crate::i18n::{Text, text};
 
 /// Ending of project files.
 pub const EXTENSION: &str = "sightline";
@@ -33,33 +33,12 @@ pub fn is_text(name: &str) -> bool {
 }
 
 impl Desk {
-    /// Reads a text file and hands it on with its name.
-    pub fn read_text(self, file: NamedFile, then: fn(Self, String, &str)) {
-        spawn_local(async move {
-            match file.content.read().await {
-                Ok(bytes) => match encoding::text(&bytes) {
-                    Ok(text) => then(self, file.name, &text),
-                    Err(error) => self.warn_error(error.in_file(&file.name)),
-                },
-                Err(detail) => self.warn(move || text::unreadable(&detail)),
-            }
-        });
-    }
-
-    /// A text file dropped on the page belongs to the step that is open.
-    pub fn take_text(self, file: NamedFile) {
-        match self.step.get_untracked() {
-            Step::Control => self.read_text(file, Self::read_control),
-            Step::Identities => self.read_text(file, Self::read_marks),
-            _ => {
-                let name = file.name;
-                self.warn(move || text::which_text(&name));
-            }
-        }
-    }
-
     /// Writes the project file and hands it over; the photos go along on request.
     pub fn save(self, with_photos: bool) {
+        self.save_then(with_photos, Rc::new(|| ()));
+    }
+
+    fn save_then(self, with_photos: bool, then: Rc<dyn Fn()>) {
         let document = self.document.get_untracked();
         let mut names = Vec::new();
         let mut files = Vec::new();
@@ -82,8 +61,11 @@ impl Desk {
                     let name = format!("{}.{EXTENSION}", file_stem(&document.project.name));
                     let packed = bytes.first().map(Bytes::to_vec).unwrap_or_default();
                     match file::download(&name, "application/zip", &packed) {
-                        Ok(()) => self.saved.set(Some((page::clock(), document.clone()))),
-                        Err(detail) => self.warn(move || text::cannot_save(&detail)),
+                        Ok(()) => {
+                            self.saved.set(Some((page::clock(), document.clone())));
+                            then();
+                        }
+                        Err(detail) => self.say(true, Until::NextWork, move || text::cannot_save(&detail)),
                     }
                 }
                 Outcome::Failed(failure) => self.tell_failure(failure),
@@ -101,8 +83,33 @@ impl Desk {
         }
     }
 
+    /// Does what puts another project in the place of this one; where something of it is not saved, it asks first.
+    pub(super) fn over_unsaved(self, then: impl Fn() + 'static) {
+        if !untrack(|| self.unsaved_work()) {
+            return then();
+        }
+        let then: Rc<dyn Fn()> = Rc::new(then);
+        let save: Rc<dyn Fn()> = {
+            let then = then.clone();
+            Rc::new(move || self.save_then(true, then.clone()))
+        };
+        let name = self.document.with_untracked(|d| d.project.name.clone());
+        let text =
+            Rc::new(move || if name.is_empty() { text::unsaved_here().to_owned() } else { text::unsaved_in(&name) });
+        let choices = vec![(text::save_first as Text, save), (text::go_on_unsaved as Text, then)];
+        self.asking.set(Some(Asking { text, choices }));
+    }
+
     /// Opens a project file; the one that is open can be got back by undoing.
     pub fn open_project(self, file: NamedFile) {
+        if file.content.is_empty() {
+            let name = file.name;
+            return self.say(true, Until::NextWork, move || text::file_empty(&name));
+        }
+        self.over_unsaved(move || self.unpack(file.clone()));
+    }
+
+    fn unpack(self, file: NamedFile) {
         let batch = self.start_job(JobKind::OpeningProject, 1, || {});
         let name = file.name.clone();
         let on_outcome = move |outcome: Outcome<Unpack>| {
@@ -190,8 +197,24 @@ impl Desk {
     /// Gives a file to the browser to save.
     pub(super) fn hand_over(self, name: &str, kind: &str, bytes: &Bytes) {
         if let Err(detail) = file::download(name, kind, &bytes.to_vec()) {
-            self.warn(move || text::cannot_save(&detail));
+            self.say(true, Until::NextWork, move || text::cannot_save(&detail));
         }
+    }
+
+    /// Takes the document for one that nobody has worked on.
+    pub(super) fn is_pristine(self) {
+        self.pristine.set(Some(self.document.get_untracked()));
+    }
+
+    /// Whether someone's work would be lost: what can be computed again does not count.
+    fn unsaved_work(self) -> bool {
+        let same = |d: &Document, other: &Document| {
+            Arc::ptr_eq(&d.project, &other.project) && Arc::ptr_eq(&d.detections, &other.detections)
+        };
+        self.document.with(|d| {
+            let saved = self.saved.with(|s| s.as_ref().is_some_and(|(_, saved)| same(d, saved)));
+            !d.is_empty() && !saved && !self.pristine.with(|p| p.as_ref().is_some_and(|p| same(d, p)))
+        })
     }
 
     /// Whether something would be lost with the page.

@@ -6,6 +6,7 @@ use sightline::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
 
 use super::advice::Advice;
 use super::control::DatumChoice;
+use super::field::Field;
 use super::gross_errors::{GrossErrorRecord, GrossErrors};
 use super::icon::{Glyph, Icon};
 use super::plots::Convergence;
@@ -42,9 +43,9 @@ pub fn Adjust() -> impl IntoView {
             </Show>
         </TitleBar>
         <main class="adjust">
-            <section class="scroll"><Estimated/><FromWhat/><DatumChoice/><GrossErrors/></section>
-            <section class="scroll"><Iterations/><GrossErrorRecord/></section>
-            <section class="scroll"><Advice/></section>
+            <section class="scroll" tabindex="0" aria-label=text::what_is_estimated><Estimated/><FromWhat/><DatumChoice/><GrossErrors/></section>
+            <section class="scroll" tabindex="0" aria-label=text::iterations><Iterations/><GrossErrorRecord/></section>
+            <section class="scroll" tabindex="0" aria-label=text::what_lacks><Advice/></section>
         </main>
     }
 }
@@ -166,7 +167,7 @@ fn CameraWords(id: String) -> impl IntoView {
                 <details>
                     <summary><b>{move || text::camera_named(id.get_value())}</b><small>{words}</small></summary>
                     <table class="table parameters">
-                        <thead><tr><th class="left">{text::estimated}</th><th>{text::initial_value}</th><th class="left wide"></th></tr></thead>
+                        <thead><tr><th class="left">{text::estimated}</th><th>{text::initial_value}</th><th title=text::observed_with>"σ"</th><th class="left wide"></th></tr></thead>
                         <tbody>
                             {move || parameters.get().into_iter().map(|p| view! { <ParameterRow camera=id.get_value() p/> }).collect_view()}
                         </tbody>
@@ -198,9 +199,15 @@ fn ParameterRow(camera: String, p: Parameter) -> impl IntoView {
                 </label>
             </td>
             <td>
-                <input type="text" inputmode="decimal" class="value" aria-label=move || format!("{} {}", text::initial_value(), parameter_name(p))
-                    prop:value=move || with(|c, p| c.interior.get(p).map(format::editable).unwrap_or_default())
-                    on:change=move |e| desk.set_initial(&id.get_value(), p, &event::value(&e))/>
+                <Field value=Signal::derive(move || with(|c, p| c.interior.get(p).map(format::editable).unwrap_or_default()))
+                    commit=move |typed: String| desk.set_initial(&id.get_value(), p, &typed)
+                    attr:inputmode="decimal" attr:class="value" attr:aria-label=move || format!("{} {}", text::initial_value(), parameter_name(p))/>
+            </td>
+            <td>
+                <Field value=Signal::derive(move || with(|c, p| c.sigma.get(&p).copied().map(format::editable).unwrap_or_default()))
+                    commit=move |typed: String| desk.observe_parameter(&id.get_value(), p, &typed)
+                    attr:inputmode="decimal" attr:class="value sigma" attr:data-sigma=p.name() attr:placeholder=text::not_observed
+                    attr:aria-label=move || format!("σ {}", parameter_name(p))/>
             </td>
             <td class="left wide">{move || with(parameter_unit)}</td>
         </tr>
@@ -236,15 +243,13 @@ fn FromWhat() -> impl IntoView {
                         <small>{move || counts.get().1.map(|m| text::median_sigma(format::fixed(m, format::decimals_for(m))))}</small>
                         <label class="option" title=text::unmodelled_why>
                             <span>{text::unmodelled}</span>
-                            <input type="text" class="short" inputmode="decimal" name="unmodelled" aria-description=text::unmodelled_why
-                                prop:value=move || desk.document.with(|d| format::editable(d.options.unmodelled))
-                                on:change=move |e| desk.set_unmodelled(&event::value(&e))/>
+                            <Field value=Signal::derive(move || desk.document.with(|d| format::editable(d.options.unmodelled))) commit=move |typed: String| desk.set_unmodelled(&typed)
+                                attr:class="short" attr:inputmode="decimal" attr:name="unmodelled" attr:aria-description=text::unmodelled_why/>
                         </label>
                         <label class="option" title=text::target_diameter_why>
                             <span>{move || text::target_diameter(desk.document.with(|d| d.project.unit.clone()))}</span>
-                            <input type="text" class="short" inputmode="decimal" name="target-diameter" aria-description=text::target_diameter_why
-                                prop:value=move || desk.document.with(|d| d.options.target_diameter.map(format::editable).unwrap_or_default())
-                                on:change=move |e| desk.set_target_diameter(&event::value(&e))/>
+                            <Field value=Signal::derive(move || desk.document.with(|d| d.options.target_diameter.map(format::editable).unwrap_or_default())) commit=move |typed: String| desk.set_target_diameter(&typed)
+                                attr:class="short" attr:inputmode="decimal" attr:name="target-diameter" attr:aria-description=text::target_diameter_why/>
                         </label>
                     </td>
                     <td class="large">{move || format::count(counts.get().0)}</td>

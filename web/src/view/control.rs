@@ -5,13 +5,16 @@ use std::collections::HashSet;
 use leptos::prelude::*;
 use sightline::project::{DatumKind, Point, Role};
 
+use super::field::Field;
 use super::icon::{Glyph, Icon};
 use super::identities::NamedPhoto;
 use super::shell::TitleBar;
 use crate::browser::{event, file};
+use crate::edit::control::{DistanceFault, UNITS};
 use crate::format;
 use crate::i18n::{Text, errors, text, text::role_word};
-use crate::store::control::{DistanceFault, distance_fault};
+use crate::store::control::distance_fault;
+use crate::store::texts::Reading;
 use crate::store::{Desk, Step};
 
 #[component]
@@ -36,6 +39,7 @@ pub fn Control() -> impl IntoView {
                 <Preview/>
                 <Known/>
                 <Distances/>
+                <Centres/>
                 <DatumChoice/>
             </div>
         </main>
@@ -45,7 +49,7 @@ pub fn Control() -> impl IntoView {
 fn choose_control(desk: Desk) {
     file::choose(".csv,.txt,.tsv,.dat,text/plain,text/csv", false, move |files| {
         if let Some(file) = files.into_iter().next() {
-            desk.read_text(file, Desk::read_control);
+            desk.read_text(file, Reading::Control);
         }
     });
 }
@@ -56,7 +60,7 @@ fn PasteBox() -> impl IntoView {
     let desk = expect_context::<Desk>();
     view! {
         <section class="panel">
-            <h2 class="section-head"><span><label for="paste">{text::control_points}</label></span></h2>
+            <h2 class="section-head"><span><label for="paste">{text::control_points}</label></span><UnitChoice/></h2>
             <div class="fields">
                 <textarea id="paste" rows="2" placeholder=text::paste_control on:input=move |e| {
                     let typed = event::value(&e);
@@ -68,6 +72,19 @@ fn PasteBox() -> impl IntoView {
                 }></textarea>
             </div>
         </section>
+    }
+}
+
+/// The project's unit of length: what every coordinate and length on this page is in.
+#[component]
+fn UnitChoice() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let unit = Signal::derive(move || desk.document.with(|d| d.project.unit.clone()));
+    view! {
+        <label class="unit-field"><span>{text::unit_of_length}</span>
+            <Field value=unit commit=move |typed: String| desk.set_unit(&typed) attr:class="short" attr:name="unit" attr:list="units"/>
+        </label>
+        <datalist id="units">{UNITS.map(|(name, _)| view! { <option value=name></option> }).collect_view()}</datalist>
     }
 }
 
@@ -114,6 +131,12 @@ fn Preview() -> impl IntoView {
         {move || desk.pasted.get().map(|pasted| {
             let all = pasted.table.rows.len();
             let good = pasted.table.rows.iter().filter(|r| r.is_ok()).count();
+            let unit = pasted.unit.clone();
+            let unasked = unit.is_none();
+            let mut units: Vec<String> = UNITS.iter().map(|(name, _)| (*name).to_owned()).collect();
+            if let Some(other) = unit.clone().filter(|unit| !units.contains(unit)) {
+                units.push(other);
+            }
             let measured: HashSet<String> = desk.document.with(|d| d.project.observations.iter().map(|o| o.point.clone()).collect());
             let rows = pasted.table.rows.into_iter().map(|row| match row {
                 Ok(row) => {
@@ -141,8 +164,16 @@ fn Preview() -> impl IntoView {
                         <span class="aside" class:warn=good < all>
                             {move || text::rows_read(format::count(all), format::count(all - good))}
                         </span>
+                        <label class="unit-field" class:asked=unit.is_none()><span>{text::unit_of_these}</span>
+                            <select name="pasted-unit" on:change=move |e| desk.set_pasted_unit(&event::value(&e))>
+                                {unit.is_none().then(|| view! { <option value="" selected=true>{text::choose_unit}</option> })}
+                                {units.into_iter().map(|name| view! {
+                                    <option value=name.clone() selected=unit.as_ref() == Some(&name)>{name.clone()}</option>
+                                }).collect_view()}
+                            </select>
+                        </label>
                         <button class="link" on:click=move |_| desk.pasted.set(None)>{text::discard}</button>
-                        <button class="button small primary" disabled=good == 0 on:click=move |_| desk.take_control()>
+                        <button class="button small primary" disabled=good == 0 || unasked on:click=move |_| desk.take_control()>
                             {move || text::take_points(format::count(good))}
                         </button>
                     </h2>
@@ -183,6 +214,11 @@ fn KnownRow(point: Point) -> impl IntoView {
     let role = point.role;
     let chosen = move || desk.selection.with(|s| s.point == Some(id.get_value()));
     let seen = move || desk.document.with(|d| d.project.observations.iter().any(|o| o.point == id.get_value()));
+    let coordinate = |axis: usize| Signal::stored(point.xyz.map(|xyz| format::editable(xyz[axis])).unwrap_or_default());
+    let sigma = |axis: usize| {
+        let given = point.sigma.and_then(|sigma| sigma[axis]).filter(|sigma| *sigma > 0.0);
+        Signal::stored(given.map(format::editable).unwrap_or_default())
+    };
     view! {
         <tr class:chosen=chosen>
             <td class="left id"><button class="link" on:click=move |_| desk.select_point(&id.get_value())>{id.get_value()}</button></td>
@@ -197,10 +233,105 @@ fn KnownRow(point: Point) -> impl IntoView {
                     }).collect_view()}
                 </select>
             </td>
-            {xyz_cells(&point, 4)}
-            {sigma_cells(&point)}
+            {(0..3).map(|axis| view! { <td>
+                <Field value=coordinate(axis) commit=move |typed: String| desk.set_coordinate(&id.get_value(), axis, &typed)
+                    attr:class="value" attr:inputmode="decimal" attr:aria-label=format!("{} {}", id.get_value(), AXES[axis])/>
+            </td> }).collect_view()}
+            {(0..3).map(|axis| view! { <td>
+                <Field value=sigma(axis) commit=move |typed: String| desk.set_control_sigma(&id.get_value(), axis, &typed)
+                    attr:class="value sigma" attr:inputmode="decimal" attr:placeholder=text::fixed attr:aria-label=format!("{} σ {}", id.get_value(), AXES[axis])/>
+            </td> }).collect_view()}
             <td class="left wide warn">{move || if seen() { "" } else { text::not_measured() }}</td>
         </tr>
+    }
+}
+
+const AXES: [&str; 3] = ["X", "Y", "Z"];
+
+/// Projection centres that are observed, as from GNSS or a calibrated rig.
+#[component]
+fn Centres() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
+    let observed = Memo::new(move |_| {
+        desk.document.with(|d| {
+            let all = d.project.photos.iter().filter(|p| p.sigma_position.is_some());
+            all.map(|p| (p.id.clone(), p.position.unwrap_or_default(), p.sigma_position.unwrap_or_default()))
+                .collect::<Vec<_>>()
+        })
+    });
+    let others = move || {
+        desk.document.with(|d| {
+            let all = d.project.photos.iter().filter(|p| p.sigma_position.is_none());
+            all.map(|p| p.id.clone()).collect::<Vec<_>>()
+        })
+    };
+    let photo = RwSignal::new(String::new());
+    let fields: [RwSignal<String>; 6] = std::array::from_fn(|_| RwSignal::new(String::new()));
+    let add = move || {
+        let typed = fields.map(|field| field.get_untracked());
+        let [x, y, z, sx, sy, sz] = typed;
+        let chosen =
+            Some(photo.get_untracked()).filter(|p| !p.is_empty()).or_else(|| untrack(others).into_iter().next());
+        if let Some(chosen) = chosen
+            && desk.observe_position(&chosen, &[x, y, z], &[sx, sy, sz])
+        {
+            photo.set(String::new());
+            fields.iter().for_each(|field| field.set(String::new()));
+        }
+    };
+    let set = move |id: &str, position: [f64; 3], sigma: [Option<f64>; 3], place: usize, typed: String| {
+        let mut numbers = [position.map(format::editable), sigma.map(|s| s.map(format::editable).unwrap_or_default())];
+        numbers[place / 3][place % 3] = typed;
+        let [position, sigma] = numbers;
+        desk.observe_position(id, &position, &sigma);
+    };
+    let name = |place: usize| if place < 3 { AXES[place].to_owned() } else { format!("σ {}", AXES[place - 3]) };
+    view! {
+        <section class="panel">
+            <h2 class="section-head"><span>{text::observed_centres}</span><span class="aside">{text::observed_centres_hint}</span></h2>
+            <div class="scroll">
+                <table class="table centres">
+                    <thead><tr>
+                        <th class="left">{text::photo}</th>
+                        {(0..6).map(|k| view! { <th>{name(k)} " " <u>{unit}</u></th> }).collect_view()}
+                        <th class="wide"></th>
+                    </tr></thead>
+                    <tbody>
+                        {move || observed.get().into_iter().map(|(id, position, sigma)| {
+                            let id = StoredValue::new(id);
+                            view! {
+                                <tr>
+                                    <td class="left id">{id.get_value()}</td>
+                                    {(0..6).map(|k| {
+                                        let value = if k < 3 { Some(position[k]) } else { sigma[k - 3] };
+                                        view! { <td>
+                                            <Field value=Signal::stored(value.map(format::editable).unwrap_or_default())
+                                                commit=move |typed: String| set(&id.get_value(), position, sigma, k, typed)
+                                                attr:class="value" attr:inputmode="decimal" attr:aria-label=format!("{} {}", id.get_value(), name(k))/>
+                                        </td> }
+                                    }).collect_view()}
+                                    <td class="left wide"><button class="icon-button small" aria-label=text::forget_centre
+                                        on:click=move |_| desk.forget_position(&id.get_value())><Glyph icon=Icon::Cross size=12/></button></td>
+                                </tr>
+                            }
+                        }).collect_view()}
+                    </tbody>
+                </table>
+            </div>
+            <Show when=move || !others().is_empty()>
+                <form class="centre-form" on:submit=move |e| { e.prevent_default(); add(); }>
+                    <select name="centre-photo" aria-label=text::photo on:change=move |e| photo.set(event::value(&e))>
+                        {move || others().into_iter().map(|id| view! { <option value=id.clone()>{id.clone()}</option> }).collect_view()}
+                    </select>
+                    {fields.into_iter().enumerate().map(|(k, field)| view! {
+                        <input type="text" autocomplete="off" inputmode="decimal" name=format!("centre-{k}") aria-label=name(k) placeholder=name(k)
+                            prop:value=field on:input=move |e| field.set(event::value(&e))/>
+                    }).collect_view()}
+                    <button class="button small" type="submit">{text::observe}</button>
+                </form>
+            </Show>
+        </section>
     }
 }
 
@@ -234,9 +365,7 @@ fn Distances() -> impl IntoView {
         <section class="panel">
             <h2 class="section-head">
                 <span>{text::distances}</span>
-                <label class="unit-field"><span>{text::unit_of_length}</span>
-                    <input type="text" class="short" prop:value=unit on:change=move |e| desk.set_unit(&event::value(&e))/>
-                </label>
+                <span class="aside">{move || text::in_unit(unit.get())}</span>
             </h2>
             <table class="table">
                 <thead><tr>
@@ -247,8 +376,10 @@ fn Distances() -> impl IntoView {
                     {move || distances.get().into_iter().enumerate().map(|(i, d)| view! {
                         <tr>
                             <td class="left id">{d.from}</td><td class="left id">{d.to}</td>
-                            <td>{format::fixed(d.length, format::decimals_for(d.sigma))}</td>
-                            <td>{format::fixed(d.sigma, format::decimals_for(d.sigma))}</td>
+                            <td><Field value=Signal::stored(format::editable(d.length)) commit=move |typed: String| desk.edit_distance(i, &typed, |d, value| d.length = value)
+                                attr:class="value" attr:inputmode="decimal" attr:name="distance-length" attr:aria-label=text::length/></td>
+                            <td><Field value=Signal::stored(format::editable(d.sigma)) commit=move |typed: String| desk.edit_distance(i, &typed, |d, value| d.sigma = value)
+                                attr:class="value" attr:inputmode="decimal" attr:name="distance-sigma" attr:aria-label="σ"/></td>
                             <td class="left wide"><button class="icon-button small" aria-label=text::remove_distance on:click=move |_| desk.remove_distance(i)><Glyph icon=Icon::Cross size=12/></button></td>
                         </tr>
                     }).collect_view()}

@@ -3,21 +3,22 @@
 use std::collections::HashMap;
 
 use leptos::prelude::*;
-use sightline::detection::Target;
 use sightline::matching::{Doubt, UnsnappedReason};
 use sightline::project::{Observation, Role};
 
+use super::field::Field;
 use super::icon::{Glyph, Icon};
 use super::loupe::Loupe;
 use super::photo_view::{Click, Mark, PhotoView, Style};
+use super::picking::{Question, chosen_target, pick, spot_mark};
 use super::shell::TitleBar;
 use super::strip::Strip;
 use super::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
-use super::targets::nearest;
 use crate::browser::{event, file};
+use crate::edit::points::place;
 use crate::format;
 use crate::i18n::{text, text::role_word};
-use crate::store::identity::place;
+use crate::store::texts::Reading;
 use crate::store::{Desk, Step};
 
 #[component]
@@ -62,7 +63,7 @@ pub fn Identities() -> impl IntoView {
 fn choose_marks(desk: Desk) {
     file::choose(".txt,.csv,.dat,text/plain", false, move |files| {
         if let Some(file) = files.into_iter().next() {
-            desk.read_text(file, Desk::read_marks);
+            desk.read_text(file, Reading::Marks);
         }
     });
 }
@@ -82,11 +83,11 @@ pub fn NamedPhoto() -> impl IntoView {
     });
     let on_click = Callback::new(move |click: Click| pick(desk, click));
     let target = Signal::derive(move || {
-        selected_target(desk).map(|t| [t.u, t.v, t.major, t.minor, t.angle]).or_else(|| {
-            let o = desk.chosen_observation()?;
-            let target = target_at(desk, &o);
-            Some(target.map_or([o.u, o.v, 0.0, 0.0, 0.0], |t| [t.u, t.v, t.major, t.minor, t.angle]))
-        })
+        if let Some(t) = chosen_target(desk) {
+            return Some([t.u, t.v, t.major, t.minor, t.angle]);
+        }
+        let at = desk.selection.with(|s| s.spot).or_else(|| desk.chosen_observation().map(|o| [o.u, o.v]));
+        at.map(|[u, v]| [u, v, 0.0, 0.0, 0.0])
     });
     view! {
         <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click>
@@ -96,16 +97,6 @@ pub fn NamedPhoto() -> impl IntoView {
             </Show>
         </PhotoView>
     }
-}
-
-fn selected_target(desk: Desk) -> Option<Target> {
-    let (photo, target) = desk.selection.with(|s| (s.photo.clone(), s.target));
-    desk.document.with(|d| d.detections.get(&photo?)?.targets.get(target?).cloned())
-}
-
-fn target_at(desk: Desk, o: &Observation) -> Option<Target> {
-    let at = place(o.u, o.v);
-    desk.document.with(|d| d.detections.get(&o.photo)?.targets.iter().find(|t| place(t.u, t.v) == at).cloned())
 }
 
 /// Targets with the names they have; observations that lie on no target; doubtful places.
@@ -143,72 +134,9 @@ fn named_marks(desk: Desk) -> Vec<Mark> {
             let label = Some(o.point.clone());
             marks.push(Mark { u: o.u, v: o.v, major: 0.0, minor: 0.0, angle: 0.0, label, strong: false, style });
         }
+        marks.extend(spot_mark(desk));
         marks
     })
-}
-
-/// A click takes the nearest target or observation; with Alt it measures where it is.
-fn pick(desk: Desk, click: Click) {
-    let Some(photo) = desk.selection.with_untracked(|s| s.photo.clone()) else { return };
-    if click.modifiers.alt && click.inside {
-        desk.measure_at(&photo, click.u, click.v);
-        return;
-    }
-    let (point, target) = desk.document.with_untracked(|d| {
-        let target = d.detections.get(&photo).and_then(|d| nearest(&d.targets, click));
-        let at = target.and_then(|i| d.detections.get(&photo)?.targets.get(i)).map(|t| place(t.u, t.v));
-        let here = || d.project.observations.iter().filter(|o| o.photo == photo);
-        let distance = |o: &Observation| (o.u - click.u).hypot(o.v - click.v);
-        let on_target = here().find(|o| Some(place(o.u, o.v)) == at);
-        let free = || {
-            let near = here().filter(|o| distance(o) <= click.reach);
-            near.min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        };
-        let point = on_target.or_else(|| if target.is_none() { free() } else { None }).map(|o| o.point.clone());
-        (point, target)
-    });
-    desk.selection.update(|s| {
-        s.target = if point.is_some() { None } else { target };
-        s.point = point;
-    });
-}
-
-/// Asks for the name of a target that has none.
-#[component]
-fn Question() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let typed = RwSignal::new(String::new());
-    let asked =
-        Memo::new(move |_| desk.selection.with(|s| Some((s.photo.clone()?, s.target.filter(|_| s.point.is_none())?))));
-    let take = move || {
-        if let Some((photo, target)) = asked.get_untracked() {
-            let name = typed.get_untracked();
-            let name = if name.trim().is_empty() { desk.free_name() } else { name };
-            desk.name_target(&photo, target, &name);
-            desk.ask_no_more();
-        }
-    };
-    // What was typed for one target is not offered for the next.
-    Effect::new(move |_| {
-        asked.track();
-        typed.set(String::new());
-    });
-    view! {
-        <Show when=move || asked.with(Option::is_some)>
-            <form class="question" on:submit=move |e| {
-                e.prevent_default();
-                take();
-            }>
-                <label>
-                    <span>{text::name_this_target}</span>
-                    <input id="target-name" type="text" autocomplete="off" placeholder=move || untrack(|| desk.free_name())
-                        prop:value=typed on:input=move |e| typed.set(event::value(&e))/>
-                </label>
-                <button class="button small" type="submit">{text::take_name}</button>
-                <button class="button small cancel" type="button" on:click=move |_| desk.ask_no_more()>{text::cancel}</button>
-            </form>
-        </Show>
-    }
 }
 
 /// Why a point is in doubt, in a few words.
@@ -320,17 +248,16 @@ fn MarksPanel() -> impl IntoView {
                     <div class="fields inline">
                         <label class="field">
                             <span>{text::snap_radius} " " <u>"px"</u></span>
-                            <input type="text" inputmode="decimal" prop:value=format::editable(marks.radius) on:change=move |e| {
-                                match format::parse(&event::value(&e)).filter(|r| *r > 0.0) {
-                                    Some(radius) => desk.marks.update(|m| if let Some(m) = m { m.radius = radius }),
-                                    None => desk.marks.notify(),
+                            <Field value=Signal::stored(format::editable(marks.radius)) commit=move |typed: String| {
+                                if let Some(radius) = format::parse(&typed).filter(|r| *r > 0.0) {
+                                    desk.marks.update(|m| if let Some(m) = m { m.radius = radius });
                                 }
-                            }/>
+                            } attr:inputmode="decimal"/>
                         </label>
                         <p class="hint">{move || text::snapped_sentence(format::count(good), format::count(all))}</p>
                     </div>
                     <Show when=move || some>
-                        <div class="scroll short-list">
+                        <div class="scroll short-list" tabindex="0" role="region" aria-label=text::why_not>
                             <table class="table">
                                 <thead><tr><th class="left">{text::id}</th><th class="left">{text::photo}</th><th>"u " <u>"px"</u></th><th>"v " <u>"px"</u></th><th class="left wide">{text::why_not}</th></tr></thead>
                                 <tbody>
@@ -362,6 +289,30 @@ pub fn PointPanel() -> impl IntoView {
         let Some(point) = point.get() else { return Vec::new() };
         desk.document.with(|d| d.project.observations.iter().filter(|o| o.point == point).cloned().collect())
     });
+    let count = Memo::new(move |_| observations.with(Vec::len));
+    // The photo that is shown, where renaming there alone is another thing than renaming everywhere.
+    let here = Memo::new(move |_| {
+        let photo = desk.selection.with(|s| s.photo.clone())?;
+        (count.get() > 1 && observations.with(|all| all.iter().any(|o| o.photo == photo))).then_some(photo)
+    });
+    let only_here = RwSignal::new(false);
+    // Another point starts with the plain meaning.
+    Effect::new(move |_| {
+        point.track();
+        only_here.set(false);
+    });
+    let scope = move || here.get().filter(|_| only_here.get());
+    let rename = move |typed: String| {
+        let Some(id) = point.get_untracked() else { return };
+        match untrack(scope) {
+            Some(photo) => desk.rename_in_photo(&photo, &id, &typed),
+            None => desk.rename_point(&id, &typed),
+        };
+    };
+    let says = move || match scope() {
+        Some(photo) => text::rename_here_says(photo),
+        None => text::rename_says(format::count(count.get())),
+    };
     view! {
         <Show when=move || point.with(Option::is_some)>
             <section class="panel point">
@@ -372,9 +323,18 @@ pub fn PointPanel() -> impl IntoView {
                 <div class="fields inline">
                     <label class="field">
                         <span>{text::name}</span>
-                        <input type="text" prop:value=move || point.get().unwrap_or_default()
-                            on:change=move |e| if let Some(id) = point.get_untracked() { desk.rename_point(&id, &event::value(&e)) }/>
+                        <Field value=Signal::derive(move || point.get().unwrap_or_default()) commit=move |typed: String| rename(typed) attr:name="point-name"/>
                     </label>
+                    <Show when=move || here.with(Option::is_some)>
+                        <label class="field">
+                            <span>{text::rename_where}</span>
+                            <select name="rename-where" on:change=move |e| only_here.set(event::value(&e) == "here")>
+                                <option value="all" selected=move || !only_here.get()>{move || text::in_all_photos(format::count(count.get()))}</option>
+                                <option value="here" selected=only_here>{move || text::in_this_photo(here.get().unwrap_or_default())}</option>
+                            </select>
+                        </label>
+                    </Show>
+                    <p class="hint whole">{says}</p>
                 </div>
                 <div class="scroll short-list">
                     <table class="table">

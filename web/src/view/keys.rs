@@ -1,10 +1,10 @@
-//! Keys that work wherever no text is being typed.
+//! Keys: a few work wherever no text is being typed, the others act where the focus is.
 
 use leptos::prelude::*;
 
 use super::transform::Placement;
 use crate::browser::event::Key;
-use crate::store::{Desk, Step};
+use crate::store::Desk;
 
 /// Does what a key asks for; true when it was used up.
 pub fn handle(desk: Desk, key: &Key) -> bool {
@@ -15,18 +15,28 @@ pub fn handle(desk: Desk, key: &Key) -> bool {
     if key.typing {
         return false;
     }
-    let in_photo = matches!(desk.step.get_untracked(), Step::Targets | Step::Identities | Step::Control);
     match (key.key.as_str(), key.modifiers.control, key.modifiers.shift) {
         ("z" | "Z", true, false) => desk.undo(),
         ("z" | "Z", true, true) | ("y" | "Y", true, false) => desk.redo(),
         ("s" | "S", true, with_photos) => desk.save(with_photos),
-        ("Delete" | "Backspace", false, _) if in_photo => return remove(desk),
-        ("PageDown", false, _) => desk.next_photo(1),
-        ("PageUp", false, _) => desk.next_photo(-1),
-        ("ArrowLeft", false, _) if in_photo => return nudge(desk, key, [-1.0, 0.0]),
-        ("ArrowRight", false, _) if in_photo => return nudge(desk, key, [1.0, 0.0]),
-        ("ArrowUp", false, _) if in_photo => return nudge(desk, key, [0.0, -1.0]),
-        ("ArrowDown", false, _) if in_photo => return nudge(desk, key, [0.0, 1.0]),
+        _ => return false,
+    }
+    true
+}
+
+/// The keys of the photo, where it has the focus; true when the key was used up.
+pub fn in_photo(desk: Desk, key: &Key) -> bool {
+    if key.modifiers.control {
+        return false;
+    }
+    match key.key.as_str() {
+        "Delete" | "Backspace" => return remove(desk),
+        "PageDown" => desk.next_photo(1),
+        "PageUp" => desk.next_photo(-1),
+        "ArrowLeft" => return nudge(desk, key, [-1.0, 0.0]),
+        "ArrowRight" => return nudge(desk, key, [1.0, 0.0]),
+        "ArrowUp" => return nudge(desk, key, [0.0, -1.0]),
+        "ArrowDown" => return nudge(desk, key, [0.0, 1.0]),
         _ => return false,
     }
     true

@@ -7,9 +7,10 @@ use leptos::html::Canvas;
 use leptos::prelude::*;
 
 use super::icon::{Glyph, Icon};
+use super::keys;
 use super::transform::Placement;
 use crate::browser::canvas::{SizeWatch, Surface, TEXT_SIZE};
-use crate::browser::event::{self, Modifiers, Pointer};
+use crate::browser::event::{self, Pointer};
 use crate::format;
 use crate::i18n::text;
 use crate::store::Desk;
@@ -54,7 +55,8 @@ pub struct Click {
     pub reach: f64,
     /// Whether it lies on the photo and not beside it.
     pub inside: bool,
-    pub modifiers: Modifiers,
+    /// The place itself is meant, and not what can be measured there.
+    pub free: bool,
 }
 
 #[component]
@@ -148,9 +150,15 @@ pub fn PhotoView(
     let travelled = StoredValue::new(0.0_f64);
     let space = RwSignal::new(false);
     let hold = move |e: leptos::ev::KeyboardEvent, held: bool| {
-        if event::key(&e).key == " " {
-            e.prevent_default();
+        let key = event::key(&e);
+        let used = if key.key == " " {
             space.set(held);
+            true
+        } else {
+            held && keys::in_photo(desk, &key)
+        };
+        if used {
+            e.prevent_default();
         }
     };
     let down = move |e: leptos::ev::PointerEvent| {
@@ -204,7 +212,8 @@ pub fn PhotoView(
             let [u, v] = p.to_pixel([pointer.x, pointer.y]);
             let reach = if pointer.touch { 22.0 } else { 12.0 } / p.scale;
             let inside = (0.0..=p.size[0]).contains(&u) && (0.0..=p.size[1]).contains(&v);
-            on_click.run(Click { u, v, reach, inside, modifiers: pointer.modifiers });
+            let free = pointer.modifiers.alt || desk.placing.get_untracked();
+            on_click.run(Click { u, v, reach, inside, free });
         }
     };
     let wheel = move |e: leptos::ev::WheelEvent| {
@@ -238,6 +247,8 @@ pub fn PhotoView(
                 {title}
                 <span class="summary">{move || summary.get()}</span>
                 <span class="gap"></span>
+                <button class="stage-button words" title=text::place_freely_how aria-pressed=move || desk.placing.get().to_string()
+                    on:click=move |_| desk.placing.update(|on| *on = !*on)>{text::place_freely}</button>
                 <button class="stage-button" aria-label=text::fit title=text::fit on:click=move |_| fit()><Glyph icon=Icon::Fit/></button>
                 <button class="stage-button" on:click=move |_| zoom_to(1.0)>"1:1"</button>
                 <span class="zoom">{percent}</span>
@@ -250,6 +261,7 @@ pub fn PhotoView(
                     role="img"
                     aria-label=move || text::photo_view(photo.get().unwrap_or_default())
                     class:panning=space
+                    class:placing=desk.placing
                     on:pointerdown=down
                     on:pointermove=moved
                     on:pointerup=up
@@ -269,6 +281,8 @@ pub fn PhotoView(
                 <span class="key selected"></span>{text::legend_selected}
                 <span class="key doubtful"></span>{text::legend_doubtful}
                 <span class="key rejected"></span>{text::legend_excluded}
+                <span class="gap"></span>
+                <span class="how">{text::click_measures}</span>
             </div>
         </div>
     }

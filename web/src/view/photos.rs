@@ -5,13 +5,14 @@ use std::collections::BTreeSet;
 use leptos::prelude::*;
 use sightline::project::Camera;
 
+use super::field::Field;
 use super::icon::{Glyph, Icon};
 use super::shell::{TitleBar, choose_photos, problem_sentence};
 use super::strip::{NoThumbnail, Thumbnail};
 use crate::browser::event;
+use crate::edit::cameras::distance_parameter;
 use crate::format;
 use crate::i18n::text;
-use crate::store::cameras::distance_parameter;
 use crate::store::{Desk, Problem, Step};
 
 #[component]
@@ -221,19 +222,19 @@ fn CameraPanel(id: String) -> impl IntoView {
         <div class="fields">
             <label class="field">
                 <span>{text::name}</span>
-                <input type="text" prop:value=id.get_value() on:change=move |e| desk.rename_camera(&id.get_value(), event::value(&e).trim())/>
+                <Field value=Signal::stored(id.get_value()) commit=move |typed: String| desk.rename_camera(&id.get_value(), &typed) attr:data-field="name"/>
             </label>
             <label class="field">
                 <span>{text::pixel_pitch} " " <u>"µm"</u></span>
-                <input type="text" inputmode="decimal" placeholder=text::unknown data-field="pitch"
-                    prop:value=move || with(|c| c.pixel_pitch.map(pitch_text).unwrap_or_default())
-                    on:change=move |e| desk.set_pitch(&id.get_value(), &event::value(&e))/>
+                <Field value=Signal::derive(move || with(|c| c.pixel_pitch.map(pitch_text).unwrap_or_default()))
+                    commit=move |typed: String| desk.set_pitch(&id.get_value(), &typed)
+                    attr:inputmode="decimal" attr:placeholder=text::unknown attr:data-field="pitch"/>
             </label>
             <label class="field">
                 <span>{text::principal_distance} " " <u>{unit}</u></span>
-                <input type="text" inputmode="decimal" data-field="c" placeholder=text::found_by_orientation
-                    prop:value=move || with(|c| c.interior.get(distance_parameter(c)).map(format::editable).unwrap_or_default())
-                    on:change=move |e| desk.set_principal_distance(&id.get_value(), &event::value(&e))/>
+                <Field value=Signal::derive(move || with(|c| c.interior.get(distance_parameter(c)).map(format::editable).unwrap_or_default()))
+                    commit=move |typed: String| desk.set_principal_distance(&id.get_value(), &typed)
+                    attr:inputmode="decimal" attr:data-field="c" attr:placeholder=text::found_by_orientation/>
             </label>
             <Show when=move || unit() == "px"><p class="hint">{text::pitch_hint}</p></Show>
         </div>
@@ -247,7 +248,7 @@ fn pitch_text([x, y]: [f64; 2]) -> String {
 
 /// Files that were not taken, each with its reason.
 #[component]
-fn Problems() -> impl IntoView {
+pub fn Problems() -> impl IntoView {
     let desk = expect_context::<Desk>();
     view! {
         <Show when=move || desk.problems.with(|p| !p.is_empty())>

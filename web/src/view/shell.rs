@@ -1,5 +1,6 @@
 //! The one window: head with the steps, what the step shows, foot; files may be dropped anywhere.
 
+use leptos::html::Button;
 use leptos::prelude::*;
 
 use super::changes::change_words;
@@ -10,7 +11,7 @@ use crate::browser::{event, file, page};
 use crate::i18n::{self, errors, experiments as words, text};
 use crate::store::document::Document;
 use crate::store::experiments::from_hash;
-use crate::store::{Desk, Job, JobKind, Step, Theme};
+use crate::store::{Asking, Desk, Job, JobKind, Step, Theme};
 use crate::{format, i18n::language};
 
 /// The desk.
@@ -23,6 +24,7 @@ pub fn App() -> impl IntoView {
         let name = desk.document.with(|d| d.project.name.clone());
         page::set_title(&if name.is_empty() { "Sightline".to_owned() } else { format!("{name} – Sightline") });
     });
+    Effect::new(move || desk.drop_stale_notice());
     event::listen_to_hash(move || desk.follow_hash());
     event::listen_to_keys(move |key| keys::handle(desk, &key));
     match untrack(|| from_hash(&page::hash())) {
@@ -73,6 +75,13 @@ fn Head() -> impl IntoView {
         Some((clock, _)) => text::saved_at(clock),
         None => text::not_saved().to_owned(),
     };
+    let theme = move || match desk.theme.get() {
+        Theme::Light => text::theme_light(),
+        Theme::Dark => text::theme_dark(),
+        Theme::Sun => text::theme_sun(),
+    };
+    // On a phone what is not needed all the time stands in a menu.
+    let more = RwSignal::new(false);
     let undo_label = move || desk.undoable().map_or(text::undo().to_owned(), |c| text::undo_this(change_words(&c)));
     let redo_label = move || desk.redoable().map_or(text::redo().to_owned(), |c| text::redo_this(change_words(&c)));
     view! {
@@ -114,6 +123,11 @@ fn Head() -> impl IntoView {
                 >
                     <Glyph icon=Icon::Redo/>
                 </button>
+                <button class="icon-button menu" aria-label=text::more_actions aria-expanded=move || more.get().to_string()
+                    on:click=move |_| more.update(|on| *on = !*on)>
+                    <Glyph icon=Icon::More/>
+                </button>
+                <div class="more" class:open=more on:click=move |_| more.set(false)>
                 <Show when=move || !empty.get()>
                     <button class="text-button" title=text::save_hint on:click=move |e| desk.save(e.shift_key())>{text::save}</button>
                     <button class="text-button" title=text::save_with_photos on:click=move |_| desk.save(true)>{text::save_all}</button>
@@ -128,22 +142,19 @@ fn Head() -> impl IntoView {
                 </button>
                 <button
                     class="text-button"
-                    aria-label=text::switch_language
+                    aria-label=move || format!("{}, {}", text::other_language(), text::switch_language())
                     on:click=move |_| i18n::set_language(language().other())
                 >
                     {text::other_language}
                 </button>
                 <button
                     class="text-button"
-                    aria-label=text::switch_theme
+                    aria-label=move || format!("{}, {}", theme(), text::switch_theme())
                     on:click=move |_| desk.set_theme(desk.theme.get_untracked().next())
                 >
-                    {move || match desk.theme.get() {
-                        Theme::Light => text::theme_light(),
-                        Theme::Dark => text::theme_dark(),
-                        Theme::Sun => text::theme_sun(),
-                    }}
+                    {theme}
                 </button>
+                </div>
             </div>
         </header>
     }
@@ -299,13 +310,52 @@ fn NoticeBar() -> impl IntoView {
                 }
             })}
         </div>
+        {move || desk.asking.get().map(|asking| view! { <Question asking/> })}
+    }
+}
+
+/// A question that something waits for, with its answers.
+#[component]
+fn Question(asking: Asking) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let first = NodeRef::<Button>::new();
+    first.on_load(|button| {
+        let _ = button.focus();
+    });
+    let mut unused = Some(first);
+    let choices = asking
+        .choices
+        .into_iter()
+        .map(|(words, take)| {
+            let node = unused.take();
+            let primary = node.is_some();
+            view! {
+                <button class="button small" class:primary=primary node_ref=node.unwrap_or_default() on:click=move |_| {
+                    desk.asking.set(None);
+                    take();
+                }>{words}</button>
+            }
+        })
+        .collect_view();
+    let text = StoredValue::new_local(asking.text);
+    view! {
+        <div class="notice warning asking" role="alertdialog" aria-labelledby="asked">
+            <Glyph icon=Icon::Warning/>
+            <p id="asked">{move || text.with_value(|text| text())}</p>
+            {choices}
+            <button class="button small" on:click=move |_| desk.asking.set(None)>{text::cancel}</button>
+        </div>
     }
 }
 
 #[component]
 fn Foot() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let chosen = move || desk.selection.with(|s| s.point.clone());
+    // A point that went with its last observation is chosen no more.
+    let chosen = move || {
+        let point = desk.selection.with(|s| s.point.clone())?;
+        desk.document.with(|d| d.project.points.iter().any(|p| p.id == point)).then_some(point)
+    };
     let rays = move || {
         chosen().map(|point| {
             let rays = desk.document.with(|d| d.project.observations.iter().filter(|o| o.point == point).count());
@@ -362,5 +412,7 @@ pub fn problem_sentence(reason: &crate::store::Reason) -> String {
         Reason::Engine(error) => errors::sentence(error),
         Reason::Duplicate { of } => text::duplicate_of(of),
         Reason::Unreadable(detail) => text::unreadable(detail),
+        Reason::Empty => text::is_empty().to_owned(),
+        Reason::NoList => text::is_no_list().to_owned(),
     }
 }

@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::icon::{Glyph, Icon};
+use super::photos::Problems;
 use super::shell::{Progress, choose_photos, choose_project};
 use crate::i18n::{experiments as words, text};
 use crate::store::Desk;
@@ -26,6 +27,7 @@ pub fn Start() -> impl IntoView {
                     <p class="fine">{text::heic_and_raw}</p>
                 </div>
                 <div class="slot start-slot"><Progress/></div>
+                <div role="alert"><Problems/></div>
                 <button class="sample" on:click=move |_| desk.open_sample() disabled=move || desk.job.with(Option::is_some)>
                     <span>
                         <b>{text::open_sample}</b>

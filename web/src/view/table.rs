@@ -1,7 +1,8 @@
-//! A table of numbers: sorted by its headings, only the rows in sight are drawn, the chosen row is pinned on top, and the
-//! whole can be copied into a spreadsheet.
+//! A table of numbers: sorted by its headings, only the rows in sight are drawn, keys and clicks choose a row, and the whole
+//! can be copied into a spreadsheet.
 
 use std::cmp::Ordering;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use leptos::html::Div;
@@ -9,9 +10,9 @@ use leptos::prelude::*;
 
 use super::icon::{Glyph, Icon};
 use crate::browser::{event, page};
+use crate::edit::natural;
 use crate::format;
 use crate::i18n::text;
-use crate::store::intake::natural;
 
 /// A heading: a word or a symbol, with its unit.
 #[derive(Clone)]
@@ -114,6 +115,34 @@ fn compare(a: &Row, b: &Row, sorting: Sorting) -> Ordering {
 /// Rows drawn beyond what is in sight, so that scrolling shows no gaps.
 const MARGIN: usize = 12;
 
+impl Row {
+    /// Tells whether a row drawn already shows the same.
+    fn fingerprint(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.key.hash(&mut hasher);
+        self.off.hash(&mut hasher);
+        for cell in &self.cells {
+            (&cell.shown, cell.class, cell.bar.map(f64::to_bits)).hash(&mut hasher);
+        }
+        hasher.finish()
+    }
+}
+
+/// The row that a key goes to from the present one.
+fn neighbour(key: &str, at: Option<usize>, rows: usize, page: usize) -> Option<usize> {
+    let last = rows.checked_sub(1)?;
+    let to = match (key, at) {
+        ("Home", _) | ("ArrowDown" | "PageDown", None) => 0,
+        ("End", _) | ("ArrowUp" | "PageUp", None) => last,
+        ("ArrowDown", Some(at)) => at + 1,
+        ("ArrowUp", Some(at)) => at.saturating_sub(1),
+        ("PageDown", Some(at)) => at + page,
+        ("PageUp", Some(at)) => at.saturating_sub(page),
+        _ => return None,
+    };
+    Some(to.min(last))
+}
+
 #[component]
 pub fn NumberTable(
     label: fn() -> &'static str,
@@ -134,28 +163,55 @@ pub fn NumberTable(
     let frame = NodeRef::<Div>::new();
     let top = RwSignal::new(0.0_f64);
     let height = RwSignal::new(600.0_f64);
-    let row_height = StoredValue::new(24.0_f64);
+    let row_height = RwSignal::new(24.0_f64);
     let window = Memo::new(move |_| {
         let total = sorted.with(|rows| rows.len());
-        let row = row_height.get_value();
+        let row = row_height.get();
         let first = ((top.get() / row) as usize).saturating_sub(MARGIN).min(total);
         let last = (first + (height.get() / row) as usize + 2 * MARGIN + 2).min(total);
         (first, last)
     });
     let measure = move || {
-        if let Some(element) = frame.get() {
+        if let Some(element) = frame.get_untracked() {
             let (scroll, visible, row) = page::scroll_state(&element, "tbody tr.data");
             top.set(scroll);
             height.set(visible);
             if let Some(row) = row {
-                row_height.set_value(row);
+                row_height.set(row);
             }
         }
     };
-    // A row chosen elsewhere is brought into sight by being pinned on top.
-    let pinned = move || {
-        let key = chosen.get()?;
-        sorted.with(|rows| rows.iter().find(|row| row.key == key).cloned())
+    let place = move |key: &str| sorted.with(|rows| rows.iter().position(|row| row.key == key));
+    // A row chosen anywhere is brought into sight; the heading covers the first row's height.
+    let reveal = move |at: usize| {
+        measure();
+        let Some(element) = frame.get_untracked() else { return };
+        let (row, scroll, visible) = (row_height.get_untracked(), top.get_untracked(), height.get_untracked());
+        let (from, to) = (at as f64 * row, (at + 2) as f64 * row);
+        if from < scroll {
+            element.set_scroll_top(from as i32);
+        } else if to > scroll + visible {
+            element.set_scroll_top((to - visible).ceil() as i32);
+        }
+    };
+    Effect::new(move |_| {
+        let key = chosen.get();
+        if frame.get().is_some()
+            && let Some(at) = key.and_then(|key| untrack(|| place(&key)))
+        {
+            reveal(at);
+        }
+    });
+    let keydown = move |e: leptos::ev::KeyboardEvent| {
+        let at = chosen.get_untracked().and_then(|key| untrack(|| place(&key)));
+        let page = (height.get_untracked() / row_height.get_untracked()) as usize;
+        let rows = sorted.with_untracked(|rows| rows.len());
+        let key = event::key(&e);
+        let to = if key.on_table { neighbour(&key.key, at, rows, page.saturating_sub(2).max(1)) } else { None };
+        if let Some(key) = to.and_then(|to| sorted.with_untracked(|rows| rows.get(to).map(|row| row.key.clone()))) {
+            e.prevent_default();
+            on_choose.run(key);
+        }
     };
     let sort_by = move |column: usize| {
         sorting.update(|sorting| {
@@ -166,26 +222,30 @@ pub fn NumberTable(
             };
         });
     };
-    let is_chosen = move |key: &str| chosen.with(|c| c.as_deref() == Some(key));
+    let gap = move |rows: usize| format!("{}px", rows as f64 * row_height.get());
     view! {
         <div class="scroll table-frame" node_ref=frame on:scroll=move |_| measure() on:pointerenter=move |_| measure()>
-            <table class=format!("table {class}") aria-label=label>
+            <table class=format!("table {class}") aria-label=label role="grid" tabindex="0" on:keydown=keydown
+                aria-rowcount=move || (sorted.with(|rows| rows.len()) + 1).to_string()>
                 <thead>
                     <tr>
                         {move || columns.get().into_iter().enumerate().map(|(i, column)| {
-                            let sign = move || match sorting.get() {
-                                Some(s) if s.column == i => if s.descending { "descending" } else { "ascending" },
-                                _ => "none",
-                            };
+                            let by = move || sorting.get().filter(|s| s.column == i);
                             view! {
                                 <th
                                     class:left=column.left
-                                    class:sorted=move || sorting.get().is_some_and(|s| s.column == i)
-                                    aria-sort=sign
+                                    class:sorted=move || by().is_some()
+                                    aria-sort=move || match by() {
+                                        Some(s) => if s.descending { "descending" } else { "ascending" },
+                                        None => "none",
+                                    }
                                     scope="col"
                                 >
                                     <button on:click=move |_| sort_by(i)>
                                         {column.name}<sub>{column.low}</sub>" "<u>{column.unit.clone()}</u>
+                                        {move || by().map(|s| view! {
+                                            <i class="direction" aria-hidden="true">{if s.descending { "▼" } else { "▲" }}</i>
+                                        })}
                                     </button>
                                 </th>
                             }
@@ -193,26 +253,16 @@ pub fn NumberTable(
                     </tr>
                 </thead>
                 <tbody>
-                    {move || pinned().map(|row| view! { <TableRow row chosen=true pinned=true on_choose/> })}
-                    <tr class="gap" style:height=move || format!("{}px", window.get().0 as f64 * row_height.get_value())></tr>
-                    {move || {
-                        let (first, last) = window.get();
-                        sorted.with(|rows| {
-                            // The chosen row stands on top and not in its place, so that it is there once.
-                            rows[first.min(rows.len())..last.min(rows.len())]
-                                .iter()
-                                .filter(|row| !is_chosen(&row.key))
-                                .map(|row| {
-                                    let chosen = is_chosen(&row.key);
-                                    view! { <TableRow row=row.clone() chosen pinned=false on_choose/> }
-                                })
-                                .collect_view()
-                        })
-                    }}
-                    <tr class="gap" style:height=move || {
-                        let rest = sorted.with(|rows| rows.len()) - window.get().1;
-                        format!("{}px", rest as f64 * row_height.get_value())
-                    }></tr>
+                    <tr class="gap" aria-hidden="true" style:height=move || gap(window.get().0)></tr>
+                    <For
+                        each=move || {
+                            let (first, last) = window.get();
+                            sorted.with(|rows| rows[first.min(rows.len())..last.min(rows.len())].to_vec())
+                        }
+                        key=Row::fingerprint
+                        children=move |row| view! { <TableRow row chosen on_choose/> }
+                    />
+                    <tr class="gap" aria-hidden="true" style:height=move || gap(sorted.with(|rows| rows.len()) - window.get().1)></tr>
                 </tbody>
             </table>
         </div>
@@ -220,22 +270,17 @@ pub fn NumberTable(
 }
 
 #[component]
-fn TableRow(row: Row, chosen: bool, pinned: bool, on_choose: Callback<String>) -> impl IntoView {
+fn TableRow(row: Row, chosen: Signal<Option<String>>, on_choose: Callback<String>) -> impl IntoView {
     let key = StoredValue::new(row.key.clone());
+    let is_chosen = Memo::new(move |_| chosen.with(|c| c.as_ref().is_some_and(|c| key.with_value(|key| key == c))));
     view! {
         <tr
             class="data"
-            class:chosen=chosen
-            class:pinned=pinned
+            class:chosen=is_chosen
             class:off=row.off
             data-key=row.key
-            tabindex=if pinned { "-1" } else { "0" }
-            aria-selected=chosen.to_string()
+            aria-selected=move || is_chosen.get().to_string()
             on:click=move |_| on_choose.run(key.get_value())
-            on:keydown=move |e| if matches!(event::key(&e).key.as_str(), "Enter" | " ") {
-                e.prevent_default();
-                on_choose.run(key.get_value());
-            }
         >
             {row.cells.into_iter().map(|cell| view! {
                 <td class=cell.class>
@@ -292,6 +337,16 @@ mod tests {
         let mut rows = [row("10", None), row("9", None)];
         rows.sort_by(|a, b| compare(a, b, Sorting { column: 0, descending: false }));
         assert_eq!(rows[0].key, "9");
+    }
+
+    #[test]
+    fn keys_go_to_neighbours_and_stay_in_the_table() {
+        assert_eq!(neighbour("ArrowDown", None, 5, 3), Some(0));
+        assert_eq!(neighbour("ArrowUp", Some(0), 5, 3), Some(0));
+        assert_eq!(neighbour("PageDown", Some(3), 5, 3), Some(4));
+        assert_eq!(neighbour("End", Some(1), 5, 3), Some(4));
+        assert_eq!(neighbour("Backspace", Some(1), 5, 3), None);
+        assert_eq!(neighbour("ArrowDown", None, 0, 3), None);
     }
 
     #[test]

@@ -3,14 +3,18 @@
 use leptos::prelude::*;
 use sightline::detection::{Channel, Codes, Method, Polarity, PolarityChoice, Reason, Target};
 
+use super::field::Field;
+use super::icon::{Glyph, Icon};
 use super::loupe::Loupe;
 use super::photo_view::{Click, Mark, PhotoView, Style, half_turn_degrees};
+use super::picking::{Question, chosen_target, pick, spot_mark};
 use super::shell::TitleBar;
 use super::strip::Strip;
 use crate::browser::event;
+use crate::edit::points::place;
 use crate::format;
 use crate::i18n::{Text, text};
-use crate::store::Desk;
+use crate::store::{Desk, Step};
 
 #[component]
 pub fn Targets() -> impl IntoView {
@@ -34,18 +38,21 @@ pub fn Targets() -> impl IntoView {
             text::targets_coded(format::count(d.targets.len()), format::count(coded))
         })
     });
-    let pick = Callback::new(move |click: Click| pick_target(desk, click));
-    let selected = Signal::derive(move || selected_target(desk).map(|t| [t.u, t.v, t.major, t.minor, t.angle]));
+    let on_click = Callback::new(move |click: Click| pick(desk, click));
+    let selected = Signal::derive(move || chosen_target(desk).map(|t| [t.u, t.v, t.major, t.minor, t.angle]));
     view! {
         <TitleBar title=text::targets sentence=Signal::derive(sentence)>
-            <button class="button primary" on:click=move |_| desk.detect_targets()>
+            <button class="button" class:primary=move || !again() data-action="detect" on:click=move |_| desk.detect_targets()>
                 {move || if again() { text::detect_again() } else { text::detect() }}
             </button>
+            <Show when=again>
+                <button class="button primary" on:click=move |_| desk.go(Step::Identities)>{text::identities} <Glyph icon=Icon::Arrow/></button>
+            </Show>
         </TitleBar>
         <div class="options"><Options/></div>
         <main class="targets">
             <Strip/>
-            <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click=pick/>
+            <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click><Question targets=false/></PhotoView>
             <aside class="inspector" aria-label=text::target>
                 <Loupe target=selected/>
                 <TargetDetails/>
@@ -60,16 +67,11 @@ fn current(desk: Desk) -> Option<std::sync::Arc<sightline::detection::Detection>
     desk.document.with(|d| d.detections.get(&photo).cloned())
 }
 
-fn selected_target(desk: Desk) -> Option<Target> {
-    let place = desk.selection.with(|s| s.target)?;
-    current(desk)?.targets.get(place).cloned()
-}
-
 /// The targets of the photo that is shown.
 fn target_marks(desk: Desk) -> Vec<Mark> {
-    let Some(detection) = current(desk) else { return Vec::new() };
-    let chosen = desk.selection.with(|s| s.target);
-    let mark = |(i, t): (usize, &Target)| Mark {
+    let Some(detection) = current(desk) else { return spot_mark(desk).into_iter().collect() };
+    let chosen = chosen_target(desk).map(|t| place(t.u, t.v));
+    let mark = |t: &Target| Mark {
         u: t.u,
         v: t.v,
         major: t.major,
@@ -77,23 +79,9 @@ fn target_marks(desk: Desk) -> Vec<Mark> {
         angle: t.angle,
         label: t.code.map(|code| code.to_string()),
         strong: t.code.is_some(),
-        style: if Some(i) == chosen { Style::Selected } else { Style::Measured },
+        style: if Some(place(t.u, t.v)) == chosen { Style::Selected } else { Style::Measured },
     };
-    detection.targets.iter().enumerate().map(mark).collect()
-}
-
-/// The nearest target within reach becomes the selected one; a click beside all of them selects none.
-fn pick_target(desk: Desk, click: Click) {
-    let near = current(desk).and_then(|d| nearest(&d.targets, click));
-    desk.selection.update(|s| s.target = near);
-}
-
-/// The target whose centre or outline is nearest to a click, within reach.
-pub fn nearest(targets: &[Target], click: Click) -> Option<usize> {
-    let distance = |t: &Target| (t.u - click.u).hypot(t.v - click.v);
-    let near = |(_, t): &(usize, &Target)| distance(t) <= click.reach.max(t.major / 2.0);
-    let all = targets.iter().enumerate().filter(near);
-    all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1))).map(|(i, _)| i)
+    detection.targets.iter().map(mark).chain(spot_mark(desk)).collect()
 }
 
 /// A choice among named values.
@@ -128,11 +116,10 @@ fn Choice<T: Copy + PartialEq + Send + Sync + 'static>(
 #[component]
 fn Options() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let diameter =
-        move |e: leptos::ev::Event, set: fn(Desk, f64)| match format::parse(&event::value(&e)).filter(|d| *d >= 1.0) {
-            Some(value) => set(desk, value),
-            None => desk.detect_options.notify(),
-        };
+    let diameter = move |typed: String, set: fn(Desk, f64)| match format::parse(&typed).filter(|d| *d >= 1.0) {
+        Some(value) => set(desk, value),
+        None => desk.warn_here(move || text::not_a_length(&typed)),
+    };
     view! {
         <Choice label=text::polarity name="polarity"
             values=vec![
@@ -173,13 +160,13 @@ fn Options() -> impl IntoView {
             set=|desk, value| desk.detect_options.update(|o| o.method = value)/>
         <label class="option">
             <span>{text::diameter} " " <u>"px"</u></span>
-            <input class="short" type="text" inputmode="decimal" name="min-diameter" aria-label=text::diameter_from
-                prop:value=move || desk.detect_options.with(|o| format::editable(o.min_diameter))
-                on:change=move |e| diameter(e, |desk, d| desk.detect_options.update(|o| o.min_diameter = d))/>
+            <Field value=Signal::derive(move || desk.detect_options.with(|o| format::editable(o.min_diameter)))
+                commit=move |typed: String| diameter(typed, |desk, d| desk.detect_options.update(|o| o.min_diameter = d))
+                attr:class="short" attr:inputmode="decimal" attr:name="min-diameter" attr:aria-label=text::diameter_from/>
             "–"
-            <input class="short" type="text" inputmode="decimal" name="max-diameter" aria-label=text::diameter_to
-                prop:value=move || desk.detect_options.with(|o| format::editable(o.max_diameter))
-                on:change=move |e| diameter(e, |desk, d| desk.detect_options.update(|o| o.max_diameter = d))/>
+            <Field value=Signal::derive(move || desk.detect_options.with(|o| format::editable(o.max_diameter)))
+                commit=move |typed: String| diameter(typed, |desk, d| desk.detect_options.update(|o| o.max_diameter = d))
+                attr:class="short" attr:inputmode="decimal" attr:name="max-diameter" attr:aria-label=text::diameter_to/>
         </label>
     }
 }
@@ -188,7 +175,8 @@ fn Options() -> impl IntoView {
 #[component]
 pub fn TargetDetails() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let target = Memo::new(move |_| selected_target(desk));
+    let target = Memo::new(move |_| chosen_target(desk));
+    let name = move || desk.selection.with(|s| s.point.clone());
     view! {
         <h2 class="section-head">
             <span>{text::target} " " <span class="id">{move || target.get().and_then(|t| t.code).map(|c| c.to_string())}</span></span>
@@ -204,6 +192,7 @@ pub fn TargetDetails() -> impl IntoView {
                 let polarity = t.polarity;
                 view! {
                     <dl class="pairs">
+                        <dt>{text::point}</dt><dd data-result="point">{move || name().unwrap_or_else(|| text::no_name().to_owned())}</dd>
                         <dt>"u"</dt><dd>{place(t.u, t.sigma_u)}</dd>
                         <dt>"v"</dt><dd>{place(t.v, t.sigma_v)}</dd>
                         <dt>{text::full_axes}</dt><dd>{format!("{} × {} px", format::fixed(t.major, 2), format::fixed(t.minor, 2))}</dd>
@@ -233,7 +222,7 @@ fn RejectedTable() -> impl IntoView {
                 <span>{text::rejected_here}</span>
                 <span class="aside">{move || format::count(rejected.with(|r| r.values().sum()))}</span>
             </h2>
-            <div class="scroll">
+            <div class="scroll" tabindex="0" role="region" aria-label=text::rejected_here>
                 <table class="table rejected">
                     <tbody>
                         {move || {

@@ -143,7 +143,7 @@ pub(super) fn Worst() -> impl IntoView {
             Column::number(|| "v").low("y").unit(unit),
             Column::number(|| "r"),
             Column::number(|| "w"),
-            Column::words(|| ""),
+            Column::words(text::verdict),
         ]
     });
     let rows = Memo::new(move |_| {

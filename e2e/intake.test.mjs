@@ -1,0 +1,113 @@
+// Files that come in: what is in them decides where they go, and what cannot be used is told where it was dropped.
+import assert from 'node:assert/strict';
+import { join } from 'node:path';
+import { test } from 'node:test';
+
+import { open } from './browser.mjs';
+import { data, drop, files, go, idle, notice, photos, sample, scratch } from './desk.mjs';
+
+const folder = data('camcal');
+const control = 'id\tX\tY\tZ\nA\t1.5\t2\t0\nB\t3\t2\t0\nC\t3\t9\t0\n';
+
+test('what cannot be read is told on the start page', { timeout: 120_000 }, async () => {
+  const { page, errors, close } = await open();
+  try {
+    await drop(page, [scratch('letter.jpg', 'Dear Sir or Madam')]);
+    await page.waitForSelector('.problems li');
+    assert.match(await page.textContent('.problems'), /letter\.jpg.*JPEG, PNG or TIFF/);
+    assert.equal(await page.evaluate(() => location.hash), '#start');
+    // It goes when something else is dropped.
+    await drop(page, [scratch('nothing.jpg', '')]);
+    await page.waitForFunction(() => /nothing\.jpg/.test(document.querySelector('.problems')?.textContent));
+    assert.match(await page.textContent('.problems'), /nothing\.jpg.*the file is empty/i);
+    assert.doesNotMatch(await page.textContent('.problems'), /letter/);
+    await drop(page, [scratch('nothing.txt', ''), scratch('story.txt', 'It was a dark and stormy night;\nthe rain fell in torrents.\n')]);
+    await page.waitForFunction(() => document.querySelectorAll('.problems li').length === 2);
+    assert.match(await page.textContent('.problems'), /nothing\.txt.*empty/i);
+    assert.match(await page.textContent('.problems'), /story\.txt.*neither marks.*nor control points/i);
+    await drop(page, [scratch('nothing.json', '')]);
+    await page.waitForSelector('.notice');
+    assert.match(await notice(page), /nothing\.json: the file is empty/);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('texts are sorted by what is in them, and only what can be both is asked', { timeout: 300_000 }, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await sample(page);
+    // Excel's "Unicode text" is UTF-16 with a mark.
+    const utf16 = Buffer.concat([Buffer.from([0xff, 0xfe]), Buffer.from(control, 'utf16le')]);
+    await go(page, 'photos');
+    await drop(page, [scratch('control.txt', utf16)]);
+    await page.waitForSelector('.preview tr.new');
+    assert.equal(await page.evaluate(() => location.hash), '#control');
+    assert.equal(await page.locator('.preview tr.new').count(), 3);
+    await page.getByRole('button', { name: 'Discard' }).click();
+    await go(page, 'results');
+    await drop(page, [scratch('marks.txt', 'sample-1,A,100.5,200.5,0.1\nsample-2,A,120.5,220.5,0.1\nsample-2,B,10.5,22.5,0.1\n')]);
+    await page.waitForSelector('.panel.marks');
+    assert.equal(await page.evaluate(() => location.hash), '#identities');
+    await page.getByRole('button', { name: 'Discard' }).click();
+    await go(page, 'results');
+    await drop(page, [scratch('either.txt', 'sample-1 7 100.5 200.5\nsample-2 7 101.5 201.5\n')]);
+    await page.waitForSelector('.asking');
+    assert.match(await page.textContent('.asking'), /either\.txt can be read as marks.*or as control points/);
+    await page.locator('.asking').getByRole('button', { name: 'Control points' }).click();
+    await page.waitForSelector('.preview tr.new');
+    assert.equal(await page.locator('.asking').count(), 0);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('photos, marks and control dropped together go where they belong', { skip: folder ? false : 'skipped, no data', timeout: 300_000 }, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await photos(page, [...files(join(folder, 'photos'), '.jpg').slice(0, 3), join(folder, 'markpts.txt'), join(folder, 'camcal-fixed.txt')]);
+    await page.waitForSelector('.notice');
+    assert.match(await notice(page), /camcal-fixed\.txt holds control points.*markpts\.txt holds marks/);
+    assert.equal(await page.locator('.tile').count(), 3);
+    await go(page, 'identities');
+    assert.match(await page.textContent('.panel.marks'), /markpts\.txt/);
+    await go(page, 'control');
+    assert.equal(await page.locator('.preview tr.new').count(), 4);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('opening over work that is not saved asks', { timeout: 600_000 }, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  const empty = scratch('other.json', JSON.stringify({ format: 'sightline', version: 1, name: 'Other' }));
+  try {
+    // A sample that nobody has worked on is no work.
+    await sample(page);
+    await drop(page, [empty]);
+    await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Other');
+    await go(page, 'control');
+    await page.fill('[name=unit]', 'm');
+    await page.press('[name=unit]', 'Enter');
+    await page.click('.mark');
+    await page.click('.sample');
+    await page.waitForSelector('.asking');
+    assert.match(await page.textContent('.asking'), /Other has changes that are not saved/);
+    await page.keyboard.press('Escape');
+    assert.equal(await page.locator('.asking').count(), 0);
+    await idle(page);
+    assert.equal(await page.inputValue('.project-name'), 'Other');
+    await drop(page, [scratch('third.json', JSON.stringify({ format: 'sightline', version: 1, name: 'Third' }))]);
+    await page.locator('.asking').getByRole('button', { name: 'Open without saving' }).click();
+    await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Third');
+    // What went can be got back.
+    await page.keyboard.press('Control+z');
+    assert.equal(await page.inputValue('.project-name'), 'Other');
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});

@@ -1,0 +1,173 @@
+//! What ties the object to the world: given coordinates, measured distances, unit and datum.
+
+use sightline::project::{DatumKind, Distance, Point, Project, Role};
+
+/// Units of length that are known, in millimetres.
+pub const UNITS: [(&str, f64); 6] =
+    [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("µm", 0.001), ("in", 25.4), ("ft", 304.8)];
+
+/// Whether something of the project has a length already, so that its unit is more than the one it began with.
+pub fn has_lengths(project: &Project) -> bool {
+    !project.distances.is_empty() || project.points.iter().any(|p| p.role != Role::Tie && p.xyz.is_some())
+}
+
+/// Takes points as control, or as what they say they are, in place of what was known of them. Their coordinates come in
+/// `unit`: the first ones give the project its unit, later ones are brought to it where both are known. How many.
+pub fn take_points(project: &mut Project, points: Vec<Point>, unit: &str) -> usize {
+    let factor = if has_lengths(project) {
+        factor(unit, &project.unit)
+    } else {
+        project.unit = unit.to_owned();
+        1.0
+    };
+    let count = points.len();
+    for point in points {
+        let role = if point.role == Role::Tie { Role::Control } else { point.role };
+        let point = Point {
+            role,
+            xyz: point.xyz.map(|xyz| xyz.map(|x| x * factor)),
+            sigma: point.sigma.map(|sigma| sigma.map(|s| s.map(|s| s * factor))),
+            diameter: point.diameter.map(|d| d * factor),
+            ..point
+        };
+        match project.points.iter_mut().find(|p| p.id == point.id) {
+            Some(known) => {
+                let diameter = point.diameter.or(known.diameter);
+                let normal = point.normal.or(known.normal);
+                *known = Point { diameter, normal, ..point };
+            }
+            None => project.points.push(point),
+        }
+    }
+    // Three points fix a system: the control system is then what people expect to stand in.
+    let control = project.points.iter().filter(|p| p.role == Role::Control).count();
+    if control >= 3 && project.datum.kind == DatumKind::Free && project.datum.points.is_none() {
+        project.datum.kind = DatumKind::Control;
+    }
+    count
+}
+
+/// What a length in one unit is multiplied by to be in another; 1 where one of them is not known.
+pub fn factor(from: &str, to: &str) -> f64 {
+    let mm = |unit: &str| UNITS.iter().find(|(name, _)| *name == unit).map(|(_, mm)| *mm);
+    match (mm(from), mm(to)) {
+        (Some(from), Some(to)) => from / to,
+        _ => 1.0,
+    }
+}
+
+/// Gives a point a role; a tie point is kept only as long as something observes it.
+pub fn set_role(project: &mut Project, id: &str, role: Role) {
+    if let Some(point) = project.points.iter_mut().find(|p| p.id == id) {
+        point.role = role;
+    }
+}
+
+/// Gives a point one of its coordinates.
+pub fn set_coordinate(project: &mut Project, id: &str, axis: usize, value: f64) {
+    if let Some(point) = project.points.iter_mut().find(|p| p.id == id) {
+        point.xyz.get_or_insert_default()[axis] = value;
+    }
+}
+
+/// Gives one of a point's coordinates a standard error; none fixes a control point there.
+pub fn set_sigma(project: &mut Project, id: &str, axis: usize, sigma: Option<f64>) {
+    if let Some(point) = project.points.iter_mut().find(|p| p.id == id) {
+        point.sigma.get_or_insert_default()[axis] = sigma;
+        if point.sigma == Some([None; 3]) {
+            point.sigma = None;
+        }
+    }
+}
+
+/// What a distance lacks before it can be taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DistanceFault {
+    SamePoint,
+    NoSuchPoint,
+    Length,
+    Sigma,
+}
+
+/// Adds a measured distance.
+///
+/// # Errors
+/// What it lacks.
+pub fn add_distance(project: &mut Project, distance: Distance) -> Result<(), DistanceFault> {
+    let known = |id: &str| project.points.iter().any(|p| p.id == id);
+    if !known(&distance.from) || !known(&distance.to) {
+        return Err(DistanceFault::NoSuchPoint);
+    }
+    if distance.from == distance.to {
+        return Err(DistanceFault::SamePoint);
+    }
+    check_distance(&distance)?;
+    project.distances.push(distance);
+    Ok(())
+}
+
+/// Whether length and standard error are positive numbers.
+///
+/// # Errors
+/// Which of them is not.
+pub fn check_distance(distance: &Distance) -> Result<(), DistanceFault> {
+    let positive = |value: f64| value > 0.0 && value.is_finite();
+    if !positive(distance.length) {
+        return Err(DistanceFault::Length);
+    }
+    if positive(distance.sigma) { Ok(()) } else { Err(DistanceFault::Sigma) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(id: &str, x: f64) -> Point {
+        Point { id: id.into(), xyz: Some([x, 0.0, 0.0]), sigma: Some([Some(0.1), None, None]), ..Point::default() }
+    }
+
+    #[test]
+    fn the_first_coordinates_give_the_unit_and_later_ones_are_brought_to_it() {
+        let mut p = Project::default();
+        assert!(!has_lengths(&p));
+        assert_eq!(take_points(&mut p, vec![point("1", 1.0)], "m"), 1);
+        assert_eq!((p.unit.as_str(), p.points[0].role), ("m", Role::Control));
+        assert_eq!(p.datum.kind, DatumKind::Free);
+        take_points(&mut p, vec![point("2", 500.0), point("3", 0.0)], "mm");
+        assert_eq!(p.points[1].xyz, Some([0.5, 0.0, 0.0]));
+        assert_eq!(p.points[1].sigma, Some([Some(0.0001), None, None]));
+        assert_eq!(p.datum.kind, DatumKind::Control);
+        assert_eq!((factor("in", "cm"), factor("ell", "mm")), (2.54, 1.0));
+    }
+
+    #[test]
+    fn a_point_taken_again_keeps_its_target() {
+        let mut p = Project::default();
+        p.points.push(Point { id: "1".into(), diameter: Some(8.0), ..Point::default() });
+        take_points(&mut p, vec![Point { role: Role::Check, ..point("1", 1.0) }], "mm");
+        assert_eq!((p.points.len(), p.points[0].diameter, p.points[0].role), (1, Some(8.0), Role::Check));
+        set_role(&mut p, "1", Role::Control);
+        set_coordinate(&mut p, "1", 2, 7.0);
+        set_sigma(&mut p, "1", 0, None);
+        assert_eq!(
+            (p.points[0].role, p.points[0].xyz, p.points[0].sigma),
+            (Role::Control, Some([1.0, 0.0, 7.0]), None)
+        );
+        set_sigma(&mut p, "1", 1, Some(0.5));
+        assert_eq!(p.points[0].sigma, Some([None, Some(0.5), None]));
+    }
+
+    #[test]
+    fn distances_are_checked() {
+        let mut p = Project::default();
+        take_points(&mut p, vec![point("1", 1.0), point("2", 2.0)], "mm");
+        let distance =
+            |from: &str, to: &str, length, sigma| Distance { from: from.into(), to: to.into(), length, sigma };
+        assert_eq!(add_distance(&mut p, distance("1", "9", 1.0, 0.1)), Err(DistanceFault::NoSuchPoint));
+        assert_eq!(add_distance(&mut p, distance("1", "1", 1.0, 0.1)), Err(DistanceFault::SamePoint));
+        assert_eq!(add_distance(&mut p, distance("1", "2", f64::NAN, 0.1)), Err(DistanceFault::Length));
+        assert_eq!(add_distance(&mut p, distance("1", "2", 1.0, 0.0)), Err(DistanceFault::Sigma));
+        assert_eq!(add_distance(&mut p, distance("1", "2", 1.0, 0.1)), Ok(()));
+        assert!(has_lengths(&p));
+    }
+}

@@ -1,0 +1,743 @@
+//! The texts in English, by which every other language is checked: labels are noun phrases, advice is full sentences.
+//!
+//! `{n}` is a value; `{n:photo|photos}` is the word for one or for any other number of them.
+
+use super::declare;
+
+/// This language.
+pub struct English;
+
+fn choose<'a>(value: &str, one: &'a str, other: &'a str) -> &'a str {
+    if value == "1" { one } else { other }
+}
+
+declare! { desk {
+    // Shell
+    start_page: "Sightline, start";
+    no_project: "no project open";
+    not_saved: "not saved yet";
+    steps: "Steps";
+    undo: "Undo";
+    redo: "Redo";
+    switch_language: "Language: switch to Korean";
+    other_language: "한국어";
+    switch_theme: "Theme: switch";
+    theme_light: "Light";
+    theme_dark: "Dark";
+    theme_sun: "Sun";
+    more_actions: "More";
+    dismiss: "Dismiss";
+    cancel: "Cancel";
+    done_of(done, total): "{done} of {total}";
+    version(version): "Version {version}";
+    units(unit): "{unit}, degrees, sigma level 1σ";
+    in_photos(n): "in {n} {n:photo|photos}";
+    worker_lost(detail):
+        "The computation broke off and its worker was replaced ({detail}). Nothing was lost; try again, with fewer or smaller photos if memory ran out.";
+
+    // Start
+    drop_here: "Drop photos or a project anywhere on this page";
+    formats: "JPEG, PNG and TIFF, 8 or 16 bit. They stay on this computer.";
+    choose_photos: "Choose photos…";
+    heic_and_raw: "HEIC and RAW are recognised; the message says how to convert them.";
+
+    // Photos and cameras
+    photos: "Photos";
+    photos_sentence(photos, cameras):
+        "{photos} {photos:photo|photos}, {cameras} {cameras:camera|cameras}. Photos of the same make, model, size and focal length share a camera.";
+    no_photos_yet: "There is no photo yet: drop some anywhere on this page.";
+    add_photos: "Add photos…";
+    on_to_targets: "Targets";
+    opening_photos: "Opening photos";
+    photo_count(n): "{n} {n:photo|photos}";
+    photo_failed(photo, reason): "Photo {photo}: {reason}";
+    no_photo_files: "No photo file is here: drop the photos of this project to work on them.";
+    photo_file_missing(file): "The file {file} is not here. Drop it on this page to see it.";
+    not_taken: "Not taken";
+    duplicate_of(file): "the same content as {file}, which is here already";
+    unreadable(detail): "the browser could not read the file: {detail}";
+    cameras: "Cameras";
+    camera: "Camera";
+    camera_named(name): "Camera {name}";
+    camera_of_their_own: "a camera of their own";
+    picked_photos(n): "{n} {n:photo|photos} chosen";
+    take_part: "take part in the adjustment";
+    remove_from_project: "Remove from the project";
+    make_and_model: "make, model";
+    focal_length: "focal length";
+    film_equivalent(mm): "{mm} mm on 35 mm film";
+    not_in_exif: "not in EXIF";
+    name: "name";
+    name_taken(name): "The name \"{name}\" is empty or in use: names are unique.";
+    not_a_length(typed): "\"{typed}\" is no positive number: type one such as 3.19.";
+    no_sigma(typed): "\"{typed}\" is no standard error: type a number above 0, or nothing.";
+    centre_without_sigma: "An observed projection centre needs a standard error on one axis at least.";
+    pixel_pitch: "pixel pitch";
+    pitch_um(um): "pitch {um} µm";
+    pitch_unknown: "pitch unknown, in pixels";
+    pitch_hint: "Without a pixel pitch photo coordinates are in pixels; the object points are the same either way.";
+    principal_distance: "principal distance, initial";
+    unknown: "unknown";
+
+    // Photo view
+    photo_view(photo): "Photo {photo}";
+    fit: "Fit";
+    loupe: "loupe";
+    legend_measured: "measured";
+    legend_selected: "selected";
+    legend_doubtful: "doubtful";
+    legend_excluded: "excluded";
+
+    // Targets
+    targets: "Targets";
+    target: "Target";
+    targets_none_yet: "Bright and dark circular targets are found, measured and, where they carry a ring code, named.";
+    targets_sentence(targets, coded, photos):
+        "{targets} {targets:target|targets} in {photos} {photos:photo|photos}, {coded} of them coded.";
+    targets_coded(targets, coded): "{targets} {targets:target|targets}, {coded} coded";
+    detect: "Detect targets";
+    detect_again: "Detect again";
+    detecting: "Detecting";
+    polarity: "targets";
+    polarity_both: "bright and dark";
+    polarity_bright: "bright on dark";
+    polarity_dark: "dark on bright";
+    channel: "channel";
+    channel_grey: "grey";
+    channel_red: "red";
+    channel_green: "green";
+    channel_blue: "blue";
+    codes: "ring codes";
+    codes_auto: "automatic";
+    codes_none: "none";
+    method: "method";
+    method_least_squares: "least squares";
+    method_ellipse: "ellipse on edges";
+    method_intensity: "intensity centroid";
+    method_gradient: "gradient centroid";
+    diameter: "diameter";
+    diameter_from: "smallest diameter in pixels";
+    diameter_to: "largest diameter in pixels";
+    click_a_target: "Click a target in the photo to see its centre and sigma.";
+    full_axes: "full axes";
+    rotation: "rotation";
+    contrast: "contrast";
+    edge_width: "edge width";
+    rejected_here: "Rejected in this photo";
+    reason_too_small: "too small";
+    reason_too_large: "too large";
+    reason_not_an_ellipse: "not an ellipse";
+    reason_too_flat: "too flat";
+    reason_low_contrast: "low contrast";
+    reason_touching: "touching another";
+    reason_saturated: "saturated";
+    reason_at_border: "at the border";
+    reason_occluded: "hidden";
+    reason_code_ring: "part of a code ring";
+    reason_no_fit: "no fit";
+
+    // Project
+    project_name: "Project name";
+    saved_at(clock): "saved {clock}";
+    changed_after(clock): "changed since {clock}";
+    save: "Save";
+    save_all: "Save with photos";
+    save_hint: "Save the project file without the photos";
+    save_with_photos: "Save the project file with the photos in it";
+    saving: "Saving";
+    cannot_save(detail): "The file could not be saved: {detail}";
+    open_project: "Open project…";
+    opening_project: "Opening the project";
+    open_sample: "Open the sample project";
+    sample_words: "A panel with coded and plain targets, photographed by the engine itself. Opens adjusted in one click.";
+    sample_name: "Sample";
+    opening_sample: "Rendering, measuring and adjusting the sample";
+    busy: "Wait for the work under way to end, or cancel it first.";
+    waits_at_identities(file): "{file} holds marks and waits under Identities.";
+    waits_at_control(file): "{file} holds control points and waits under Control, scale.";
+    marks_or_control(file): "{file} can be read as marks (photo, point, u, v) or as control points (id, X, Y, Z). Which is it?";
+    is_empty: "the file is empty";
+    file_empty(file): "{file}: the file is empty.";
+    is_no_list: "neither marks (photo, point, u, v) nor control points (id, X, Y, Z) are in it";
+    unsaved_here: "This project has changes that are not saved.";
+    unsaved_in(name): "{name} has changes that are not saved.";
+    save_first: "Save with photos, then open";
+    go_on_unsaved: "Open without saving";
+    undo_this(what): "Undo: {what}";
+    redo_this(what): "Redo: {what}";
+    out_of_date: "out of date";
+    n_iterations(n): "{n} iter.";
+    photos_and_targets(done, total, targets): "photo {done} of {total} · {targets} {targets:target|targets}";
+    iteration_of(done, total): "iteration {done} of at most {total}";
+    copy: "Copy";
+    show: "Show";
+    discard: "Discard";
+    found_by_orientation: "unknown: found";
+    not_a_number(typed): "\"{typed}\" is no number: type one such as -0.0034.";
+
+    // Identities
+    identities: "Identities";
+    identities_sentence(named, points, single):
+        "{named} {named:observation|observations} of {points} {points:point|points}; {single} {single:point|points} seen only once.";
+    open_marks: "Open marks…";
+    match_uncoded: "Match uncoded targets";
+    matching: "Matching";
+    matched(found, doubtful):
+        "{found} {found:observation|observations} of uncoded targets matched; {doubtful} {doubtful:target|targets} are doubtful and were left without a name.";
+    control: "Control";
+    id: "id";
+    rays: "rays";
+    role: "role";
+    role_tie: "tie";
+    role_control: "control";
+    role_check: "check";
+    doubt: "doubt";
+    doubt_duplicate(photo): "code read twice in photo {photo}";
+    doubt_ambiguous(photo): "fits more than one way in photo {photo}";
+    doubt_disagrees(photo): "disagrees with the other rays in photo {photo}";
+    one_ray: "seen in one photo only";
+    no_ray: "not measured";
+    points: "Points";
+    point: "Point";
+    points_column: "points";
+    photo: "photo";
+    named_of(named, targets): "{named} named of {targets} {targets:target|targets}";
+    name_this_target: "Name of this target";
+    take_name: "Take";
+    marks: "Marks";
+    snap_radius: "snap radius";
+    snapped_sentence(good, all): "{good} of {all} {all:mark|marks} lie at a measured centre.";
+    take_marks(n): "Take {n}";
+    why_not: "not taken because";
+    unsnapped_no_detection: "no targets were detected in this photo";
+    unsnapped_no_target: "no target within the radius";
+    unsnapped_contested(points): "as near to the same target as {points}";
+    unsnapped_twice: "marked twice in this photo";
+    remove_point: "Remove the point";
+    remove_observation: "Remove the observation";
+    take_part_short: "takes part";
+    placed_by_hand: "Placed by hand, with σ 0.5 px.";
+    nothing_to_measure: "There is no target to measure here. Alt-click, or \"Place freely\", takes the place itself.";
+    place_freely: "Place freely";
+    place_freely_how: "Clicks take the place itself, with σ 0.5 px; Alt-click does so at any time";
+    click_measures: "Click measures, Alt-click places freely";
+    name_this_place: "Name of this place";
+    no_name: "no name";
+    rename_where: "renames";
+    in_all_photos(n): "in all {n} {n:photo|photos}";
+    in_this_photo(photo): "in photo {photo} only";
+    rename_says(n): "A new name goes to the point in all its {n} {n:photo|photos}; the name of another point joins the two.";
+    rename_here_says(photo): "Only what photo {photo} shows gets the new name; the other photos keep theirs.";
+    point_renamed(from, to, n): "Point {from} is now {to}, in {n} {n:photo|photos}.";
+    points_joined(from, to, n): "Points {from} and {to} are one now: {to}, in {n} {n:photo|photos}.";
+    name_taken_from(before, photo, point):
+        "This place was point {before} in photo {photo}; it is {point} now. The other photos keep {before}.";
+    name_moved(point, photo): "Point {point} was elsewhere in photo {photo}; that place has no name now.";
+    point_went(point): "Point {point} was measured nowhere else and went with its last observation.";
+    both_in_photo(from, to, photo): "Photo {photo} shows both {from} and {to}: they cannot be one point.";
+
+    // Control and scale
+    control_and_scale: "Control, scale";
+    control_sentence(control, check, distances):
+        "{control} {control:control point|control points}, {check} check points, {distances} distances.";
+    open_control: "Open control points…";
+    control_points: "Control points";
+    paste_control: "Paste rows here: id, X, Y, Z, sX, sY, sZ";
+    pasted: "Control points, pasted";
+    rows_read(all, bad): "{all} rows read, {bad} not understood";
+    take_points(n): "Take {n}";
+    measured: "measured";
+    not_measured: "not measured in any photo";
+    fixed: "fixed";
+    distances: "Distances";
+    distance_same_point: "A distance needs two different points.";
+    distance_no_point: "Both ends must be points of this project.";
+    distance_length: "The length must be a positive number.";
+    distance_sigma: "The standard error must be a positive number.";
+    add_distance: "Add";
+    remove_distance: "Remove the distance";
+    from_point: "from";
+    to_point: "to";
+    length: "length";
+    unit_of_length: "unit of length";
+    unit_of_these: "in";
+    choose_unit: "choose…";
+    which_unit: "Say in which unit these coordinates are: a sheet of 1 m must not become one of 1 mm.";
+    in_unit(unit): "in {unit}";
+    observed_centres: "Observed projection centres";
+    observed_centres_hint: "as from GNSS; used under the control datum";
+    forget_centre: "Observe this projection centre no more";
+    observe: "Observe";
+    datum: "Datum";
+    datum_control: "Control points";
+    datum_control_means: "The result sits in the control system, and errors of control enter the shape.";
+    datum_minimal: "Minimal constraints";
+    datum_minimal_means: "Seven coordinates are held: no strain on the shape, but sigmas depend on which seven.";
+    datum_free: "Free network";
+    datum_free_means: "Inner constraints over all points give the smallest mean sigma; control only gives the start.";
+
+    // Adjustment
+    adjustment: "Adjustment";
+    bundle_adjustment: "Bundle adjustment";
+    adjust_sentence: "Orientation finds initial values, then everything is adjusted together.";
+    adjusted_sentence(observations, unknowns, redundancy):
+        "{observations} {observations:observation|observations}, {unknowns} unknowns, redundancy {redundancy}.";
+    adjust_now: "Adjust";
+    adjust_again: "Adjust again";
+    adjusting: "Adjusting";
+    what_is_estimated: "What is estimated";
+    unknowns: "unknowns";
+    orientation_of(n): "Orientation of {n} {n:photo|photos}";
+    position_and_rotation: "position and rotation, estimated";
+    object_points: "Object points";
+    points_all(n): "{n} × 3 coordinates";
+    points_with_control(n, control): "{n} × 3 coordinates, {control} of them control";
+    all_estimated(free): "{free} estimated";
+    all_held(held): "{held} held";
+    estimated_and_held(free, held): "{free} estimated; {held} held";
+    estimated: "estimated";
+    initial_value: "initial value";
+    observed_with: "standard error of the value as an observation; empty: not observed";
+    not_observed: "none";
+    from_what: "From what";
+    observations: "observations";
+    image_coordinates: "Image coordinates";
+    median_sigma(sigma): "each weighted with its own σ, median {sigma} px";
+    control_coordinates: "Control coordinates";
+    iterations: "Iterations";
+    logarithmic: "logarithmic";
+    no_iterations: "Iterations appear here as they are computed.";
+    number: "no.";
+    largest_step: "largest step";
+    damping: "damping";
+    converged: "The step fell below its limit: converged.";
+    iteration_limit: "The largest number of iterations was reached without convergence: what is shown is not a solution.";
+    diverged: "No step lowered the residuals: check identities, control points and initial values.";
+    stopped: "Stopped on request.";
+
+    // Advice
+    sigmas_optimistic(sigma0): "The standard errors of the image coordinates are too small by {sigma0}";
+    sigmas_optimistic_body:
+        "σ₀ should be 1. Something that is not modelled is left in the residuals (flatness of targets, light, lens), or the sigmas are too hopeful. Sigmas of the result include σ₀.";
+    more_notes(n): "{n} {n:more measurement disagrees|more measurements disagree} with the orientation";
+    what_lacks: "What the network lacks";
+    hold(name): "Hold {name}";
+    lacks_control: "Give at least three control points, or choose another datum";
+    lacks_control_body: "The control datum takes position, attitude and scale from known points that do not lie on one line.";
+    n_control(n): "{n} control";
+    lacks_scale: "Give a distance between two points";
+    lacks_scale_body: "Neither control nor a distance gives the scale: the size of the result is arbitrary.";
+    seen_once(points): "Measure in a second photo: {points}";
+    seen_once_body(point, photo): "Point {point} is measured in photo {photo} only. It takes no part; nothing of it is lost.";
+    n_points(n): "{n} {n:point|points}";
+    n_photos(n): "{n} {n:photo|photos}";
+    photo_without_points(photos): "No point is measured in photo {photos}";
+    photo_without_points_body:
+        "It cannot be oriented and takes no part: detect targets with other options, name some by hand, or leave it out.";
+    hold_or_more(name, camera): "Hold {name} of camera {camera}, or add photos that determine it";
+    hold_or_more_body(name, ratio, other):
+        "{name} is only {ratio} times its sigma and moves with {other}: the network does not determine both.";
+    look_at(point, photo): "Look at point {point} in photo {photo}";
+    look_at_body(n):
+        "{n} {n:observation exceeds|observations exceed} the critical value 3.29 of Baarda's w at α 0.1 %. The largest is this one.";
+    nothing_lacks: "Every photo is tied and every point determined";
+    nothing_lacks_body: "No observation exceeds the critical value, no parameter is left undetermined.";
+    c_found(camera, value): "Principal distance of camera {camera} found: {value}";
+    c_assumed(camera, value): "Principal distance of camera {camera} started at {value}";
+    c_body: "No value was given; this one is only the start of the adjustment.";
+    photo_not_oriented(photo): "Photo {photo} could not be oriented";
+    photo_no_points: "No point is measured in it: detect with other options or name points by hand.";
+    photo_too_few(determined, needed):
+        "Only {determined} of its points are known from other photos or control; it takes {needed}.";
+    photo_disagrees(determined):
+        "Its {determined} {determined:point|points} do not fit together: look for wrong names, or another camera.";
+    point_not_determined(point): "Point {point} has no coordinates";
+    point_not_measured: "It was measured in no photo.";
+    point_too_few(photos): "It is measured in {photos} {photos:oriented photo|oriented photos}; it takes two.";
+    point_parallel(angle): "Its rays meet at {angle}° only: measure it in a photo from another side.";
+    point_behind(photo): "It would lie behind the camera of photo {photo}: look for a wrong name.";
+    point_disagrees: "Its rays do not meet: look for a wrong name in one of its photos.";
+    point_no_coordinates: "It is a control or check point without coordinates.";
+    measurement_disagrees(point, photo): "Point {point} in photo {photo} disagrees with the other measurements";
+    measurement_disagrees_body: "A wrong name, most often. Look at it, rename or exclude it.";
+    behind: "behind";
+
+    // Results
+    results: "Results";
+    no_result: "There is no result yet";
+    no_result_body: "Run the adjustment; its result appears here.";
+    results_stale: "These results are out of date";
+    changed_since: "Since the last adjustment:";
+    no_number_until: "No number is shown until the network is adjusted again.";
+    a_priori_one: "a priori 1";
+    test_passed: "Global test passed";
+    test_failed: "Global test failed";
+    redundancy: "redundancy";
+    rms_residual: "rms residual";
+    all_image_coordinates: "all image coordinates";
+    rms_sigma: "rms σ";
+    points_one_sigma(n): "{n} {n:point|points}, 1σ";
+    relative_accuracy: "relative accuracy";
+    largest_dimension(length, unit): "largest dimension {length} {unit}";
+    check_rms: "check points rms";
+    check_points: "Check points";
+    adjusted_minus_given: "adjusted minus given";
+    export_csv: "Export CSV";
+    camera_and_correlations(camera): "Camera {camera} and its correlations";
+    value: "value";
+    unit: "unit";
+    rms_x: "rms x";
+    rms_y: "rms y";
+    rms_summary(x, y, unit, n): "rms x {x}, y {y} {unit}, {n} {n:point|points}";
+    residuals: "Residuals";
+    residuals_of(photo): "Residuals, photo {photo}";
+    worst_observations: "Worst observations";
+    baarda: "Baarda's w, α 0.1 %";
+    over(limit): "over {limit}";
+    verdict: "verdict";
+    unchecked: "unchecked";
+    other_observations: "Other observations";
+    kind_of_observation: "kind";
+    detectable: "detectable";
+    effect: "effect";
+    effect_on: "on point";
+
+    // Changes
+    change_photos_added(n): "{n} {n:photo|photos} added";
+    change_photo_removed(id): "photo {id} removed";
+    change_photo_switched(id): "photo {id} excluded or included";
+    change_camera_edited(id): "camera {id} changed";
+    change_camera_assigned(photos, camera): "camera {camera} given to {photos} {photos:photo|photos}";
+    change_detected: "targets detected";
+    change_measured(photo): "a target measured in photo {photo}";
+    change_named(point): "point {point} named";
+    change_renamed(from, to): "point {from} renamed to {to}";
+    change_moved(point, photo): "point {point} moved in photo {photo}";
+    change_observation_removed(point, photo): "point {point} removed from photo {photo}";
+    change_observation_switched(point, photo): "point {point} in photo {photo} excluded or included";
+    change_point_removed(point): "point {point} removed";
+    change_marks_taken(n): "{n} {n:mark|marks} taken";
+    change_matched(n): "{n} {n:observation|observations} matched";
+    change_control_taken(n): "{n} {n:control point|control points} taken";
+    change_role(point): "role of point {point} changed";
+    change_distance_added(from, to): "distance {from} – {to} added";
+    change_distance_edited(from, to): "distance {from} – {to} changed";
+    change_control_edited(point): "coordinates of point {point} changed";
+    change_centre_observed(photo): "projection centre of photo {photo} observed";
+    change_centre_forgotten(photo): "projection centre of photo {photo} no longer observed";
+    change_distance_removed(from, to): "distance {from} – {to} removed";
+    change_datum: "datum chosen";
+    change_parameters(camera): "parameters of camera {camera} changed";
+    change_options: "weights or search for gross errors chosen";
+    change_adjusted: "adjusted";
+    change_unit: "unit of length changed";
+    change_opened: "project opened";
+    unmodelled: "not modelled, px";
+    unmodelled_why: "added in quadrature to every σ of the image: lens, flatness of targets, light";
+    target_diameter(unit): "target diameter, {unit}";
+    target_diameter_why:
+        "of all circular targets that state none of their own: frees their images of the eccentricity; empty for none";
+    no_diameter(typed): "\"{typed}\" is no diameter: type a number above 0, or nothing.";
+    gross_errors: "Gross errors";
+    gross_left: "Leave everything in";
+    gross_left_body: "Suspicious observations are named; you decide.";
+    gross_snooping: "Data snooping";
+    gross_snooping_body: "The worst observation is taken out, one a round, and taken back where it fits after all.";
+    gross_huber: "Robust weights, Huber";
+    gross_huber_body: "Large residuals count less; nothing is taken out.";
+    gross_tukey: "Robust weights, Tukey";
+    gross_tukey_body: "Beyond its limit a residual counts nothing.";
+    gross_record: "What was done about gross errors";
+    gross_removed: "taken out";
+    gross_restored: "taken back";
+    gross_downweighted: "weighted down";
+    gross_round: "round";
+    gross_action: "action";
+    gross_statistic: "τ or weight";
+    gross_limit: "limit";
+    photo_or_kind: "photo or kind";
+    gross_consequence: "along with it: one ray left";
+    control_coordinate: "control coordinate";
+    projection_centre: "projection centre";
+    distance: "distance";
+    camera_parameter: "camera parameter";
+    unmodelled_again: "What is not modelled can be told more closely now";
+    unmodelled_again_body: "The value was found with other weights; with these the residuals ask for this one.";
+    add_unmodelled(px): "Take {px} px and adjust";
+    correlated(first, second): "{first} and {second} are hardly told apart";
+    correlated_body(camera): "Camera {camera}: hold one of them, or add rolled photos and depth.";
+    camera_against_photos(n): "In {n} {n:photo|photos} the camera is hardly told apart from their orientation";
+    camera_against_photos_body(photos):
+        "Correlations over 0.95. Coordinates suffer little as long as the camera is used as adjusted; rolled photos and depth would part them ({photos}).";
+    low_redundancy(n): "{n} {n:observation is|observations are} hardly checked by others";
+    low_redundancy_body(names): "Redundancy numbers below 0.1: an error there would stay unseen ({names}).";
+    two_rays(points): "Measure in a third photo: {points}";
+    two_rays_body: "With two rays an error along the epipolar line stays unseen.";
+    narrow(points): "Rays meet under less than 5°: {points}";
+    narrow_body: "The depth is weak: add a photo from the side.";
+    behind_camera(names): "Points behind the camera that is said to see them: {names}";
+    behind_camera_body: "Check these names: the solution is turned inside out there.";
+    distance_unused(names): "Distances left out: {names}";
+    distance_unused_body: "An end of it is not measured in two photos.";
+    unsettled: "The search for gross errors came to no end";
+    unsettled_body: "Too many observations contradict each other: look at names and control first.";
+}}
+
+declare! { experiments {
+    // The pages
+    experiments: "Experiments";
+    experiments_words:
+        "Three papers from Korea, run again: their networks simulated and adjusted here, their figures beside ours.";
+    running: "Running the experiment";
+    run: "Run";
+    run_again: "Run again";
+    open_as_project: "Open as a project";
+    not_run_yet: "Run the experiment to see its figures. It takes a few seconds in the background; the page stays usable.";
+    inputs_changed: "The inputs have changed since the last run: run again to see the figures that belong to them.";
+    ran_in(seconds): "run in {seconds} s";
+    vary: "What may be varied";
+    network: "Network";
+    drawing_shown: "network drawn";
+    plan: "plan";
+    elevation: "elevation";
+    assumed: "Assumed here";
+    assumed_aside: "not printed in the paper, or printed otherwise";
+    ours: "ours";
+    paper: "paper";
+    paper_of(what): "{what}, paper";
+    independent: "independent";
+    difference: "difference";
+    figure: "figure";
+    figures: "Figures";
+    no_paper_figure: "not printed";
+    rows(n): "{n} rows";
+
+    // Questions, one an experiment
+    kang: "Kang & Yeu 1985";
+    kang_question: "How much do more photos improve coordinates?";
+    kang_source:
+        "Kang, J. M. and Yeu, B. M. (1985), A Study on the 3 Dimensional Precision Analysis of Objects by means of Multiple Close Range Photogrammetry.";
+    film: "Film";
+    film_question: "What do fiducial marks and a distortion table make of comparator readings?";
+    film_source: "The way of Kang and Yeu (1985), figures 3-2 and 3-3, on readings made up here.";
+    lee_calibration: "Lee 1996, calibration";
+    lee_calibration_question: "How well does a camera calibrate itself, from the pixels on?";
+    lee_source:
+        "Lee, J. D. (1996), Effective Application of Close-Range Photogrammetry with Digital Images in Industrial Precise Measurement.";
+    lee_structure: "Lee 1996, structure";
+    lee_structure_question: "What do convergent photos and a free network give?";
+    kim: "Kim, Hwang & Yun 2015";
+    kim_question: "How near does a pair of photos come, from DLT to intersected points?";
+    kim_source:
+        "Kim, H. G., Hwang, J. S. and Yun, H. S. (2015), Accuracy Analysis of 3D Position of Close-range Photogrammetry Using Direct Linear Transformation and Self-calibration Bundle Adjustment with Additional Parameters.";
+
+    // Plates of one's own
+    plates: "Plates of your own";
+    plates_words:
+        "Describe camera, fiducial marks and distortion table, one a line; then take readings: photo, mark or point, x, y in the machine's millimetres.";
+    plates_description: "description of camera and plates";
+    plates_files: "Readings from files…";
+    plates_scans: "Measured in the scans";
+    plates_scans_words:
+        "In scanned photos: point at marks and points under Targets, name the marks as above under Identities, then return here.";
+    plates_reduced(photos, observations):
+        "{photos} {photos:photo|photos} reduced, {observations} {observations:observation|observations}.";
+
+    // Inputs
+    in_distance: "object distance";
+    in_mixed: "mixed distances";
+    in_combination: "combination";
+    in_photos: "number of photos";
+    in_overlap: "overlap";
+    in_network: "network of the project";
+    in_datum: "datum of the project";
+    in_image_sigma: "σ of image coordinates, µm";
+    in_control_sigma: "σ of control coordinates, mm";
+    in_pixel_noise: "noise of the pixels, % of full scale";
+    in_rounds: "rounds of Monte Carlo";
+    in_seed: "seed of the noise";
+    in_method: "centres adjusted";
+    in_left_out: "photos left out of the second run";
+    left_out_hint: "numbers, separated by blanks";
+
+    // What a name in a cell, on an axis or after a figure says
+    all: "all";
+    reduced: "without the photos left out";
+    control: "control";
+    free: "free network";
+    observed: "observed";
+    unknown: "unknown";
+    yes: "yes";
+    no: "no";
+    greatest: "greatest";
+    least: "least";
+    mean: "mean";
+    standard_deviation: "standard deviation";
+    rms: "rms";
+    similarity: "similarity";
+    affine: "affine";
+    projective: "projective";
+    similarity_corrected: "similarity, lens corrected";
+    affine_corrected: "affine, lens corrected";
+    projective_corrected: "projective, lens corrected";
+    field: "test field";
+    planes: "two planes";
+    all_photos: "all photos";
+
+    // What identifiers of tables and charts say
+    t_single: "60 networks at one distance";
+    t_mixed: "16 networks of mixed distances";
+    t_improvement: "Fall of M₀ and Mₛ against two photos";
+    t_pairwise: "Models pair by pair (coplanarity) and the bundle";
+    t_fiducials: "Residuals at the fiducial marks";
+    t_transformations: "Parameters of the transformations";
+    t_distortion: "Distortion table and odd polynomial";
+    t_reductions: "What the bundle makes of each reduction";
+    t_photos: "Residuals photo by photo";
+    t_parameters: "Camera parameters";
+    t_estimators: "Centres against the truth, best first";
+    t_standard_errors: "Standard errors";
+    t_free_gain: "Gain of the free network";
+    t_check_points: "Check points, photogrammetry minus survey";
+    t_statistics: "Statistics of the differences";
+    t_orientation: "Exterior orientation";
+    t_interior: "Interior orientation";
+    c_errors(n): "Standard errors with {n} {n:photo|photos}";
+    c_improvement(d): "Improvement at {d} m";
+    c_mixed: "Standard errors of mixed distances";
+    c_pairwise: "Errors with 3 photos: pair by pair and bundle";
+    c_distortion: "Radial distortion";
+    c_distortion_error: "Radial distortion, ours minus planted";
+    c_way(axis, photo): "{axis} of photo {photo} over the iterations";
+
+    // Axes, columns, lines, figures
+    photo: "photo";
+    point: "point";
+    points: "points";
+    photos: "photos";
+    count: "compared";
+    found: "found";
+    overlap_type: "type (overlap)";
+    standard_error: "standard error";
+    rms_error: "rms error";
+    improvement: "improvement";
+    distance: "distance";
+    observations: "observations m";
+    unknowns: "unknowns n";
+    equations: "equations";
+    datum: "datum";
+    parameters: "additional parameters";
+    relative: "relative accuracy";
+    relative_column: "relative accuracy 1 :";
+    method: "method";
+    largest: "largest";
+    mark: "mark";
+    kind: "transformation";
+    parameter: "parameter";
+    value: "value";
+    radius: "radius";
+    distortion: "distortion";
+    table: "table";
+    polynomial: "polynomial";
+    residual: "residual";
+    corrected: "lens corrected";
+    bundle_sigma0: "σ₀ of the bundle";
+    marks_sigma0: "σ₀ of the marks";
+    planted: "planted (the paper's)";
+    error: "error";
+    element: "element";
+    dlt: "DLT";
+    bundle: "bundle";
+    statistic: "statistic";
+    total: "total";
+    iteration: "iteration";
+    iterations: "iterations until nothing moves by 0.1 mm";
+    check_points: "check points";
+    base_fall(base): "fall of M₀ with B/D from 0.2 to {base}";
+    fall_of(what): "fall of {what}";
+    m0_mean(n): "{n} {n:photo|photos} against 2, mean fall of M₀";
+    m0_up_to(n): "{n} {n:photo|photos} against 2, greatest fall of M₀";
+    m0_least: "least fall of M₀ over types";
+    m0_greatest: "greatest fall of M₀ over types";
+    monte_carlo(axis): "Monte Carlo scatter against S{axis}";
+    residual_axis(axis): "residual {axis}";
+    rms_sigma(axis): "rms σ{axis}";
+    error_of(what): "error of {what} in its σ";
+    gain_of(axis): "gain of the free network in {axis}";
+    centre_rms: "centre errors, rms";
+    distortion_sigma0: "σ₀ of the polynomial";
+    pair_unaided: "pairs, best fit, one draw";
+    pair_draws: "pairs, axes parallel, 4 draws";
+    bundle_draws: "bundle, 4 draws";
+    pair_of(axis): "pairs {axis}";
+    bundle_of(axis): "bundle {axis}";
+    pair_rms_draws: "pairs rms, 4 draws";
+    bundle_rms_draws: "bundle rms, 4 draws";
+    pair_unaided_rms: "pairs best fit rms";
+    pair_unaided_rms_draws: "pairs best fit rms, 4 draws";
+    reduced_of(what): "{what}, photos left out";
+
+    // Assumptions, as sentences
+    a_base_line_centre: "The base line's centre faces the mean of the points: the paper does not print where it lies.";
+    a_overall_means:
+        "\"About 15, 35 and up to 50 %\" is read over the distances of the paper's figures 4-6 to 4-9, 1.4 to 4.0 m: the means of 3 and 4 photos, the greatest fall with 5. At 7.0 m more photos gain more.";
+    a_pairwise:
+        "The paper's models formed pair by pair had random errors that did not follow the distance. With random image errors alone ours grow with the distance like the bundle's: the method by itself is not irregular. It becomes so where the second orientation of a shallow object is taken for the first.";
+    a_readings: "The readings are made up: plates of the usual kind, read to the σ above. The paper prints none.";
+    a_distortion: "The distortion table is made up, of the usual size: the paper shows it as a drawing only.";
+    a_film_along(v): "The film shrank to {v} along its run.";
+    a_film_across(v): "The film shrank to {v} across it.";
+    a_station_distance(v, paper):
+        "Stations {v} mm away; the paper says about {paper} mm, from where this camera sees 1.9 × 1.3 m of the 2.0 × 1.5 m field and fewer targets than the 100 to 119 a photo of its table 1. Farther away it sees more of them, though still not as many.";
+    a_field_depth(v): "Targets at depths over {v} mm: the paper says \"three-dimensional\" and no more.";
+    a_station_directions: "Stations on an arc at ±10°, ±30°, ±50°: the paper draws them without figures.";
+    a_psf(v): "Lens blur of {v} px (standard deviation).";
+    a_pixel_noise(v): "Pixel noise of {v} % of full scale, constant and by photons.";
+    a_centroid: "Intensity centroids are adjusted, the paper's better weighting; other centres can be chosen above.";
+    a_base_distance(v, paper):
+        "Base line {v} mm from the wall; the paper says about {paper} mm, from where this camera sees 3.7 × 2.5 m of the 6.3 × 3.5 m wall. At 7.4 m network I has the paper's 374 equations, but the photos of II miss the upper and lower rows. Standard errors grow with the distance.";
+    a_outer(v):
+        "Outer stations of network I {v} mm from the middle: not printed. From 5 000 to 7 500 mm the order III, I, II in depth is the same.";
+    a_relief(v): "Targets on pillars stand {v} mm before the wall: not printed.";
+    a_observed:
+        "The additional parameters are observed with the sigmas of the first experiment's calibration; in the paper they are unknown. The table has both: in network II four control points then add to the calibration what the free datum does without.";
+    a_principal_distance(v): "Principal distance {v} mm: the paper prints none. The image scale is then about 1 : 1 100.";
+    a_survey(v):
+        "Surveyed coordinates are off by {v} mm (1σ): better than the total station's 2 mm + 2 ppm, as within one room and from one set-up.";
+    a_diameter(v): "Targets of {v} mm.";
+    a_control_places:
+        "The 65 control points lie on two planes through the check points: the paper prints the 15 check points only.";
+}}
+
+declare! { errors {
+    recognised(kind): "this is a {kind} file, which is not read here: convert it to JPEG, PNG or TIFF";
+    no_picture: "not a picture that is read here: JPEG, PNG or TIFF of 8 or 16 bits are expected";
+    broken(detail): "the picture cannot be decoded ({detail}): copy it again from the camera";
+    size(width, height, limit): "the picture has {width} × {height} pixels; from 1 to {limit} pixels are worked on";
+    unknown(kind, name): "there is no {kind} \"{name}\"";
+    duplicate(kind, name): "the {kind} \"{name}\" occurs twice: identifiers are unique";
+    empty(what): "the project has no {what} to work on";
+    initial_values(things): "initial values are missing for {things}";
+    not_solved(causes): "the network cannot be solved: {causes}";
+    stopped: "stopped on request";
+    and_more(names, more): "{names} and {more} more";
+    no_datum(missing):
+        "{missing} of the 7 datum parameters (position, attitude, scale) are not fixed: add control points or a distance, or choose the minimal or the free datum";
+    too_few_rays(points): "too few rays for point {points}: measure it in a second photo, give it coordinates or exclude it";
+    photo_undetermined(photos):
+        "too few points in photo {photos}: measure at least three well-spread points that other photos or the control determine, or exclude the photo";
+    not_tied(groups): "groups of photos are not tied to each other ({groups}): measure common points";
+    parameter_undetermined(camera, parameters):
+        "camera {camera}: the network does not determine {parameters}: hold it, observe it with a sigma, or add convergent and rolled photos";
+    combination(things): "the network does not determine a combination of {things}: hold or observe some of them, or add rays";
+    kind_photo: "photo";
+    kind_point: "point";
+    kind_camera: "camera";
+    kind_file: "file";
+    kind_line: "line";
+    kind_field: "field";
+    some_photos: "photos";
+    some_points: "points";
+    some_cameras: "cameras";
+    some_parameters: "parameters";
+}}

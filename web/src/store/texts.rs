@@ -1,0 +1,248 @@
+//! Texts that come in: sorted by what is in them, and put where they belong.
+
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+use leptos::prelude::*;
+use leptos::task::spawn_local;
+use sightline::exchange::comparator;
+use sightline::exchange::{Files, control_csv, encoding};
+use sightline::project::Project;
+
+use super::{Asking, Desk, Problem, Reason, Step, Until};
+use crate::browser::file::NamedFile;
+use crate::i18n::text;
+
+/// What a text can be read as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// Marks of an earlier measurement: photo, point, u, v.
+    Marks,
+    /// Control points: id, X, Y, Z.
+    Control,
+}
+
+/// Share of a text's rows that have to be of a kind: a few bad ones are named when it is read.
+const MOST: f64 = 0.5;
+
+/// The ways in which a text can be read beside this project: none for prose, two where nothing tells them apart.
+pub fn readings(text: &str, project: &Project) -> Vec<Reading> {
+    let rows: Vec<Vec<&str>> = text.lines().filter_map(fields).collect();
+    let Some(first) = rows.first() else { return Vec::new() };
+    let names = |wanted: &[&str]| {
+        wanted.iter().all(|name| {
+            first.iter().any(|field| {
+                let word = field.split(['[', '(', ' ']).next().unwrap_or_default().trim_matches('"');
+                word.eq_ignore_ascii_case(name)
+            })
+        })
+    };
+    let table = control_csv::parse(text);
+    let good = table.rows.iter().filter(|row| row.is_ok()).count();
+    let control = good > 0 && good as f64 >= MOST * table.rows.len() as f64;
+    if control && names(&["x", "y", "z"]) {
+        return vec![Reading::Control];
+    }
+    let marks: Vec<&Vec<&str>> = rows.iter().filter(|row| is_mark(row)).collect();
+    let some = !marks.is_empty() && marks.len() as f64 >= MOST * rows.len() as f64;
+    match (some, control) {
+        (false, false) => Vec::new(),
+        (true, false) => vec![Reading::Marks],
+        (false, true) => vec![Reading::Control],
+        (true, true) => told_apart(&marks, project),
+    }
+}
+
+/// Rows of four or five numbers are both. Control points are named once; marks name photos, and points without decimals.
+fn told_apart(marks: &[&Vec<&str>], project: &Project) -> Vec<Reading> {
+    let firsts: BTreeSet<&str> = marks.iter().map(|row| row[0]).collect();
+    if firsts.len() < marks.len() {
+        return vec![Reading::Marks];
+    }
+    let photo = |name: &str| {
+        project.photos.iter().any(|p| p.id == name || p.file.split('.').next() == Some(name) || p.file == name)
+    };
+    let foreign = !project.photos.is_empty() && !firsts.iter().any(|name| photo(name));
+    let decimal = marks.iter().any(|row| row[1].contains(['.', ',']));
+    if foreign || decimal { vec![Reading::Control] } else { vec![Reading::Marks, Reading::Control] }
+}
+
+/// The fields of a line; none for blank lines and comments.
+fn fields(line: &str) -> Option<Vec<&str>> {
+    let line = line.trim();
+    if line.is_empty() || line.starts_with(['#', '%']) {
+        return None;
+    }
+    let marked = line.contains([',', ';', '\t']);
+    Some(if marked { line.split([',', ';', '\t']).map(str::trim).collect() } else { line.split_whitespace().collect() })
+}
+
+fn is_mark(row: &[&str]) -> bool {
+    let number = |field: &&str| field.parse::<f64>().is_ok_and(f64::is_finite);
+    (4..=6).contains(&row.len()) && !row[0].is_empty() && !row[1].is_empty() && row[2..].iter().all(|f| number(&f))
+}
+
+impl Desk {
+    /// Takes text files: each goes where its content belongs. `quietly`: they came with photos, and wait at their steps.
+    pub fn take_texts(self, files: Vec<NamedFile>, quietly: bool) {
+        if files.is_empty() {
+            return;
+        }
+        spawn_local(async move {
+            let Some(all) = self.contents(files).await else { return };
+            if comparator::recognises(&all) {
+                return self.take_plates(&all);
+            }
+            self.sort_texts(all, quietly);
+        });
+    }
+
+    fn sort_texts(self, files: Files, quietly: bool) {
+        let here = self.step.get_untracked();
+        let mut waiting = Vec::new();
+        let mut refused = Vec::new();
+        for (name, bytes) in files {
+            let content = match encoding::text(&bytes) {
+                Ok(content) => content,
+                Err(error) => {
+                    refused.push(Problem { file: name, reason: Reason::Engine(error) });
+                    continue;
+                }
+            };
+            let found = self.document.with_untracked(|d| readings(&content, &d.project));
+            match (found.as_slice(), here) {
+                ([], _) => refused.push(Problem { file: name, reason: Reason::NoList }),
+                ([one], _) => waiting.push((name, content, *one)),
+                // The step that is open says which of the two is meant.
+                (_, Step::Identities) => waiting.push((name, content, Reading::Marks)),
+                (_, Step::Control) => waiting.push((name, content, Reading::Control)),
+                _ => self.ask_which(name, content),
+            }
+        }
+        let mut told = Vec::new();
+        for (name, content, reading) in waiting {
+            let ready = match reading {
+                Reading::Marks => self.read_marks(name.clone(), &content),
+                Reading::Control => self.read_control(name.clone(), &content),
+            };
+            if ready {
+                told.push((name, reading));
+            }
+        }
+        if !refused.is_empty() {
+            self.add_problems(refused);
+        }
+        if let Some((_, first)) = told.first().filter(|_| !quietly) {
+            self.go(first.step());
+        }
+        if told.len() > usize::from(!quietly) {
+            self.say(false, Until::NextWork, move || {
+                let words = told.iter().map(|(name, reading)| match reading {
+                    Reading::Marks => text::waits_at_identities(name),
+                    Reading::Control => text::waits_at_control(name),
+                });
+                words.collect::<Vec<_>>().join(" ")
+            });
+        }
+    }
+
+    /// Asks what a text is that could be marks or control points.
+    fn ask_which(self, name: String, content: String) {
+        let content = Rc::new(content);
+        let choice = |words: crate::i18n::Text, reading: Reading| {
+            let (name, content) = (name.clone(), content.clone());
+            let take: Rc<dyn Fn()> = Rc::new(move || {
+                let ready = match reading {
+                    Reading::Marks => self.read_marks(name.clone(), &content),
+                    Reading::Control => self.read_control(name.clone(), &content),
+                };
+                if ready {
+                    self.go(reading.step());
+                }
+            });
+            (words, take)
+        };
+        let choices = vec![choice(text::marks, Reading::Marks), choice(text::control_points, Reading::Control)];
+        let name = name.clone();
+        self.asking.set(Some(Asking { text: Rc::new(move || text::marks_or_control(&name)), choices }));
+    }
+
+    /// Reads a text file that is known to be of a kind, and goes where it is looked at.
+    pub fn read_text(self, file: NamedFile, reading: Reading) {
+        spawn_local(async move {
+            let name = file.name.clone();
+            let Some(mut all) = self.contents(vec![file]).await else { return };
+            let content = all.remove(&name).unwrap_or_default();
+            match encoding::text(&content) {
+                Ok(content) => {
+                    let ready = match reading {
+                        Reading::Marks => self.read_marks(name, &content),
+                        Reading::Control => self.read_control(name, &content),
+                    };
+                    if ready {
+                        self.go(reading.step());
+                    }
+                }
+                Err(error) => self.warn_error(error.in_file(&name)),
+            }
+        });
+    }
+
+    /// Names and contents; none, and said so, where the browser cannot read one.
+    pub(super) async fn contents(self, files: Vec<NamedFile>) -> Option<Files> {
+        let mut all = Files::new();
+        for file in files {
+            match file.content.read().await {
+                Ok(bytes) => all.insert(file.name, bytes),
+                Err(detail) => {
+                    self.say(true, Until::NextWork, move || text::unreadable(&detail));
+                    return None;
+                }
+            };
+        }
+        Some(all)
+    }
+}
+
+impl Reading {
+    /// The step that such a text belongs to.
+    fn step(self) -> Step {
+        match self {
+            Self::Marks => Step::Identities,
+            Self::Control => Step::Control,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sightline::project::Photo;
+
+    use super::*;
+
+    fn project() -> Project {
+        let photo = |id: &str| Photo { id: id.into(), file: format!("P{id}.jpg"), ..Photo::default() };
+        Project { photos: vec![photo("1"), photo("2"), photo("3")], ..Project::default() }
+    }
+
+    #[test]
+    fn marks_and_control_are_told_apart_by_what_is_in_them() {
+        let p = project();
+        assert_eq!(readings("1,1,848.1,514.9,0.1\n1,2,917.7,520.0,0.1\n2,1,9.0,8.0,0.1\n", &p), [Reading::Marks]);
+        assert_eq!(readings("1001 0 1 0\n1002 1 1 0\n1003 0 0 0\n", &p), [Reading::Control]);
+        assert_eq!(readings("id;X [m];Y [m];Z [m]\nA;1,5;2,5;3,5\nB;1,0;2,0;3,0\n", &p), [Reading::Control]);
+        assert_eq!(readings("point\tX\tY\tZ\tsigma\n1\t1.5\t2.5\t3.5\t0.01\n", &p), [Reading::Control]);
+        assert_eq!(readings("# a comment\n\nCP1 control 1.0 2.0 3.0\n", &p), [Reading::Control]);
+    }
+
+    #[test]
+    fn what_can_be_both_is_both_and_prose_is_neither() {
+        assert_eq!(readings("1 7 100.5 200.5\n2 7 101.5 201.5\n", &project()), [Reading::Marks, Reading::Control]);
+        assert_eq!(readings("1 7 100.5 200.5\n2 7 101.5 201.5\n", &Project::default()).len(), 2);
+        assert_eq!(readings("1 7.25 100.5 200.5\n2 7.5 101.5 201.5\n", &project()), [Reading::Control]);
+        assert!(
+            readings("Dear Sir or Madam,\n\nplease find enclosed 8 photos of 24 targets.\n", &project()).is_empty()
+        );
+        assert!(readings("", &project()).is_empty());
+    }
+}
