@@ -9,6 +9,7 @@ use sightline::project::{DatumKind, Parameter, Role};
 use super::adjust::parameter_name;
 use super::icon::{Glyph, Icon};
 use super::results::{given_kind, given_name};
+use super::shell::step_label;
 use crate::format;
 use crate::i18n::text;
 use crate::store::{Desk, Step};
@@ -23,6 +24,8 @@ enum Target {
         point: String,
     },
     Photo(String),
+    /// Where it can be mended.
+    Step(Step),
     Hold {
         camera: String,
         parameter: Parameter,
@@ -55,6 +58,7 @@ pub fn Advice() -> impl IntoView {
                 let go = move |_| follow(desk, &target);
                 let label = match item.target {
                     Target::None => None,
+                    Target::Step(step) => Some(step_label(step).to_owned()),
                     Target::Unmodelled(px) => Some(text::add_unmodelled(format::fixed(px, 3))),
                     Target::Hold { parameter, .. } => Some(text::hold(parameter_name(parameter))),
                     _ => Some(text::show().to_owned()),
@@ -78,6 +82,7 @@ pub fn Advice() -> impl IntoView {
 fn follow(desk: Desk, target: &Target) {
     match target {
         Target::None => {}
+        Target::Step(step) => desk.go(*step),
         Target::Point(point) => {
             desk.select_point(point);
             desk.go(Step::Identities);
@@ -108,14 +113,14 @@ fn items(desk: Desk) -> Vec<Item> {
                 title: text::lacks_control().to_owned(),
                 body: text::lacks_control_body().to_owned(),
                 evidence: text::n_control(control),
-                target: Target::None,
+                target: Target::Step(Step::Control),
             }),
             DatumKind::Free | DatumKind::Minimal if d.project.distances.is_empty() && control < 2 => items.push(Item {
                 warning: true,
                 title: text::lacks_scale().to_owned(),
                 body: text::lacks_scale_body().to_owned(),
                 evidence: String::new(),
-                target: Target::None,
+                target: Target::Step(Step::Control),
             }),
             _ => {}
         }
@@ -172,7 +177,8 @@ fn items(desk: Desk) -> Vec<Item> {
         if more > 0 && !adjusted {
             let title = text::more_notes(format::count(more));
             let body = text::measurement_disagrees_body().to_owned();
-            items.push(Item { warning: true, title, body, evidence: String::new(), target: Target::None });
+            let target = Target::Step(Step::Identities);
+            items.push(Item { warning: true, title, body, evidence: String::new(), target });
         }
     });
     if items.is_empty() && adjusted {
@@ -244,7 +250,11 @@ fn network_item(advice: &sightline::adjustment::Advice) -> Item {
     let (title, body, evidence, target) = match advice {
         Advice::HighCorrelation { camera, first, second, correlation, .. } => {
             let title = text::correlated(correlated_name(first), correlated_name(second));
-            (title, text::correlated_body(camera), format::fixed(*correlation, 2), Target::None)
+            // The later of the two is the finer one, and held at less cost.
+            let parameter = second.parse::<Parameter>().or_else(|_| first.parse::<Parameter>());
+            let hold = |parameter| Target::Hold { camera: camera.clone(), parameter };
+            let target = parameter.map_or(Target::Step(Step::Photos), hold);
+            (title, text::correlated_body(camera), format::fixed(*correlation, 2), target)
         }
         Advice::LowRedundancy { observations, given } => {
             let title = text::low_redundancy(observations.len() + given.len());
@@ -276,17 +286,19 @@ fn network_item(advice: &sightline::adjustment::Advice) -> Item {
             text::distance_unused(pairs(distances)),
             text::distance_unused_body().to_owned(),
             String::new(),
-            Target::None,
+            Target::Step(Step::Control),
         ),
         Advice::GrossErrorsUnsettled => {
-            (text::unsettled().to_owned(), text::unsettled_body().to_owned(), String::new(), Target::None)
+            let target = Target::Step(Step::Identities);
+            (text::unsettled().to_owned(), text::unsettled_body().to_owned(), String::new(), target)
         }
     };
     Item { warning: true, title, body, evidence, target }
 }
 
 fn from_result(adjustment: &sightline::adjustment::Adjustment, unmodelled: Option<f64>, items: &mut Vec<Item>) {
-    let to_take = unmodelled.map_or(Target::None, |px| Target::Unmodelled((px * 1000.0).round() / 1000.0));
+    let to_take =
+        unmodelled.map_or(Target::Step(Step::Results), |px| Target::Unmodelled((px * 1000.0).round() / 1000.0));
     if let (Some(sigma0), Some(test)) = (adjustment.sigma0, &adjustment.global_test)
         && test.statistic > test.upper
         && sigma0 > 2.0
@@ -302,7 +314,7 @@ fn from_result(adjustment: &sightline::adjustment::Adjustment, unmodelled: Optio
         && !test.passed
         && adjustment.options.unmodelled > 0.0
         && to_take != Target::Unmodelled(adjustment.options.unmodelled)
-        && to_take != Target::None
+        && unmodelled.is_some()
     {
         // The first value came from weights that are no longer in use.
         items.push(Item {
@@ -381,7 +393,7 @@ fn note_item(note: &Note) -> Option<Item> {
             },
             body: text::c_body().to_owned(),
             evidence: String::new(),
-            target: Target::None,
+            target: Target::Step(Step::Photos),
         },
         Note::System { source: SystemSource::Own, scale: ScaleSource::Given } => return None,
         Note::System { scale: ScaleSource::Given, .. } => return None,

@@ -214,7 +214,9 @@ fn KnownRow(point: Point) -> impl IntoView {
     let role = point.role;
     let chosen = move || desk.selection.with(|s| s.point == Some(id.get_value()));
     let seen = move || desk.document.with(|d| d.project.observations.iter().any(|o| o.point == id.get_value()));
-    let coordinate = |axis: usize| Signal::stored(point.xyz.map(|xyz| format::editable(xyz[axis])).unwrap_or_default());
+    let coordinate = |axis: usize| {
+        Signal::stored(point.xyz.map(|xyz| format::editable(rounded(xyz[axis], &point))).unwrap_or_default())
+    };
     let sigma = |axis: usize| {
         let given = point.sigma.and_then(|sigma| sigma[axis]).filter(|sigma| *sigma > 0.0);
         Signal::stored(given.map(format::editable).unwrap_or_default())
@@ -244,6 +246,14 @@ fn KnownRow(point: Point) -> impl IntoView {
             <td class="left wide warn">{move || if seen() { "" } else { text::not_measured() }}</td>
         </tr>
     }
+}
+
+/// A coordinate to what its sigma, or a ten-thousandth of the unit, can show: leaving the field changes nothing.
+fn rounded(value: f64, point: &Point) -> f64 {
+    let least = point.sigma.iter().flatten().flatten().copied().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
+    let decimals = if least.is_finite() { format::decimals_for(least).max(3) + 1 } else { 6 };
+    let power = 10f64.powi(decimals as i32);
+    if value.abs() < 1e8 { (value * power).round() / power } else { value }
 }
 
 const AXES: [&str; 3] = ["X", "Y", "Z"];

@@ -82,7 +82,7 @@ fn Current() -> impl IntoView {
         <main class="results">
             <section class="a1"><Residuals/></section>
             <section class="a2"><PhotosTable/></section>
-            <section class="b scroll"><Cameras/><CheckPoints/><GivenTable/></section>
+            <section class="b scroll" tabindex="0" aria-label=text::cameras><Cameras/><CheckPoints/><GivenTable/></section>
             <section class="c1"><PointsTable/></section>
             <section class="c2"><Worst/></section>
         </main>
@@ -107,6 +107,7 @@ fn Hero() -> impl IntoView {
         })
     };
     view! {
+        <h1 class="visually-hidden">{text::results}</h1>
         <div class="hero">
             <div><span>"σ₀"</span><b class="huge" data-result="sigma0">{move || format::maybe(sigma0(), 3)}</b><small>{text::a_priori_one}</small></div>
             <div class="test">

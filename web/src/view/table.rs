@@ -152,6 +152,9 @@ pub fn NumberTable(
     on_choose: Callback<String>,
     sorting: RwSignal<Option<Sorting>>,
     #[prop(default = "")] class: &'static str,
+    /// Opens what a row is about: a double click, Enter on the chosen row, or the arrow at its end.
+    #[prop(optional, into)]
+    on_open: Option<Callback<String>>,
 ) -> impl IntoView {
     let sorted = Memo::new(move |_| {
         let mut rows = rows.get();
@@ -194,19 +197,29 @@ pub fn NumberTable(
             element.set_scroll_top((to - visible).ceil() as i32);
         }
     };
-    Effect::new(move |_| {
+    // A sorted table begins at its top, with what it is sorted for.
+    let sorted_first = sorting.with_untracked(Option::is_some);
+    Effect::new(move |shown: Option<bool>| {
         let key = chosen.get();
-        if frame.get().is_some()
-            && let Some(at) = key.and_then(|key| untrack(|| place(&key)))
-        {
+        if frame.get().is_none() {
+            return false;
+        }
+        if let Some(at) = key.and_then(|key| untrack(|| place(&key))).filter(|_| shown == Some(true) || !sorted_first) {
             reveal(at);
         }
+        true
     });
     let keydown = move |e: leptos::ev::KeyboardEvent| {
         let at = chosen.get_untracked().and_then(|key| untrack(|| place(&key)));
         let page = (height.get_untracked() / row_height.get_untracked()) as usize;
         let rows = sorted.with_untracked(|rows| rows.len());
         let key = event::key(&e);
+        if let (true, "Enter", Some(open), Some(row)) =
+            (key.on_table, key.key.as_str(), on_open, chosen.get_untracked())
+        {
+            e.prevent_default();
+            return open.run(row);
+        }
         let to = if key.on_table { neighbour(&key.key, at, rows, page.saturating_sub(2).max(1)) } else { None };
         if let Some(key) = to.and_then(|to| sorted.with_untracked(|rows| rows.get(to).map(|row| row.key.clone()))) {
             e.prevent_default();
@@ -250,6 +263,7 @@ pub fn NumberTable(
                                 </th>
                             }
                         }).collect_view()}
+                        {on_open.map(|_| view! { <th class="open"><span class="visually-hidden">{text::show}</span></th> })}
                     </tr>
                 </thead>
                 <tbody>
@@ -260,7 +274,7 @@ pub fn NumberTable(
                             sorted.with(|rows| rows[first.min(rows.len())..last.min(rows.len())].to_vec())
                         }
                         key=Row::fingerprint
-                        children=move |row| view! { <TableRow row chosen on_choose/> }
+                        children=move |row| view! { <TableRow row chosen on_choose on_open/> }
                     />
                     <tr class="gap" aria-hidden="true" style:height=move || gap(sorted.with(|rows| rows.len()) - window.get().1)></tr>
                 </tbody>
@@ -270,7 +284,12 @@ pub fn NumberTable(
 }
 
 #[component]
-fn TableRow(row: Row, chosen: Signal<Option<String>>, on_choose: Callback<String>) -> impl IntoView {
+fn TableRow(
+    row: Row,
+    chosen: Signal<Option<String>>,
+    on_choose: Callback<String>,
+    on_open: Option<Callback<String>>,
+) -> impl IntoView {
     let key = StoredValue::new(row.key.clone());
     let is_chosen = Memo::new(move |_| chosen.with(|c| c.as_ref().is_some_and(|c| key.with_value(|key| key == c))));
     view! {
@@ -281,6 +300,7 @@ fn TableRow(row: Row, chosen: Signal<Option<String>>, on_choose: Callback<String
             data-key=row.key
             aria-selected=move || is_chosen.get().to_string()
             on:click=move |_| on_choose.run(key.get_value())
+            on:dblclick=move |_| if let Some(open) = on_open { open.run(key.get_value()) }
         >
             {row.cells.into_iter().map(|cell| view! {
                 <td class=cell.class>
@@ -288,6 +308,14 @@ fn TableRow(row: Row, chosen: Signal<Option<String>>, on_choose: Callback<String
                     {cell.bar.map(|bar| view! { <i class="bar-cell" style:width=format!("{:.0}px", 4.0 + 36.0 * bar)></i> })}
                 </td>
             }).collect_view()}
+            {on_open.map(|open| view! {
+                <td class="open">
+                    <button class="link" tabindex="-1" aria-label=text::show on:click=move |e| {
+                        e.stop_propagation();
+                        open.run(key.get_value());
+                    }><Glyph icon=Icon::Arrow size=14/></button>
+                </td>
+            })}
         </tr>
     }
 }

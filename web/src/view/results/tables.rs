@@ -7,7 +7,7 @@ use super::read;
 use super::units::{common_unit, factors};
 use crate::format;
 use crate::i18n::text;
-use crate::store::Desk;
+use crate::store::{Desk, Step};
 use crate::view::advice::CRITICAL_W;
 use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 
@@ -183,12 +183,17 @@ pub(super) fn Worst() -> impl IntoView {
             desk.select_observation(photo, point);
         }
     });
+    // Its photo, at its place.
+    let open = Callback::new(move |key: String| {
+        choose.run(key);
+        desk.go(Step::Identities);
+    });
     view! {
         <h2 class="section-head">
             <span>{text::worst_observations}</span>
             <span class="aside">{text::baarda}</span>
             <CopyButton columns rows/>
         </h2>
-        <NumberTable label=text::worst_observations columns rows chosen on_choose=choose sorting/>
+        <NumberTable label=text::worst_observations columns rows chosen on_choose=choose on_open=open sorting/>
     }
 }

@@ -1,0 +1,124 @@
+// The page for everybody: what axe-core finds, what a narrow screen leaves in reach, what a finger can hit.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { test } from 'node:test';
+
+import { open } from './browser.mjs';
+import { go, sample } from './desk.mjs';
+
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const steps = ['photos', 'targets', 'identities', 'control', 'adjust', 'results'];
+const longer = { timeout: 900_000 };
+
+/** What axe-core finds of WCAG 2.2 AA, each as rule, target and words. */
+async function violations(page) {
+  await page.evaluate(axe);
+  return page.evaluate(async () => {
+    const runOnly = { type: 'tag', values: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa'] };
+    // Names that leave out what is seen are an experimental rule of axe-core.
+    const { violations: found } = await globalThis.axe.run(document, { runOnly, rules: { 'label-content-name-mismatch': { enabled: true } } });
+    return found.flatMap((rule) => rule.nodes.map((node) => `${rule.id}: ${node.target.join(' ')} ${node.failureSummary.split('\n')[1]?.trim()}`));
+  });
+}
+
+/** Opens what is folded, so that it is looked at too. */
+const unfold = (page) => page.$$eval('details', (all) => all.forEach((one) => (one.open = true)));
+
+test('axe-core finds nothing on any step, in any theme', longer, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768, reducedMotion: 'reduce', colorScheme: 'light' });
+  try {
+    const found = [];
+    for (const line of await violations(page)) found.push(`start ${line}`);
+    await sample(page);
+    for (const theme of ['Light', 'Dark', 'Sun']) {
+      assert.equal(await page.getAttribute('html', 'data-theme'), theme.toLowerCase());
+      for (const step of steps) {
+        await go(page, step);
+        if (step === 'identities') await page.click('.columns tr.data');
+        await unfold(page);
+        for (const line of await violations(page)) found.push(`${theme} ${step} ${line}`);
+        assert.equal(await page.locator('h1').count(), 1, step);
+      }
+      await page.getByRole('button', { name: 'Theme: switch' }).click();
+    }
+    assert.deepEqual(found, []);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+/** What is there to be touched and is smaller than 44 px, by its words; a check box counts with its label. */
+const small = (page) =>
+  page.evaluate(() => {
+    const found = [];
+    for (const element of document.querySelectorAll('button, input:not([type=file]), select, textarea, summary, a[href]')) {
+      const box = (element.matches('[type=checkbox], [type=radio]') ? (element.closest('label') ?? element.closest('td') ?? element) : element).getBoundingClientRect();
+      const style = getComputedStyle(element);
+      if (box.width < 2 || box.height < 2 || style.visibility === 'hidden' || element.closest('[hidden]')) continue;
+      if (box.height < 43.5 || box.width < 43.5) found.push(`${element.tagName} ${element.className} "${(element.textContent || element.getAttribute('aria-label') || element.name || '').trim().slice(0, 20)}" ${Math.round(box.width)} x ${Math.round(box.height)}`);
+    }
+    return [...new Set(found)];
+  });
+
+test('on a phone nothing is cut or covered, and everything can be hit with a finger', longer, async () => {
+  const { page, errors, close } = await open({ width: 390, height: 844, hasTouch: true, isMobile: true });
+  try {
+    const found = [];
+    for (const line of await small(page)) found.push(`start ${line}`);
+    await sample(page);
+    for (const language of ['en', 'ko']) {
+      assert.equal(await page.getAttribute('html', 'lang'), language);
+      for (const step of steps) {
+        await go(page, step);
+        if (step === 'identities') await page.click('.columns tr.data');
+        await unfold(page);
+        for (const line of await small(page)) found.push(`${language} ${step} ${line}`);
+        // The words of the open step stand whole, and bar, buttons and page keep apart.
+        const cut = await page.$$eval('.steps .now .label, .bar h1, .bar .button', (all) => all.filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent));
+        assert.deepEqual(cut, [], `${language} ${step}`);
+        const boxes = await page.$$eval('.bar > *, .bar .action > *', (all) => all.map((e) => e.getBoundingClientRect().toJSON()).filter((b) => b.width > 0 && b.height > 0));
+        const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+        assert.equal(over, 0, `${language} ${step}`);
+        const [title, sentence, ...rest] = boxes;
+        if (sentence) assert.ok(sentence.top >= title.bottom - 1 || sentence.left >= title.right, `${language} ${step}: title and sentence`);
+        for (const box of rest) assert.ok(box.right <= 391 && box.left >= 0, `${language} ${step}: a button leaves the page`);
+      }
+      await page.getByRole('button', { name: language === 'en' ? 'More' : '더 보기' }).click();
+      await page.getByRole('button', { name: language === 'en' ? 'Language: switch to Korean' : '언어: 영어로 바꾸기' }).click();
+    }
+    await page.getByRole('button', { name: 'More' }).click();
+    await page.getByRole('button', { name: 'Experiments' }).click();
+    await page.waitForSelector('.experiment');
+    assert.deepEqual([...new Set(found)], []);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('at 1366 pixels no table of the results is cut, and a sorted column shows its direction', longer, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await sample(page);
+    await page.waitForSelector('[data-result=sigma0]');
+    const cut = await page.$$eval('.results .table-frame, .results section', (all) => all.filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => `${e.className} ${e.scrollWidth} in ${e.clientWidth}`));
+    assert.deepEqual(cut, []);
+    const points = page.locator('.results .c1');
+    assert.equal(await points.locator('th.sorted .direction').textContent(), '▼');
+    await points.locator('th.sorted button').click();
+    assert.equal(await points.locator('th.sorted .direction').textContent(), '▲');
+    assert.equal(await points.locator('th[aria-sort=ascending]').count(), 1);
+    // The worst observation opens its photo, at its place.
+    const worst = page.locator('.results .c2 tbody tr.data').first();
+    const [point, photo] = await worst.locator('td').allTextContents();
+    await worst.locator('.open button').click();
+    await page.waitForFunction(() => location.hash === '#identities');
+    assert.equal(await page.inputValue('[name=point-name]'), point);
+    assert.equal(await page.locator(`.strip .chosen [data-photo="${photo}"]`).count(), 1);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
