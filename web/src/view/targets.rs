@@ -53,7 +53,7 @@ pub fn Targets() -> impl IntoView {
         <main class="targets">
             <Strip/>
             <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click><Question targets=false/></PhotoView>
-            <aside class="inspector" aria-label=text::target>
+            <aside class="inspector" tabindex="0" aria-label=text::target>
                 <Loupe target=selected/>
                 <TargetDetails/>
                 <RejectedTable/>
