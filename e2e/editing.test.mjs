@@ -118,6 +118,11 @@ test('the next step is the primary action, one at a time', longer, async () => {
       await page.click('.bar .primary');
       assert.equal(await page.evaluate(() => location.hash), `#${next}`);
     }
+    // Whatever the network lacks has a button that goes where it can be mended.
+    await go(page, 'adjust');
+    const advice = await page.$$eval('.advice li.warning', (all) => all.map((item) => [item.querySelector('b').textContent, item.querySelectorAll('button').length]));
+    assert.ok(advice.length > 0);
+    for (const [title, buttons] of advice) assert.equal(buttons, 1, title);
     // Out of date: the next thing is to adjust again.
     await go(page, 'adjust');
     await page.fill('[name=unmodelled]', '0.05');

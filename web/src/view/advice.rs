@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use leptos::prelude::*;
+use sightline::adjustment::Given;
 use sightline::orient::{DistanceSource, Note, PhotoReason, PointReason, ScaleSource, SystemSource};
 use sightline::project::{DatumKind, Parameter, Role};
 
@@ -262,7 +263,12 @@ fn network_item(advice: &sightline::adjustment::Advice) -> Item {
             let names = given.iter().map(|what| format!("{} {}", given_kind(what), given_name(what)));
             let names: Vec<String> = names.chain(observations.iter().map(|(a, b)| format!("{a} – {b}"))).collect();
             let body = text::low_redundancy_body(listed(names.iter().map(String::as_str)));
-            (title, body, "r < 0.1".to_owned(), observation(observations))
+            let target = match given.first() {
+                Some(Given::Parameter { .. }) => Target::Step(Step::Photos),
+                Some(_) => Target::Step(Step::Control),
+                None => observation(observations),
+            };
+            (title, body, "r < 0.1".to_owned(), target)
         }
         Advice::TwoRays { points } => (
             text::two_rays(listed(points.iter().map(String::as_str))),
