@@ -200,8 +200,9 @@ function nearestRotation(m) {
   ];
 }
 
-/** Clicks a place of the photo that is shown whole, in its pixels. */
+/** Shows the photo whole and clicks a place of it, in its pixels. */
 export async function clickPhoto(page, [u, v], { width = 1632, height = 1224, modifiers, touch } = {}) {
+  await page.click('.stage-button:not(.words)');
   const box = await page.locator('canvas.photo').boundingBox();
   const scale = Math.min(box.width / width, box.height / height);
   const x = box.x + (box.width - width * scale) / 2 + u * scale;

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::detection::Detection;
-use sightline::exchange::encoding;
 use sightline_protocol::{Content, Export, Pack, Unpack, Unpacked};
 
 use super::document::{self, Change, Document};
