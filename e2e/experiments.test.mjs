@@ -190,6 +190,7 @@ test('plates of one\'s own go from readings to coordinates, from files and from 
 test('the pages speak Korean and fit a phone', longer, async () => {
   const { page, errors, close } = await open({ width: 390, height: 844 });
   try {
+    await page.click('.menu');
     await page.getByRole('button', { name: 'Language: switch to Korean' }).click();
     await page.click('.experiments-entry');
     for (const name of ['film', 'lee-structure']) {
