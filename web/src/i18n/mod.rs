@@ -97,7 +97,7 @@ macro_rules! declare {
             pub trait Words: Sync {
                 $($crate::i18n::declare!(@method $name $(($($value),+))?);)+
                 #[cfg(test)]
-                fn all(&self) -> Vec<$crate::i18n::Declared>;
+                fn every_text(&self) -> Vec<$crate::i18n::Declared>;
             }
 
             /// The texts in a language.
@@ -130,7 +130,7 @@ macro_rules! translate {
         impl $crate::i18n::en::$part::Words for $language {
             $($crate::i18n::translate!(@method $name $(($($value),+))? $text);)+
             #[cfg(test)]
-            fn all(&self) -> Vec<$crate::i18n::Declared> {
+            fn every_text(&self) -> Vec<$crate::i18n::Declared> {
                 vec![$((stringify!($name), &[$($(stringify!($value)),+)?], $text)),+]
             }
         }
@@ -158,9 +158,9 @@ mod tests {
     fn all() -> Vec<(Language, Declared)> {
         let of = |language: Language| {
             let parts = [
-                en::desk::words(language).all(),
-                en::experiments::words(language).all(),
-                en::errors::words(language).all(),
+                en::desk::words(language).every_text(),
+                en::experiments::words(language).every_text(),
+                en::errors::words(language).every_text(),
             ];
             parts.into_iter().flatten().map(move |text| (language, text))
         };
