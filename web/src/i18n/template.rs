@@ -10,8 +10,8 @@ pub fn fill(template: &str, values: &[(&str, &dyn Display)], choose: Choose) -> 
     let mut text = String::with_capacity(template.len() + 16);
     let mut rest = template;
     while let Some(start) = rest.find('{') {
-        text.push_str(&rest[..start]);
         let Some(end) = rest[start..].find('}') else { break };
+        text.push_str(&rest[..start]);
         let (name, forms) = parts(&rest[start + 1..start + end]);
         if let Some((_, value)) = values.iter().find(|(known, _)| *known == name) {
             let value = value.to_string();
