@@ -159,7 +159,7 @@ mod tests {
         let of = |language: Language| {
             let parts = [
                 en::desk::words(language).every_text(),
-                en::experiments::words(language).every_text(),
+                experiments::words(language).every_text(),
                 en::errors::words(language).every_text(),
             ];
             parts.into_iter().flatten().map(move |text| (language, text))
