@@ -94,6 +94,8 @@ macro_rules! declare {
             use std::fmt::Display;
 
             /// What every language says.
+            // A text's name may begin with any word.
+            #[allow(clippy::wrong_self_convention)]
             pub trait Words: Sync {
                 $($crate::i18n::declare!(@method $name $(($($value),+))?);)+
                 #[cfg(test)]

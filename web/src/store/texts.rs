@@ -79,7 +79,7 @@ fn fields(line: &str) -> Option<Vec<&str>> {
 
 fn is_mark(row: &[&str]) -> bool {
     let number = |field: &&str| field.parse::<f64>().is_ok_and(f64::is_finite);
-    (4..=6).contains(&row.len()) && !row[0].is_empty() && !row[1].is_empty() && row[2..].iter().all(|f| number(&f))
+    (4..=6).contains(&row.len()) && !row[0].is_empty() && !row[1].is_empty() && row[2..].iter().all(number)
 }
 
 impl Desk {
