@@ -11,6 +11,46 @@
 //!
 //! Angles are radians. M = Mκ·Mφ·Mω takes object differences into the camera frame ([`rotation`]).
 //! There is one document, the [`project::Project`], and one result, the [`adjustment::Adjustment`].
+//!
+//! The pipeline, from the bytes of photos to coordinates with standard errors; the photos here are those of the sample:
+//!
+//! ```
+//! use sightline::adjust::adjust;
+//! use sightline::adjustment::AdjustOptions;
+//! use sightline::detection::{Codes, DetectOptions};
+//! use sightline::matching::{PhotoTargets, name_coded};
+//! use sightline::orient::orient;
+//! use sightline::{decode, detect, sample};
+//!
+//! // Cameras, photos and control points: what is known before anything is measured.
+//! let mut project = sample::project()?;
+//!
+//! // Targets, photo by photo.
+//! let options = DetectOptions { codes: Codes::Auto, ..DetectOptions::default() };
+//! let mut photos = Vec::new();
+//! for photo in &project.photos {
+//!     let grey = decode::grey(&sample::file(&photo.file)?, options.channel)?;
+//!     let targets = detect::detect(&grey.view()?, &options)?.targets;
+//!     photos.push(PhotoTargets { photo: photo.id.clone(), targets });
+//! }
+//!
+//! // Identities: a code is a name.
+//! let coded = name_coded(&photos);
+//! let known: Vec<_> = project.points.iter().map(|point| point.id.clone()).collect();
+//! project.points.extend(coded.points.into_iter().filter(|point| !known.contains(&point.id)));
+//! project.observations.extend(coded.observations);
+//!
+//! // Initial values, then everything at once.
+//! let oriented = orient(&project)?;
+//! let adjustment = adjust(&oriented.project, &AdjustOptions::default(), &mut |_| true)?;
+//!
+//! for point in &adjustment.points {
+//!     let [x, y, z] = point.sigma.expect("full statistics");
+//!     assert!(x.max(y).max(z) < 0.1, "{}: {x} {y} {z} mm", point.id);
+//! }
+//! assert!(adjustment.global_test.expect("a redundancy").passed);
+//! # Ok::<(), sightline::Error>(())
+//! ```
 
 pub mod adjust;
 pub mod adjustment;

@@ -6,6 +6,7 @@ use sightline::adjustment::{AdjustOptions, Adjustment};
 use sightline::exchange::{self, photomodeler};
 use sightline::orient::orient;
 use sightline::project::{DatumKind, Project, Role, Sigma};
+
 /// What the exports' local coordinates have been reduced by.
 const OFFSET: [f64; 3] = [999_779.506_31, 112_260.591, 139.832_1];
 

@@ -8,6 +8,7 @@ use sightline::adjustment::{AdjustOptions, Adjustment, StatisticsChoice, Termina
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Observation, Parameter, Project, Role, Sigma};
 use sightline::rotation;
+
 fn run(project: &Project) -> Adjustment {
     adjust(project, &AdjustOptions::default(), &mut |_| true).expect("solvable")
 }

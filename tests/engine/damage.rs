@@ -7,6 +7,7 @@ use sightline::adjust::{adjust, apply};
 use sightline::adjustment::{AdjustOptions, ResidualPlace, Robust};
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project};
+
 /// Iterations of one of these documents before it counts as endless: every round of a search for gross errors has some.
 const MOST_ITERATIONS: usize = 5000;
 

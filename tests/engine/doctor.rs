@@ -10,6 +10,7 @@ use sightline::error::{Defect, Error};
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Photo, Project, Role};
 use sightline::rotation;
+
 fn run(project: &Project) -> Adjustment {
     adjust(project, &AdjustOptions::default(), &mut |_| true).expect("solvable")
 }

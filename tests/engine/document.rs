@@ -1,6 +1,7 @@
 //! The project format as other programs write it.
 
 use sightline::project::{DatumKind, Interior, Parameter, Project, Role, Sigma};
+
 const FOREIGN: &str = r#"{
   "format": "sightline", "version": 1, "name": "n", "unit": "m", "later": true,
   "cameras": [

@@ -1,6 +1,7 @@
 //! The papers' figures.
 
 use sightline::experiments::{Experiment, ExperimentOptions, NAMES, run};
+
 fn result(name: &str) -> Experiment {
     run(name, &ExperimentOptions::default(), &mut |_, _| true).expect(name)
 }

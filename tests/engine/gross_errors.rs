@@ -5,6 +5,7 @@ use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Given, GrossErrorAction, Robust, Termination};
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project};
+
 const PLANTED: [(usize, f64); 5] = [(3, 5.0), (20, -3.0), (41, 40.0), (60, 2.5), (77, -8.0)];
 
 fn spoiled() -> (Project, Project) {

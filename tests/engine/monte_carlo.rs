@@ -9,6 +9,7 @@ use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project};
 use sightline::statistics::distribution::{ALPHA, GLOBAL_ALPHA, critical_w};
 use statrs::distribution::{Binomial, DiscreteCDF};
+
 const COPIES: usize = 1000;
 
 /// Test values of observations of every kind, image coordinates first; none where nothing checks the observation.

@@ -8,6 +8,7 @@ use sightline::adjustment::{AdjustOptions, Adjustment, Given, ResidualPlace, Ter
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project};
 use sightline::statistics::distribution::noncentrality;
+
 fn close(got: f64, expected: f64, scale: f64, what: &str) {
     assert!((got - expected).abs() <= 1e-9 * scale, "{what}: {got} against {expected}");
 }

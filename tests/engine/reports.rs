@@ -10,6 +10,7 @@ use crate::published::{DISTORTED, HEIGHT_MM, camcal};
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Termination};
 use sightline::project::{Interior, Parameter, Project, Sigma};
+
 /// A printed number: value, half a unit of its last digit, standard deviation (0 where it is held).
 #[derive(Clone, Copy, Debug, Default)]
 struct Printed {

@@ -7,6 +7,7 @@ use sightline::matching::{MatchOptions, PhotoTargets, match_uncoded, name_coded}
 use sightline::orient::orient;
 use sightline::project::{Parameter, Point, Project};
 use sightline::{decode, detect, sample};
+
 fn add(project: &mut Project, points: Vec<Point>) {
     let new = points.into_iter().filter(|p| project.points.iter().all(|known| known.id != p.id));
     let new: Vec<Point> = new.map(|p| Point { xyz: None, ..p }).collect();

@@ -3,6 +3,7 @@
 use sightline::detect::detect;
 use sightline::detection::{DetectOptions, Method};
 use sightline::image::{GreyView, SamplesView};
+
 /// A bright disc on dark ground, each pixel the mean of 16 x 16 places.
 fn disc(width: usize, height: usize, [u, v]: [f64; 2], radius: f64) -> Vec<u8> {
     let inside = |x: usize, y: usize| {
