@@ -32,6 +32,10 @@ impl Profile {
 /// Leaves the engine as an ES module in pkg/.
 pub fn pkg() -> Outcome {
     modules(Profile::Release, &["sightline-face"])?;
+    assemble_pkg()
+}
+
+fn assemble_pkg() -> Outcome {
     let folder = root().join("pkg");
     empty(&folder)?;
     bindings(Profile::Release, "sightline_face", &folder, "sightline", true)?;
@@ -58,6 +62,10 @@ pub fn pkg() -> Outcome {
 /// Leaves the page in dist/: index.html with Trunk's assets resolved, the page's module and the workers' with their glue.
 pub fn dist(profile: Profile) -> Outcome {
     modules(profile, &["sightline-desk", "sightline-worker"])?;
+    assemble_dist(profile)
+}
+
+fn assemble_dist(profile: Profile) -> Outcome {
     let folder = root().join("dist");
     empty(&folder)?;
     if profile == Profile::Release {
@@ -74,8 +82,9 @@ pub fn dist(profile: Profile) -> Outcome {
 /// Both, compiled together: what they have in common is built once.
 pub fn all() -> Outcome {
     modules(Profile::Release, &["sightline-face", "sightline-desk", "sightline-worker"])?;
-    pkg()?;
-    dist(Profile::Release)
+    // Not one after the other: cargo would compile what they share with the features of each.
+    assemble_pkg()?;
+    assemble_dist(Profile::Release)
 }
 
 /// Compiles packages of the workspace as wasm.
@@ -122,8 +131,14 @@ fn links_no_engine() -> Outcome {
     let module = format!("{}/{TARGET}/release/sightline-desk.wasm", target_directory()?);
     let bytes = fs::read(&module).map_err(|error| format!("{module}: {error}"))?;
     let linked = |name: &str| bytes.windows(name.len()).any(|window| window == name.as_bytes());
-    let engine =
-        ["9sightline6detect", "9sightline6decode", "9sightline6orient", "9sightline7initial", "9zune_jpeg", "3zip"];
+    let engine = [
+        "9sightline6detect",
+        "9sightline6decode",
+        "9sightline6orient5block",
+        "9sightline7initial",
+        "9sightline8exchange7package",
+        "9zune_jpeg",
+    ];
     match engine.into_iter().find(|name| linked(name)) {
         Some(name) => Err(format!("{module}: the page links {name}, which belongs to the workers")),
         None => Ok(()),
