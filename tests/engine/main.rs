@@ -2,6 +2,7 @@
 
 mod aerial;
 mod behaviour;
+mod camera_model;
 mod codes;
 mod damage;
 mod data;
@@ -10,11 +11,13 @@ mod doctor;
 mod document;
 mod exchange;
 mod experiments;
+mod grid_fit;
 mod gross_errors;
 mod monte_carlo;
 mod naming;
 mod networks;
 mod oracle;
+mod ordinary;
 mod orientation;
 mod painter;
 mod panel;

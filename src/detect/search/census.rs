@@ -7,7 +7,7 @@
 use super::blob::NoBlob;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::search::Candidate;
-use crate::detection::{Detection, Reason, Rejected, Target};
+use crate::detection::{Detection, Polarity, Reason, Rejected, Target};
 
 /// Side of a cell in pixels.
 const CELL: f64 = 64.0;
@@ -106,6 +106,12 @@ impl Census {
         }
         self.enter(Entry { outline, bright, accepted: true });
         self.targets.push(target);
+    }
+
+    /// Enters a target that was found before, so that it is not found again.
+    pub fn know(&mut self, target: &Target) {
+        let outline = Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle);
+        self.enter(Entry { outline, bright: target.polarity == Polarity::Bright, accepted: true });
     }
 
     /// Enters an outline that is no target's.
