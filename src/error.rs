@@ -3,13 +3,14 @@
 //! The engine speaks English in [`Display`](fmt::Display); the desk matches on the variants and says the same in its
 //! user's language. A variant is never renamed, since its code is part of the JavaScript face.
 
+mod degeneracy;
 mod reason;
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::initial::Degeneracy;
+pub use degeneracy::Degeneracy;
 pub use reason::{Expected, Lack, Names, Number, PhotoModelerPart, Reason, Thing};
 
 /// Most characters of a user's text that a sentence quotes.

@@ -110,7 +110,7 @@ fn palette_tiff(width: u16, height: u16, bits: u16, samples: &[u8], palette: &[[
     for (tag, kind, count, value) in entries {
         bytes.extend((tag as u16).to_le_bytes());
         bytes.extend((kind as u16).to_le_bytes());
-        bytes.extend((count as u32).to_le_bytes());
+        bytes.extend(count.to_le_bytes());
         bytes.extend(value.to_le_bytes());
     }
     bytes.extend([0; 4]);

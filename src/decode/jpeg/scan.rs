@@ -199,10 +199,10 @@ impl Planes {
     /// Takes over the mean of a block of chroma.
     #[inline(always)]
     pub(super) fn set_mean(&mut self, component: usize, at: [usize; 2], mean: u8) {
-        if let Some(plane) = self.chroma.as_mut().and_then(|c| c.get_mut(component.wrapping_sub(1))) {
-            if let Some(sample) = plane.samples.get_mut(at[1] * plane.width + at[0]) {
-                *sample = mean;
-            }
+        if let Some(plane) = self.chroma.as_mut().and_then(|c| c.get_mut(component.wrapping_sub(1)))
+            && let Some(sample) = plane.samples.get_mut(at[1] * plane.width + at[0])
+        {
+            *sample = mean;
         }
     }
 }

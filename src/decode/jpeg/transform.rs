@@ -55,14 +55,14 @@ pub fn weights(steps: &[u16; 64]) -> Block {
 fn eight(c: [f32x4; 8]) -> [f32x4; 8] {
     let (sum, difference) = (c[0] + c[4], c[0] - c[4]);
     let outer = c[2] + c[6];
-    let inner = (c[2] - c[6]) * f32x4::splat(1.414_213_6) - outer;
+    let inner = (c[2] - c[6]) * f32x4::splat(std::f32::consts::SQRT_2) - outer;
     let even = [sum + outer, difference + inner, difference - inner, sum - outer];
     let (a, b) = (c[5] + c[3], c[5] - c[3]);
     let (e, f) = (c[1] + c[7], c[1] - c[7]);
     let turned = (b + f) * f32x4::splat(1.847_759_1);
     let first = e + a;
     let second = turned - b * f32x4::splat(2.613_126) - first;
-    let third = (e - a) * f32x4::splat(1.414_213_6) - second;
+    let third = (e - a) * f32x4::splat(std::f32::consts::SQRT_2) - second;
     let fourth = f * f32x4::splat(1.082_392_2) - turned + third;
     [
         even[0] + first,
@@ -99,5 +99,5 @@ pub fn samples(block: &Block) -> [u8; 64] {
 
 /// The samples of a block that is its mean alone.
 pub fn mean(direct: i32, step: u16) -> u8 {
-    ((direct * i32::from(step) + 4 >> 3) + 128).clamp(0, 255) as u8
+    (((direct * i32::from(step) + 4) >> 3) + 128).clamp(0, 255) as u8
 }

@@ -20,6 +20,7 @@ const ORDERS: [Order; 2] = [
         parent: &[],
         children: &[
             "error",
+            "limits",
             "project",
             "statistics",
             "detection",
