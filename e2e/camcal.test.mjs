@@ -59,8 +59,9 @@ test('21 photos become a calibration', { skip: folder ? false : 'skipped, no dat
     await page.keyboard.press('Control+z');
     assert.ok((await figure(page, 'rms-px')) <= 0.25);
 
-    // The photos are good to a sixth of a pixel, the centres to a hundredth: told so, and weighted so in one click.
-    assert.ok((await figure(page, 'sigma0')) > 5);
+    // The photos are good to a sixth of a pixel, the centres to a few hundredths (what compression leaves in a JPEG is in their
+    // standard errors): told so, and weighted so in one click.
+    assert.ok((await figure(page, 'sigma0')) > 3);
     await go(page, 'adjust');
     await page.click('.advice li:has-text("too small") .link');
     await idle(page);
