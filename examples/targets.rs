@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         [photo, options] => (photo, serde_json::from_str(options)?),
         _ => return Err("usage: targets PHOTO [OPTIONS as JSON]".into()),
     };
-    let grey = decode::grey(&std::fs::read(photo)?, options.channel)?;
-    println!("{}", serde_json::to_string(&detect::detect(&grey.view()?, &options)?)?);
+    let photo = decode::photo(&std::fs::read(photo)?, options.channel)?;
+    println!("{}", serde_json::to_string(&detect::detect_photo(&photo, &options)?)?);
     Ok(())
 }

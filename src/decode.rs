@@ -1,26 +1,31 @@
-//! Picture files to samples: PNG, JPEG and TIFF of 8 or 16 bits, one grey or colour channel at a time.
+//! Picture files to samples: PNG, JPEG, TIFF and BMP of 8 or 16 bits, one grey or colour channel at a time.
 //!
-//! Samples are what the file holds: no colour management, no EXIF rotation, no resampling. The luminance of colour
-//! pictures is computed in floating point from the decoded channels and rounded once.
+//! Samples are what the file holds: no colour management, no EXIF rotation, no resampling. The grey of a JPEG is its own luma
+//! plane, as it is stored: not converted, free of the chroma planes, which cameras store at a quarter of its size. The luminance
+//! of other coloured pictures is computed in floating point from the decoded channels and rounded once.
+//!
+//! What a file claims is held against its bytes before memory is taken for it, and rows that a damaged JPEG does not give are
+//! named ([`Photo::damaged_rows`]).
 
 mod bytes;
+mod jpeg;
+mod open;
+mod palette;
+mod show;
 mod signature;
 
-use std::io::Cursor;
-
-use image::codecs::{jpeg::JpegDecoder, png::PngDecoder, tiff::TiffDecoder};
-use image::{ColorType, DynamicImage, ImageDecoder, ImageError, Limits};
+use image::{DynamicImage, ImageDecoder};
 
 use crate::detection::Channel;
 use crate::error::{Damage, Error, Place, Result};
 use crate::image::{Grey, Samples};
+use crate::limits;
+use open::{bits, decoding_error, prepared};
+pub use show::{Picture, picture};
 use signature::{Signature, signature};
 
-/// Largest picture worked on: 250 million pixels, more than any camera or film scanner of today delivers.
-pub const PIXEL_LIMIT: u64 = 250_000_000;
-
-/// Largest buffer a decoder may ask for, in bytes; half the address space of WebAssembly.
-const BYTE_LIMIT: u64 = 1 << 31;
+/// Largest picture worked on.
+pub const PIXEL_LIMIT: u64 = limits::PIXELS;
 
 /// Size of a picture, from its header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,15 +38,23 @@ pub struct Size {
     pub bits: u32,
 }
 
-/// A picture for showing.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
-    /// Width in pixels.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-    /// Red, green, blue and opacity of each pixel, row by row.
-    pub rgba: Vec<u8>,
+/// One channel of a picture, as far as its file gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Photo {
+    /// The samples; mid-grey in rows that are damaged.
+    pub grey: Grey,
+    /// Rows that could not be decoded: first row and the row after the last, in rising order. Empty for a sound file.
+    pub damaged_rows: Vec<[u32; 2]>,
+}
+
+impl Photo {
+    /// Memory that the samples take.
+    pub fn bytes(&self) -> usize {
+        match &self.grey.samples {
+            Samples::U8(samples) => samples.len(),
+            Samples::U16(samples) => 2 * samples.len(),
+        }
+    }
 }
 
 /// Size and depth of a picture, without decoding it.
@@ -49,96 +62,138 @@ pub struct Picture {
 /// # Errors
 /// [`Error::UnknownImageFormat`], [`Error::BrokenImage`], [`Error::ImageSize`].
 pub fn size(bytes: &[u8]) -> Result<Size> {
-    let decoder = decoder(bytes)?;
+    if signature(bytes) == Signature::Jpeg {
+        let frame = jpeg::header(bytes).map_err(refused)?;
+        return Ok(Size { width: frame.width as u32, height: frame.height as u32, bits: 8 });
+    }
+    let bytes = prepared(bytes)?;
+    let decoder = open::decoder(&bytes)?;
     let (width, height) = decoder.dimensions();
     Ok(Size { width, height, bits: bits(decoder.color_type())? })
 }
 
 /// One channel of a picture; 16 bits stay 16 bits. Opacity is ignored, palettes are resolved.
 ///
-/// A picture without colours gives its grey for every choice. For [`Channel::Grey`] of a coloured one it is
-/// 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709), rounded to the depth of the picture.
+/// A picture without colours gives its grey for every choice. [`Channel::Grey`] of a coloured JPEG is its luma plane Y as stored,
+/// 0.299 R + 0.587 G + 0.114 B of the camera's own making (JFIF); of other coloured pictures, and of JPEGs that store red, green
+/// and blue or inks, it is 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709), rounded to the depth of the picture.
 ///
 /// # Errors
-/// [`Error::UnknownImageFormat`] for other formats and depths, [`Error::BrokenImage`] for damaged or cut files,
-/// [`Error::ImageSize`] for pictures beyond [`PIXEL_LIMIT`], before anything of that size is allocated.
+/// [`Error::UnknownImageFormat`] for other formats and depths, [`Error::BrokenImage`] for damaged files of which nothing is sure
+/// to be whole, [`Error::ImageSize`] for pictures beyond [`PIXEL_LIMIT`] or beyond what the file's bytes can hold, before
+/// anything of that size is allocated.
+pub fn photo(bytes: &[u8], channel: Channel) -> Result<Photo> {
+    Ok(open_photo(bytes, channel, None)?.0)
+}
+
+/// The same where every row is wanted.
+///
+/// # Errors
+/// As [`photo`]; [`Error::BrokenImage`] with the rows where some are damaged.
 pub fn grey(bytes: &[u8], channel: Channel) -> Result<Grey> {
-    let decoder = decoder(bytes)?;
-    let (width, height) = decoder.dimensions();
-    let colour = decoder.color_type();
-    let channels = usize::from(colour.channel_count());
-    let mut raw = vec![0; usize::try_from(decoder.total_bytes()).map_err(|_| too_large(width, height))?];
-    let wide = bits(colour)? == 16;
-    decoder.read_image_boxed(&mut raw).map_err(decoding_error)?;
-    let samples = if wide {
-        // The decoders write 16-bit samples in the byte order of the machine.
-        let sample = |pixel: &[u8], c: usize| u16::from_ne_bytes([pixel[2 * c], pixel[2 * c + 1]]);
-        let one = |pixel: &[u8]| match pick(channels, channel) {
-            Some(c) => sample(pixel, c),
-            None => luminance([0, 1, 2].map(|c| f64::from(sample(pixel, c)))) as u16,
-        };
-        Samples::U16(raw.chunks_exact(2 * channels).map(one).collect())
-    } else {
-        // In place: sample i never lies behind its pixel.
-        for i in 0..raw.len() / channels {
-            let at = i * channels;
-            raw[i] = match pick(channels, channel) {
-                Some(c) => raw[at + c],
-                None => luminance([0, 1, 2].map(|c| f64::from(raw[at + c]))) as u8,
-            };
-        }
-        raw.truncate(raw.len() / channels);
-        raw.shrink_to_fit();
-        Samples::U8(raw)
-    };
-    Ok(Grey { width: width as usize, height: height as usize, samples })
+    let photo = photo(bytes, channel)?;
+    match photo.damaged_rows.first() {
+        None => Ok(photo.grey),
+        Some([first, last]) => Err(broken(Damage::Rows { first: *first, last: last - 1 })),
+    }
 }
 
-/// A picture for showing, reduced so that neither side exceeds `max_side`.
+/// One decoding for both: a channel, and a picture for showing whose sides do not exceed `max_side`.
 ///
-/// 16-bit pictures are stretched to their brightest sample, since many use 10 or 12 bits of the 16.
+/// The colours of a JPEG's small picture come from the means of its chroma blocks.
 ///
 /// # Errors
-/// As [`grey`].
-pub fn picture(bytes: &[u8], max_side: Option<u32>) -> Result<Picture> {
-    let decoder = decoder(bytes)?;
-    bits(decoder.color_type())?;
-    let mut image = DynamicImage::from_decoder(decoder).map_err(decoding_error)?;
-    let side = image.width().max(image.height());
-    if let Some(limit) = max_side.filter(|limit| *limit < side) {
-        image = image.thumbnail(limit.max(1), limit.max(1));
-    }
-    if image.color().bytes_per_pixel() / image.color().channel_count() == 2 {
-        stretch(&mut image);
-    }
-    let rgba = image.into_rgba8();
-    Ok(Picture { width: rgba.width(), height: rgba.height(), rgba: rgba.into_raw() })
+/// As [`photo`].
+pub fn photo_and_picture(bytes: &[u8], channel: Channel, max_side: u32) -> Result<(Photo, Picture)> {
+    let (photo, picture) = open_photo(bytes, channel, Some(max_side))?;
+    Ok((photo, picture.unwrap_or_default()))
 }
 
-/// Scales 16-bit samples so that the brightest is white.
-fn stretch(image: &mut DynamicImage) {
-    let opaque = !image.color().has_alpha();
-    let apply = |samples: &mut [u16]| {
-        let top = samples.iter().copied().max().unwrap_or(0);
-        if top > 0 && opaque {
-            samples.iter_mut().for_each(|s| *s = (u64::from(*s) * 65535 / u64::from(top)) as u16);
+fn open_photo(bytes: &[u8], channel: Channel, max_side: Option<u32>) -> Result<(Photo, Option<Picture>)> {
+    let mut damaged_rows = Vec::new();
+    if signature(bytes) == Signature::Jpeg {
+        let frame = jpeg::header(bytes).map_err(refused)?;
+        open::check_size(frame.width as u64, frame.height as u64)?;
+        match jpeg::luma(bytes).map_err(refused)? {
+            Some(luma) if is_grey(&frame, channel) => {
+                let picture = max_side.map(|side| show::reduced_luma(&luma, side));
+                let jpeg::Plane8 { width, height, samples } = luma.plane;
+                let grey = Grey { width, height, samples: Samples::U8(samples) };
+                return Ok((Photo { grey, damaged_rows: luma.damaged }, picture));
+            }
+            // chroma of a damaged unit reaches half a block into its neighbours
+            Some(luma) => damaged_rows = open::widened(&luma.damaged, frame.height as u32),
+            None if !jpeg::is_complete(bytes) => return Err(broken(Damage::EndsEarly)),
+            None => {}
         }
-    };
-    match image {
-        DynamicImage::ImageLuma16(buffer) => apply(buffer),
-        DynamicImage::ImageRgb16(buffer) => apply(buffer),
-        _ => {}
+    }
+    let bytes = prepared(bytes)?;
+    let mut image = DynamicImage::from_decoder(open::decoder(&bytes)?).map_err(decoding_error)?;
+    bits(image.color())?;
+    let picture = max_side.map(|side| show::reduced(&image, side));
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let samples = chosen(&mut image, channel);
+    Ok((Photo { grey: Grey { width, height, samples }, damaged_rows }, picture))
+}
+
+/// Whether the first plane of a JPEG is the channel that is wanted.
+fn is_grey(frame: &jpeg::Frame, channel: Channel) -> bool {
+    match frame.colours {
+        jpeg::Colours::Grey => true,
+        jpeg::Colours::Luma => channel == Channel::Grey,
+        jpeg::Colours::Others => false,
     }
 }
 
-/// Index of the chosen sample in a pixel; none where luminance has to be computed.
-fn pick(channels: usize, channel: Channel) -> Option<usize> {
-    match channel {
-        _ if channels < 3 => Some(0),
-        Channel::Grey => None,
-        Channel::Red => Some(0),
-        Channel::Green => Some(1),
-        Channel::Blue => Some(2),
+/// The chosen samples of a picture, in the place of all.
+fn chosen(image: &mut DynamicImage, channel: Channel) -> Samples {
+    let channels = usize::from(image.color().channel_count());
+    match std::mem::take(image) {
+        DynamicImage::ImageLuma8(buffer) => Samples::U8(buffer.into_raw()),
+        DynamicImage::ImageLumaA8(buffer) => Samples::U8(gathered(buffer.into_raw(), channels, channel)),
+        DynamicImage::ImageRgb8(buffer) => Samples::U8(gathered(buffer.into_raw(), channels, channel)),
+        DynamicImage::ImageRgba8(buffer) => Samples::U8(gathered(buffer.into_raw(), channels, channel)),
+        DynamicImage::ImageLuma16(buffer) => Samples::U16(buffer.into_raw()),
+        DynamicImage::ImageLumaA16(buffer) => Samples::U16(gathered(buffer.into_raw(), channels, channel)),
+        DynamicImage::ImageRgb16(buffer) => Samples::U16(gathered(buffer.into_raw(), channels, channel)),
+        DynamicImage::ImageRgba16(buffer) => Samples::U16(gathered(buffer.into_raw(), channels, channel)),
+        // refused by its kind of samples before
+        _ => Samples::U8(Vec::new()),
+    }
+}
+
+/// One sample of each pixel, or its luminance, moved to the front: sample i never lies behind its pixel.
+fn gathered<T: Copy + Into<f64> + FromLevel>(mut raw: Vec<T>, channels: usize, channel: Channel) -> Vec<T> {
+    let pixels = raw.len() / channels;
+    for i in 0..pixels {
+        let at = i * channels;
+        raw[i] = match channel {
+            _ if channels < 3 => raw[at],
+            Channel::Grey => T::from_level(luminance([0, 1, 2].map(|c| raw[at + c].into()))),
+            Channel::Red => raw[at],
+            Channel::Green => raw[at + 1],
+            Channel::Blue => raw[at + 2],
+        };
+    }
+    raw.truncate(pixels);
+    raw.shrink_to_fit();
+    raw
+}
+
+/// A sample from a level that is rounded already.
+trait FromLevel {
+    fn from_level(level: f64) -> Self;
+}
+
+impl FromLevel for u8 {
+    fn from_level(level: f64) -> Self {
+        level as u8
+    }
+}
+
+impl FromLevel for u16 {
+    fn from_level(level: f64) -> Self {
+        level as u16
     }
 }
 
@@ -146,72 +201,20 @@ fn luminance([red, green, blue]: [f64; 3]) -> f64 {
     (0.2126 * red + 0.7152 * green + 0.0722 * blue).round()
 }
 
-/// The decoder of a file whose kind, completeness and size are already known to be good.
-fn decoder(bytes: &[u8]) -> Result<Box<dyn ImageDecoder + '_>> {
-    let stream = Cursor::new(bytes);
-    let mut decoder: Box<dyn ImageDecoder> = match signature(bytes) {
-        Signature::Jpeg => {
-            if !bytes::jpeg_is_complete(bytes) {
-                return Err(broken(Damage::EndsEarly));
-            }
-            Box::new(JpegDecoder::new(stream).map_err(decoding_error)?)
-        }
-        Signature::Png => {
-            if let Some((width, height)) = bytes::png_size(bytes).filter(|size| exceeds_limit(*size)) {
-                return Err(too_large(width, height));
-            }
-            Box::new(PngDecoder::with_limits(stream, limits()).map_err(decoding_error)?)
-        }
-        Signature::Tiff => Box::new(TiffDecoder::new(stream).map_err(decoding_error)?),
-        Signature::Other(name) => {
-            return Err(Error::UnknownImageFormat { recognised: Some(name.to_owned()), at: Place::default() });
-        }
-        Signature::Unknown => return Err(Error::UnknownImageFormat { recognised: None, at: Place::default() }),
-    };
-    let (width, height) = decoder.dimensions();
-    if width == 0 || height == 0 || exceeds_limit((width, height)) || decoder.total_bytes() > BYTE_LIMIT {
-        return Err(too_large(width, height));
-    }
-    decoder.set_limits(limits()).map_err(decoding_error)?;
-    Ok(decoder)
-}
-
-fn exceeds_limit((width, height): (u32, u32)) -> bool {
-    u64::from(width) * u64::from(height) > PIXEL_LIMIT
-}
-
-fn limits() -> Limits {
-    let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(2 * BYTE_LIMIT - 1);
-    limits
-}
-
-/// Depth of the samples.
-fn bits(colour: ColorType) -> Result<u32> {
-    match colour {
-        ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => Ok(8),
-        ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => Ok(16),
-        other => Err(Error::UnknownImageFormat {
-            recognised: Some(format!("picture with samples of kind {other:?}")),
-            at: Place::default(),
-        }),
-    }
-}
-
-fn too_large(width: u32, height: u32) -> Error {
-    Error::ImageSize { width: width.into(), height: height.into(), limit: PIXEL_LIMIT, at: Place::default() }
-}
-
 fn broken(reason: Damage) -> Error {
     Error::BrokenImage { reason, at: Place::default() }
 }
 
-fn decoding_error(error: ImageError) -> Error {
-    match error {
-        ImageError::Unsupported(unsupported) => {
-            Error::UnknownImageFormat { recognised: Some(unsupported.to_string()), at: Place::default() }
+/// Why a JPEG is not read.
+fn refused(refusal: jpeg::Refusal) -> Error {
+    match refusal {
+        jpeg::Refusal::Kind(name) => {
+            Error::UnknownImageFormat { recognised: Some(name.to_owned()), at: Place::default() }
         }
-        other => broken(Damage::Decoder { message: other.to_string() }),
+        jpeg::Refusal::Broken(damage) => broken(damage),
+        jpeg::Refusal::Size([width, height]) => open::check_size(width.into(), height.into())
+            .err()
+            .unwrap_or_else(|| open::too_few_bytes(width.into(), height.into())),
     }
 }
 

@@ -5,6 +5,7 @@
 //! confirms them: sub-pixel edges, a robust ellipse through them ([`ellipse`] is the shape itself), the grey levels around.
 //! [`rendered`] measures the centre by the fit of a rendered ellipse, or [`centroid`] by a classical operator; [`measure`] leads
 //! from one to the next. Rings around a target are read as codes ([`code`]). A room uses those before it, never the reverse.
+//! [`whole`] goes around what a damaged file does not give.
 
 mod centroid;
 mod click;
@@ -17,6 +18,7 @@ mod normal;
 mod picture;
 mod rendered;
 mod search;
+mod whole;
 
 use edges::edge;
 pub(crate) use ellipse::{conic, outline};
@@ -30,6 +32,7 @@ use outline::Outline;
 use picture::noise;
 use search::census::Census;
 use search::{Blobs, Candidate};
+pub use whole::{detect_photo, measure_in_photo};
 
 /// Finds and measures the targets of a picture.
 ///

@@ -46,7 +46,7 @@ pub enum Polarity {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Channel {
-    /// Luminance, 0.2126 R + 0.7152 G + 0.0722 B.
+    /// A JPEG's own luma plane, as stored; of other coloured pictures luminance, 0.2126 R + 0.7152 G + 0.0722 B.
     #[default]
     Grey,
     /// Red.
@@ -225,6 +225,9 @@ pub struct Detection {
     pub height: u32,
     /// Bits of a sample, 8 or 16.
     pub bits: u32,
+    /// Rows of the photo that could not be decoded and were not measured: first row and the row after the last.
+    #[serde(default)]
+    pub damaged_rows: Vec<[u32; 2]>,
     /// The targets, from top to bottom.
     pub targets: Vec<Target>,
     /// How many blobs were rejected, by reason.

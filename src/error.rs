@@ -131,6 +131,28 @@ pub enum Defect {
 pub enum Damage {
     /// The file ends before the picture does.
     EndsEarly,
+    /// No picture is in it.
+    NoPicture,
+    /// Its header makes no sense.
+    Header,
+    /// Its palette is missing.
+    NoPalette,
+    /// Its header claims more pixels than its bytes can hold.
+    ClaimsTooMuch {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+    },
+    /// No row of the picture is sure to be whole.
+    NoWholeRow,
+    /// These rows are damaged, and all were wanted.
+    Rows {
+        /// First row, from 0.
+        first: u32,
+        /// Last row.
+        last: u32,
+    },
     /// The decoder gave up.
     Decoder {
         /// What it says.
@@ -350,6 +372,14 @@ impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::EndsEarly => f.write_str("the file ends early"),
+            Self::NoPicture => f.write_str("it has no picture in it"),
+            Self::Header => f.write_str("its header is damaged"),
+            Self::NoPalette => f.write_str("its palette is missing"),
+            Self::ClaimsTooMuch { width, height } => {
+                write!(f, "its header claims {width} x {height} pixels, more than its bytes can hold")
+            }
+            Self::NoWholeRow => f.write_str("no row of it is sure to be whole"),
+            Self::Rows { first, last } => write!(f, "rows {first} to {last} are damaged"),
             Self::Decoder { message } => f.write_str(message),
         }
     }
@@ -404,7 +434,7 @@ impl fmt::Display for Error {
                 write!(f, "this is a {name} file, which is not read here: convert it to JPEG, PNG or TIFF")?;
             }
             Self::UnknownImageFormat { .. } => {
-                f.write_str("not a picture the engine reads: JPEG, PNG or TIFF of 8 or 16 bits are expected")?;
+                f.write_str("not a picture the engine reads: JPEG, PNG, TIFF or BMP of 8 or 16 bits are expected")?;
             }
             Self::BrokenImage { reason, .. } => {
                 write!(f, "the picture cannot be decoded ({reason}): copy it again from the camera")?;

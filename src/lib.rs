@@ -66,6 +66,7 @@ pub mod experiments;
 pub mod film;
 pub mod image;
 pub mod initial;
+pub mod limits;
 pub mod matching;
 pub mod network;
 pub mod noise;

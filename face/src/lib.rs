@@ -38,7 +38,7 @@ pub fn version() -> String {
     env!("CARGO_PKG_VERSION").into()
 }
 
-/// Finds and measures the targets of a photo, from the bytes of its file (PNG, JPEG, TIFF; 8 or 16 bits).
+/// Finds and measures the targets of a photo, from the bytes of its file (PNG, JPEG, TIFF, BMP; 8 or 16 bits).
 #[wasm_bindgen(js_name = detect, unchecked_return_type = "Detection")]
 pub fn detect_file(
     #[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer")] bytes: JsValue,
@@ -46,8 +46,7 @@ pub fn detect_file(
 ) -> Thrown {
     let found = || {
         let options: DetectOptions = value::options(&options, &[])?;
-        let grey = decode::grey(&value::bytes(&bytes, "bytes")?, options.channel)?;
-        detect::detect(&grey.view()?, &options)
+        detect::detect_photo(&decode::photo(&value::bytes(&bytes, "bytes")?, options.channel)?, &options)
     };
     found().map(value::detection_object).map_err(|error| thrown(&error))
 }
@@ -91,7 +90,7 @@ pub fn measure_at(
     #[wasm_bindgen(unchecked_param_type = "number")] v: JsValue,
     #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
 ) -> Thrown {
-    measured_at(&u, &v, &options, |options| decode::grey(&value::bytes(&bytes, "bytes")?, options.channel))
+    measured_at(&u, &v, &options, |options| decode::photo(&value::bytes(&bytes, "bytes")?, options.channel))
 }
 
 /// The same in a picture that is decoded already.
@@ -104,19 +103,21 @@ pub fn measure_at_gray(
     #[wasm_bindgen(unchecked_param_type = "number")] v: JsValue,
     #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
 ) -> Thrown {
-    measured_at(&u, &v, &options, |_| grey_of(&width, &height, &samples))
+    measured_at(&u, &v, &options, |_| {
+        Ok(decode::Photo { grey: grey_of(&width, &height, &samples)?, damaged_rows: Vec::new() })
+    })
 }
 
 fn measured_at(
     u: &JsValue,
     v: &JsValue,
     options: &JsValue,
-    picture: impl FnOnce(&DetectOptions) -> sightline::Result<Grey>,
+    photo: impl FnOnce(&DetectOptions) -> sightline::Result<decode::Photo>,
 ) -> Thrown {
     let found = || {
         let options: DetectOptions = value::options(options, &[])?;
         let (u, v) = (value::number(u, "u")?, value::number(v, "v")?);
-        detect::measure_at(&picture(&options)?.view()?, u, v, &options)
+        detect::measure_in_photo(&photo(&options)?, u, v, &options)
     };
     found().map(|target| value::write(&target)).map_err(|error| thrown(&error))
 }

@@ -300,7 +300,7 @@ export interface DetectOptions {
   method?: "least_squares" | "ellipse" | "intensity" | "gradient";
   /** ["auto"] */
   polarity?: "auto" | "bright" | "dark";
-  /** ["grey"] */
+  /** ["grey"] the luma plane of a colour JPEG as stored; of other colour pictures 0.2126 R + 0.7152 G + 0.0722 B */
   channel?: "grey" | "red" | "green" | "blue";
   /** ["none"] */
   codes?: "none" | "ring-12" | "ring-14" | "ring-16" | "ring-20" | "auto";
@@ -346,6 +346,8 @@ export interface Detection {
   width: number;
   height: number;
   bits: number;
+  /** Rows that could not be decoded and were not measured: first row and the row after the last. Empty for a sound file. */
+  damaged_rows: [number, number][];
   targets: Target[];
   rejected: Partial<Record<RejectionReason, number>>;
   /** Made when they are first read. */

@@ -1,5 +1,7 @@
 //! Just enough of the TIFF, PNG and JPEG containers to know what is in a file before a decoder is let loose on it.
 
+use std::borrow::Cow;
+
 /// Numbers of a TIFF file in its byte order, at the first directory.
 pub struct Reader<'a> {
     bytes: &'a [u8],
@@ -26,9 +28,8 @@ impl<'a> Reader<'a> {
         Some(if self.little { bytes.iter().rev().fold(0, add) } else { bytes.iter().fold(0, add) })
     }
 
-    /// Tag and first value of every entry of the first directory whose value stands in the entry itself; other
-    /// entries report their offset. Stops where the file does.
-    pub fn entries(&self) -> Vec<(u16, u32)> {
+    /// Every entry of the first directory. Stops where the file does.
+    pub fn entries(&self) -> Vec<Entry> {
         let (start_at, width, count_width, size) = if self.big_tiff { (8, 8, 8, 20) } else { (4, 4, 2, 12) };
         let mut entries = Vec::new();
         let inside = |n: u64| usize::try_from(n).ok().filter(|n| *n < self.bytes.len());
@@ -40,13 +41,100 @@ impl<'a> Reader<'a> {
             let length = match kind {
                 3 => 2,
                 1 | 2 | 6 | 7 => 1,
+                16..=18 => 8,
                 _ => 4,
             };
-            let Some(value) = self.number(at + 4 + width, length) else { break };
-            entries.push((tag as u16, value as u32));
+            let Some(count) = self.number(at + 4, width) else { break };
+            let (here, all) = (at + 4 + width, count.saturating_mul(length as u64));
+            let begins = if all <= width as u64 { Some(here) } else { self.number(here, width).and_then(inside) };
+            let Some(begins) = begins else { continue };
+            entries.push(Entry { tag: tag as u16, length, count, at: begins });
         }
         entries
     }
+
+    /// First value of an entry.
+    pub fn first(&self, entry: &Entry) -> Option<u64> {
+        self.number(entry.at, entry.length)
+    }
+
+    /// All values of an entry, as far as the file has them; no more than a palette has.
+    pub fn values(&self, entry: &Entry) -> Vec<u64> {
+        (0..entry.count.min(3 << 8) as usize)
+            .map_while(|k| self.number(entry.at + k * entry.length, entry.length))
+            .collect()
+    }
+
+    /// Writes a number over the first value of an entry, in a copy of the file.
+    pub fn overwrite(&self, copy: &mut [u8], entry: &Entry, value: u16) {
+        if let Some(bytes) = copy.get_mut(entry.at..entry.at + entry.length) {
+            for (k, byte) in bytes.iter_mut().enumerate() {
+                let place = if self.little { k } else { entry.length - 1 - k };
+                *byte = (u64::from(value) >> (8 * place.min(7))) as u8;
+            }
+        }
+    }
+}
+
+/// One entry of a TIFF directory.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// What it is.
+    pub tag: u16,
+    /// Bytes of a value, how many there are and where they stand.
+    length: usize,
+    count: u64,
+    at: usize,
+}
+
+/// Most bytes of samples that one byte of the file can stand for, by its compression.
+pub fn most_from_a_byte(file: &[u8]) -> u64 {
+    // deflate: 258 bytes from two bits
+    const DEFLATE: u64 = 1032;
+    match file {
+        [0x89, b'P', ..] => DEFLATE,
+        // runs of 255 pixels of three bytes from two bytes; eight pixels from one byte without them
+        [b'B', b'M', ..] => 384,
+        [b'I' | b'M', ..] => {
+            let Some(reader) = Reader::tiff(file) else { return DEFLATE };
+            let entries = reader.entries();
+            let value = |tag: u16| entries.iter().find(|entry| entry.tag == tag).and_then(|entry| reader.first(entry));
+            // bits and places of a palette become bytes, three where they are colours
+            let wider = if value(258).unwrap_or(1) < 8 || value(262) == Some(3) { 24 } else { 1 };
+            match value(259) {
+                None | Some(1) => 2 * wider,
+                Some(32773) => 64 * wider,
+                // of twelve bits a string of 4096 bytes
+                Some(5) => 2731 * wider,
+                Some(8 | 32946) => DEFLATE * wider,
+                // a row of white from some bits; a block of 64 pixels from two
+                _ => 8192,
+            }
+        }
+        _ => 8192,
+    }
+}
+
+/// A PNG file without compressed profiles and texts.
+pub fn without_texts(file: &[u8]) -> Cow<'_, [u8]> {
+    let mut kept = Cow::Borrowed(file);
+    let (mut at, mut copied) = (8, 0);
+    while let Some(length) = file.get(at..at + 4).and_then(|n| n.try_into().ok()).map(u32::from_be_bytes) {
+        let next = at.saturating_add(length as usize).saturating_add(12).min(file.len());
+        if matches!(file.get(at + 4..at + 8), Some(b"iCCP" | b"zTXt" | b"iTXt")) {
+            let before = &file[copied..at];
+            match &mut kept {
+                Cow::Owned(kept) => kept.extend(before),
+                Cow::Borrowed(_) => kept = Cow::Owned(before.to_vec()),
+            }
+            copied = next;
+        }
+        at = next;
+    }
+    if let Cow::Owned(kept) = &mut kept {
+        kept.extend(&file[copied..]);
+    }
+    kept
 }
 
 /// Width and height of a PNG file as its header chunk states them.
@@ -56,32 +144,4 @@ pub fn png_size(bytes: &[u8]) -> Option<(u32, u32)> {
     let number = |at: usize| bytes.get(at..at + 4)?.try_into().ok().map(u32::from_be_bytes);
     (bytes.get(12..16)? == b"IHDR").then_some(())?;
     Some((number(16)?, number(20)?))
-}
-
-/// Whether a JPEG file reaches its end marker.
-///
-/// Decoders fill what is missing with grey, which would be measured. Segments are stepped over by their lengths, so
-/// that the end marker of an embedded preview does not count.
-pub fn jpeg_is_complete(bytes: &[u8]) -> bool {
-    let mut at = 2;
-    loop {
-        while bytes.get(at) == Some(&0xff) && bytes.get(at + 1) == Some(&0xff) {
-            at += 1;
-        }
-        match (bytes.get(at), bytes.get(at + 1)) {
-            (Some(0xff), Some(0xd9)) => return true,
-            // Markers without a length: TEM, RSTn; and stuffed zeros of the entropy-coded data.
-            (Some(0xff), Some(0x00 | 0x01 | 0xd0..=0xd7)) => at += 2,
-            (Some(0xff), Some(_)) => {
-                let (Some(high), Some(low)) = (bytes.get(at + 2), bytes.get(at + 3)) else { return false };
-                at += 2 + usize::from(u16::from_be_bytes([*high, *low])).max(2);
-            }
-            (Some(0xff), None) | (None, _) => return false,
-            // Entropy-coded data up to the next 0xff.
-            (Some(_), _) => match bytes[at..].iter().position(|b| *b == 0xff) {
-                Some(step) => at += step,
-                None => return false,
-            },
-        }
-    }
 }

@@ -1,4 +1,4 @@
-//! What kind of file it is, from its first bytes: the three formats that are read, and the common ones that are not.
+//! What kind of file it is, from its first bytes: the formats that are read, and the common ones that are not.
 
 use super::bytes::Reader;
 
@@ -11,6 +11,8 @@ pub enum Signature {
     Png,
     /// TIFF or BigTIFF that holds a developed picture.
     Tiff,
+    /// BMP.
+    Bmp,
     /// A known format that is not read, by name.
     Other(&'static str),
     /// Nothing known.
@@ -62,7 +64,7 @@ pub fn signature(bytes: &[u8]) -> Signature {
     }
     // Two letters are little evidence: the size in the header has to fit too.
     if at(0, b"BM") && bytes.len() > 26 && bytes[6..10] == [0; 4] {
-        return Signature::Other("BMP");
+        return Signature::Bmp;
     }
     Signature::Unknown
 }
@@ -76,10 +78,10 @@ fn tiff(bytes: &[u8]) -> Signature {
     const PHOTOMETRIC: u16 = 262;
     const SUB_DIRECTORIES: u16 = 330;
     const DNG_VERSION: u16 = 50706;
-    const COLOUR_FILTER_ARRAY: u32 = 32803;
+    const COLOUR_FILTER_ARRAY: u64 = 32803;
     let Some(reader) = Reader::tiff(bytes) else { return Signature::Tiff };
     let entries = reader.entries();
-    let value = |tag| entries.iter().find(|e| e.0 == tag).map(|e| e.1);
+    let value = |tag| entries.iter().find(|e| e.tag == tag).and_then(|e| reader.first(e));
     if value(DNG_VERSION).is_some() {
         return Signature::Other("RAW (DNG)");
     }

@@ -1,8 +1,13 @@
+use std::io::Cursor;
+
 use image::{DynamicImage, GrayAlphaImage, ImageBuffer, ImageFormat, Luma, Rgb, RgbImage};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use super::*;
+
+mod damage;
+mod jpeg_kinds;
 
 fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
     let mut file = Cursor::new(Vec::new());
@@ -66,9 +71,11 @@ fn jpeg_is_read_within_its_loss() {
 #[test]
 fn cut_files_are_broken_wherever_they_are_cut() {
     let photo: DynamicImage = RgbImage::from_fn(64, 48, |x, y| Rgb([(x * y) as u8, (x ^ y) as u8, y as u8])).into();
-    for format in [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Tiff] {
+    for format in [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Tiff, ImageFormat::Bmp] {
         let bytes = encoded(&photo, format);
-        for end in (16..bytes.len() - bytes.len() / 20).step_by(31) {
+        // two letters and a size make a BMP
+        let start = if format == ImageFormat::Bmp { 30 } else { 16 };
+        for end in (start..bytes.len() - bytes.len() / 20).step_by(31) {
             let error = grey(&bytes[..end], Channel::Grey).expect_err("a cut file");
             assert_eq!(error.code(), "broken_image", "{format:?} cut at {end} of {}: {error}", bytes.len());
         }
@@ -76,17 +83,59 @@ fn cut_files_are_broken_wherever_they_are_cut() {
 }
 
 #[test]
-fn the_end_of_an_embedded_preview_is_not_the_end_of_the_photo() {
-    let photo = encoded(&coloured(), ImageFormat::Jpeg);
-    let preview = encoded(&coloured(), ImageFormat::Jpeg);
-    let mut bytes = photo[..2].to_vec();
-    bytes.extend(b"\xff\xe2");
-    bytes.extend((preview.len() as u16 + 2).to_be_bytes());
-    bytes.extend(&preview);
-    bytes.extend(&photo[2..photo.len() - 8]);
-    assert_eq!(grey(&bytes, Channel::Grey).expect_err("a cut file").code(), "broken_image");
-    bytes.extend(&photo[photo.len() - 8..]);
-    assert!(grey(&bytes, Channel::Grey).is_ok());
+fn bmp_is_read_as_png_is() {
+    let (bmp, png) = (encoded(&coloured(), ImageFormat::Bmp), encoded(&coloured(), ImageFormat::Png));
+    assert_eq!(size(&bmp).unwrap(), size(&png).unwrap());
+    for channel in [Channel::Grey, Channel::Red, Channel::Green, Channel::Blue] {
+        assert_eq!(grey(&bmp, channel).unwrap(), grey(&png, channel).unwrap());
+    }
+}
+
+/// A TIFF file of one strip whose samples are places in a palette.
+fn palette_tiff(width: u16, height: u16, bits: u16, samples: &[u8], palette: &[[u16; 3]]) -> Vec<u8> {
+    let mut bytes = b"II*\0\x08\0\0\0".to_vec();
+    let (map_at, samples_at) = (8 + 2 + 12 * 9 + 4, 8 + 2 + 12 * 9 + 4 + 6 * palette.len());
+    let entries = [
+        (256, 3, 1, u32::from(width)),
+        (257, 3, 1, u32::from(height)),
+        (258, 3, 1, u32::from(bits)),
+        (259, 3, 1, 1),
+        (262, 3, 1, 3),
+        (273, 4, 1, samples_at as u32),
+        (278, 3, 1, u32::from(height)),
+        (279, 4, 1, samples.len() as u32),
+        (320, 3, 3 * palette.len() as u32, map_at as u32),
+    ];
+    bytes.extend((entries.len() as u16).to_le_bytes());
+    for (tag, kind, count, value) in entries {
+        bytes.extend((tag as u16).to_le_bytes());
+        bytes.extend((kind as u16).to_le_bytes());
+        bytes.extend((count as u32).to_le_bytes());
+        bytes.extend(value.to_le_bytes());
+    }
+    bytes.extend([0; 4]);
+    for channel in 0..3 {
+        palette.iter().for_each(|colour| bytes.extend(colour[channel].to_le_bytes()));
+    }
+    bytes.extend(samples);
+    bytes
+}
+
+#[test]
+fn the_palette_of_a_tiff_is_resolved() {
+    let palette = (0..16u16).map(|k| [k * 4096, 65535 - k * 4096, k * 257]).collect::<Vec<_>>();
+    // five pixels a row: the last half byte is padding
+    let nibbles = [0x01, 0x23, 0x40, 0xfe, 0xdc, 0xb0];
+    let places = [[0u16, 1, 2, 3, 4], [15, 14, 13, 12, 11]].concat();
+    let bytes = palette_tiff(5, 2, 4, &nibbles, &palette);
+    assert_eq!(size(&bytes).unwrap(), Size { width: 5, height: 2, bits: 8 });
+    for (channel, c) in [(Channel::Red, 0), (Channel::Green, 1), (Channel::Blue, 2)] {
+        let expected = places.iter().map(|k| (palette[usize::from(*k)][c] >> 8) as u8).collect();
+        assert_eq!(grey(&bytes, channel).unwrap().samples, Samples::U8(expected));
+    }
+    let whole = (0..256u16).map(|k| [k * 257; 3]).collect::<Vec<_>>();
+    let bytes = palette_tiff(3, 2, 8, &[0, 50, 100, 150, 200, 255], &whole);
+    assert_eq!(grey(&bytes, Channel::Grey).unwrap().samples, Samples::U8(vec![0, 50, 100, 150, 200, 255]));
 }
 
 #[test]
@@ -113,10 +162,8 @@ fn unread_formats_say_what_they_are() {
     let text = size(b"1,2,3\n").expect_err("text");
     assert!(matches!(text, Error::UnknownImageFormat { recognised: None, .. }));
     let float: DynamicImage = ImageBuffer::from_pixel(2, 2, Rgb([0.5f32, 0.5, 0.5])).into();
-    assert_eq!(
-        grey(&encoded(&float, ImageFormat::Tiff), Channel::Grey).expect_err("float").code(),
-        "unknown_image_format"
-    );
+    let float = grey(&encoded(&float, ImageFormat::Tiff), Channel::Grey).expect_err("float");
+    assert!(float.to_string().starts_with("this is a picture of floating-point samples file"), "{float}");
 }
 
 #[test]
@@ -127,4 +174,30 @@ fn pictures_for_showing_are_reduced_and_stretched() {
     assert_eq!((small.width, small.height, small.rgba.len()), (4, 3, 48));
     let deep = picture(&encoded(&grey_16(), ImageFormat::Tiff), None).unwrap();
     assert_eq!(deep.rgba.iter().step_by(4).max(), Some(&255));
+}
+
+#[test]
+fn one_decoding_gives_the_samples_and_the_small_picture() {
+    let photo: DynamicImage =
+        RgbImage::from_fn(
+            160,
+            96,
+            |x, y| if (x / 40 + y / 48) % 2 == 0 { Rgb([200, 30, 40]) } else { Rgb([20, 90, 180]) },
+        )
+        .into();
+    for format in [ImageFormat::Png, ImageFormat::Jpeg] {
+        let bytes = encoded(&photo, format);
+        for channel in [Channel::Grey, Channel::Green] {
+            let (samples, small) = photo_and_picture(&bytes, channel, 40).unwrap();
+            assert_eq!(samples.grey, grey(&bytes, channel).unwrap());
+            assert_eq!((small.width, small.height), (40, 24));
+            let reduced = picture(&bytes, Some(40)).unwrap();
+            // away from the borders of the fields, which blocks of chroma straddle
+            for (x, y) in [(5, 5), (15, 5), (25, 18), (35, 18)] {
+                let at = 4 * (y * 40 + x);
+                let both = small.rgba[at..at + 4].iter().zip(&reduced.rgba[at..at + 4]);
+                assert!(both.clone().all(|(a, b)| a.abs_diff(*b) <= 4), "{format:?} {channel:?} {x} {y}: {both:?}");
+            }
+        }
+    }
 }

@@ -61,6 +61,7 @@ reasons! {
 
     // Detection
     OutsidePicture { name: String, value: Number, size: usize } => "{name} is {value}; a place in the picture lies between 0 and {size}";
+    DamagedRow { value: Number } => "v is {value}, in rows that the damaged file does not give";
     NotPixels { name: String, value: Number } => "{name} is {value}; a positive number of pixels is expected";
     DiametersSwapped { min_diameter: Number, max_diameter: Number } => "min_diameter {min_diameter} is larger than max_diameter {max_diameter}";
     Samples { samples: usize, width: usize, height: usize } => "{samples} samples are no picture of {width} x {height} pixels";
@@ -81,6 +82,10 @@ reasons! {
     // The project file
     NameWithFolders => "a photo's file name holds no folders";
     Entries { entries: usize, limit: usize } => "the archive has {entries} entries; a project file has up to {limit}";
+    SharedBytes => "entries of the archive share their bytes: it is no project file";
+    EntrySize => "this part of the project file is damaged: it has not the size it claims";
+    TakesTooMuch { megabytes: u64 } => "the document would take more than {megabytes} MB of memory";
+    CannotCarry { name: String } => "the identifier \"{name}\" cannot be written in this format: it would be read as another one; rename it";
     NoProjectInside => "this archive is no project file: it holds no project.json";
     DamagedEntry { message: String } => "the project file is damaged: {message}";
     Unpacks { megabytes: u64 } => "the archive unpacks to more than {megabytes} MB: it is no project file";

@@ -1,8 +1,9 @@
 //! Photo files of real cameras.
 
 use crate::data::data;
-use sightline::decode::{Size, grey, picture, size};
-use sightline::detection::Channel;
+use sightline::decode::{Size, grey, photo, picture, size};
+use sightline::detect::{detect_photo, measure_in_photo};
+use sightline::detection::{Channel, DetectOptions, Target};
 use sightline::exif;
 use sightline::image::Samples;
 
@@ -30,4 +31,28 @@ fn a_compressed_grey_tiff() {
     let step = samples.windows(2).map(|p| f64::from(p[0].abs_diff(p[1]))).sum::<f64>() / samples.len() as f64;
     let (low, high) = (samples.iter().min().unwrap(), samples.iter().max().unwrap());
     assert!(f64::from(high - low) > 20.0 * step, "range {low} to {high}, mean step {step}");
+}
+
+#[test]
+fn half_a_photo_gives_the_targets_of_its_half() {
+    let Some(bytes) = data("camcal/photos/P8250021.JPG") else { return };
+    for channel in [Channel::Grey, Channel::Green] {
+        let options = DetectOptions { channel, ..DetectOptions::default() };
+        let whole = detect_photo(&photo(&bytes, channel).unwrap(), &options).unwrap();
+        let half = detect_photo(&photo(&bytes[..bytes.len() / 2], channel).unwrap(), &options).unwrap();
+        assert!(whole.damaged_rows.is_empty());
+        let [[first, last]] = half.damaged_rows[..] else { panic!("{:?}", half.damaged_rows) };
+        assert!(first > 400 && first < 1300 && last == 1704, "{first} {last}");
+        // those a diameter above the damage; noise and range are taken over the rows that are there
+        let above = whole.targets.iter().filter(|t| t.v + t.major < f64::from(first)).collect::<Vec<_>>();
+        let found = |t: &&&Target| half.targets.iter().any(|h| (h.u - t.u).hypot(h.v - t.v) < 0.02);
+        let hits = above.iter().filter(found).count();
+        assert!(above.len() > 20 && hits + 1 >= above.len(), "{hits} of {}", above.len());
+        assert!(half.targets.iter().all(|t| t.v < f64::from(first)));
+        let there = above[0];
+        let clicked = measure_in_photo(&photo(&bytes[..bytes.len() / 2], channel).unwrap(), there.u, there.v, &options);
+        assert!(clicked.unwrap().is_some());
+        let gone = measure_in_photo(&photo(&bytes[..bytes.len() / 2], channel).unwrap(), 100.0, 1650.0, &options);
+        assert_eq!(gone.unwrap_err().code(), "invalid");
+    }
 }

@@ -37,7 +37,7 @@ declare! { desk {
 
     // Start
     drop_here: "Drop photos or a project anywhere on this page";
-    formats: "JPEG, PNG and TIFF, 8 or 16 bit. They stay on this computer.";
+    formats: "JPEG, PNG, TIFF and BMP, 8 or 16 bit. They stay on this computer.";
     choose_photos: "Choose photos…";
     heic_and_raw: "HEIC and RAW are recognised; the message says how to convert them.";
 
@@ -50,6 +50,7 @@ declare! { desk {
     on_to_targets: "Targets";
     opening_photos: "Opening photos";
     photo_count(n): "{n} {n:photo|photos}";
+    rows_damaged(photo, rows): "Photo {photo}: rows {rows} of the file are damaged and were not measured";
     photo_failed(photo, reason): "Photo {photo}: {reason}";
     no_photo_files: "No photo file is here: drop the photos of this project to work on them.";
     photo_file_missing(file): "The file {file} is not here. Drop it on this page to see it.";
@@ -711,7 +712,7 @@ declare! { experiments {
 
 declare! { errors {
     recognised(kind): "this is a {kind} file, which is not read here: convert it to JPEG, PNG or TIFF";
-    no_picture: "not a picture that is read here: JPEG, PNG or TIFF of 8 or 16 bits are expected";
+    no_picture: "not a picture that is read here: JPEG, PNG, TIFF or BMP of 8 or 16 bits are expected";
     broken(detail): "the picture cannot be decoded ({detail}): copy it again from the camera";
     size(width, height, limit): "the picture has {width} × {height} pixels; from 1 to {limit} pixels are worked on";
     unknown(kind, name): "there is no {kind} \"{name}\"";

@@ -33,7 +33,7 @@ translate! { Korean desk {
 
     // Start
     drop_here: "사진이나 프로젝트를 이 페이지 아무 곳에나 놓으십시오";
-    formats: "JPEG, PNG, TIFF, 8·16비트. 파일은 이 컴퓨터를 떠나지 않습니다.";
+    formats: "JPEG, PNG, TIFF, BMP, 8·16비트. 파일은 이 컴퓨터를 떠나지 않습니다.";
     choose_photos: "사진 고르기…";
     heic_and_raw: "HEIC와 RAW는 인식하여 변환 방법을 안내합니다.";
 
@@ -45,6 +45,7 @@ translate! { Korean desk {
     on_to_targets: "표적";
     opening_photos: "사진 여는 중";
     photo_count(n): "사진 {n}매";
+    rows_damaged(photo, rows): "사진 {photo}: 파일의 {rows}행이 손상되어 측정하지 않았습니다";
     photo_failed(photo, reason): "사진 {photo}: {reason}";
     no_photo_files: "사진 파일이 없습니다. 이 프로젝트의 사진을 놓으십시오.";
     photo_file_missing(file): "{file} 파일이 없습니다. 보려면 이 페이지에 놓으십시오.";
@@ -682,7 +683,7 @@ translate! { Korean experiments {
 
 translate! { Korean errors {
     recognised(kind): "{kind} 파일입니다. 여기서는 읽지 못하므로 JPEG, PNG, TIFF로 변환하십시오";
-    no_picture: "읽을 수 있는 사진이 아닙니다. 8·16비트 JPEG, PNG, TIFF가 필요합니다";
+    no_picture: "읽을 수 있는 사진이 아닙니다. 8·16비트 JPEG, PNG, TIFF, BMP가 필요합니다";
     broken(detail): "사진을 복호할 수 없습니다({detail}). 카메라에서 다시 복사하십시오";
     size(width, height, limit): "사진이 {width} × {height} 화소입니다. 1화소부터 {limit}화소까지 처리합니다";
     unknown(kind, name): "{kind} \"{name}\"{name:이|가} 없습니다";

@@ -70,6 +70,7 @@ pub fn reason(reason: &Reason) -> String {
                 &[("name", name), ("value", value)],
             );
         }
+        R::DamagedRow { value } => return format!("v가 {value}입니다. 손상된 파일에서 읽지 못한 행입니다"),
         R::DiametersSwapped { min_diameter, max_diameter } => {
             return told(
                 "최소 지름 {min_diameter}{min_diameter:이|가} 최대 지름 {max_diameter}보다 큽니다",
@@ -125,6 +126,12 @@ pub fn reason(reason: &Reason) -> String {
             return format!("압축 파일의 항목이 {entries}개입니다. 프로젝트 파일은 {limit}개까지입니다");
         }
         R::NoProjectInside => "프로젝트 파일이 아닙니다. 압축 안에 project.json이 없습니다",
+        R::SharedBytes => "압축 파일의 항목들이 같은 바이트를 나눠 씁니다. 프로젝트 파일이 아닙니다",
+        R::EntrySize => "프로젝트 파일의 이 부분이 손상되었습니다. 적힌 크기와 다릅니다",
+        R::TakesTooMuch { megabytes } => return format!("문서가 메모리를 {megabytes} MB보다 많이 차지합니다"),
+        R::CannotCarry { name } => {
+            return format!("식별자 \"{name}\"을(를) 이 형식으로 쓰면 다른 식별자로 읽힙니다. 이름을 바꾸십시오");
+        }
         R::DamagedEntry { message } => return format!("프로젝트 파일이 손상되었습니다: {message}"),
         R::Unpacks { megabytes } => {
             return format!("압축을 풀면 {megabytes} MB가 넘습니다. 프로젝트 파일이 아닙니다");
@@ -220,6 +227,14 @@ pub fn reason(reason: &Reason) -> String {
 pub fn damage(damage: &Damage) -> String {
     match damage {
         Damage::EndsEarly => "파일이 중간에 끝납니다".to_owned(),
+        Damage::NoPicture => "영상이 들어 있지 않습니다".to_owned(),
+        Damage::Header => "머리 부분이 손상되었습니다".to_owned(),
+        Damage::NoPalette => "색상표가 없습니다".to_owned(),
+        Damage::ClaimsTooMuch { width, height } => {
+            format!("머리 부분에 적힌 {width} × {height}화소를 파일의 바이트가 담을 수 없습니다")
+        }
+        Damage::NoWholeRow => "온전하다고 할 수 있는 행이 없습니다".to_owned(),
+        Damage::Rows { first, last } => format!("{first}–{last}행이 손상되었습니다"),
         Damage::Decoder { message } => message.clone(),
     }
 }

@@ -49,6 +49,11 @@ impl Desk {
     }
 
     fn add_detection(self, photo: &str, detection: Detection) {
+        if !detection.damaged_rows.is_empty() {
+            let rows = detection.damaged_rows.iter().map(|[first, last]| format!("{}–{last}", first + 1));
+            let (photo, rows) = (photo.to_owned(), rows.collect::<Vec<_>>().join(", "));
+            self.warn(move || text::rows_damaged(&photo, &rows));
+        }
         self.change_on(|document| targets::take_detection(document, photo, detection));
     }
 }

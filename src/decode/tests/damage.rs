@@ -1,0 +1,175 @@
+//! Damaged and hostile files: what is whole is given, what is not is named, and nothing is taken on a header's word.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use jpeg_encoder::SamplingFactor;
+
+use super::jpeg_kinds::{Kind, planes, written};
+use super::*;
+
+const SIZE: (u16, u16) = (160, 256);
+
+fn sample(progressive: bool, restart: u16) -> Vec<u8> {
+    let kind = Kind { sampling: SamplingFactor::R_4_2_0, progressive, restart, quality: 85 };
+    written(SIZE.0, SIZE.1, &planes(SIZE.0, SIZE.1), kind)
+}
+
+fn rows(photo: &Photo) -> Vec<&[u8]> {
+    let Samples::U8(samples) = &photo.grey.samples else { panic!("8 bits expected") };
+    samples.chunks(photo.grey.width).collect()
+}
+
+fn is_damaged(photo: &Photo, row: usize) -> bool {
+    photo.damaged_rows.iter().any(|[first, last]| (*first as usize..*last as usize).contains(&row))
+}
+
+/// Rows that are said to be whole and are not, and rows that are whole.
+fn wrong_and_whole(photo: &Photo, truth: &Photo) -> (usize, usize) {
+    let (got, expected) = (rows(photo), rows(truth));
+    let whole = (0..got.len()).filter(|row| !is_damaged(photo, *row)).collect::<Vec<_>>();
+    (whole.iter().filter(|row| got[**row] != expected[**row]).count(), whole.len())
+}
+
+#[test]
+fn a_file_that_ends_early_gives_the_rows_before() {
+    for (progressive, restart) in [(false, 0), (false, 5), (true, 0)] {
+        let file = sample(progressive, restart);
+        let truth = photo(&file, Channel::Grey).unwrap();
+        let scan = file.windows(2).position(|w| w == b"\xff\xda").expect("a scan");
+        let mut before = 0;
+        for end in (scan..file.len() - 2).step_by(97) {
+            match photo(&file[..end], Channel::Grey) {
+                Ok(photo) => {
+                    let (wrong, whole) = wrong_and_whole(&photo, &truth);
+                    assert_eq!(wrong, 0, "{progressive} {restart} cut at {end}");
+                    assert!(whole >= before);
+                    before = whole;
+                }
+                Err(error) => {
+                    assert_eq!(error.code(), "broken_image");
+                    assert_eq!(before, 0, "{progressive} {restart} cut at {end}: {error}");
+                }
+            }
+        }
+        let least = if progressive { 1 } else { usize::from(SIZE.1) * 9 / 10 - 16 };
+        assert!(before >= least, "{before} rows of {}", SIZE.1);
+    }
+}
+
+#[test]
+fn the_end_marker_alone_is_not_missed() {
+    let file = sample(false, 0);
+    assert_eq!(grey(&file[..file.len() - 2], Channel::Grey), grey(&file, Channel::Grey));
+}
+
+#[test]
+fn half_a_photo_with_an_end_marker_is_still_half() {
+    let file = sample(false, 0);
+    let truth = photo(&file, Channel::Grey).unwrap();
+    let mut half = file[..file.len() / 2].to_vec();
+    half.extend(b"\xff\xd9");
+    let photo = photo(&half, Channel::Grey).unwrap();
+    let (wrong, whole) = wrong_and_whole(&photo, &truth);
+    assert!(wrong == 0 && whole > 64, "{wrong} of {whole}");
+}
+
+#[test]
+fn lost_sectors_are_found() {
+    let mut random = 11u32;
+    for restart in [0, 10] {
+        let file = sample(false, restart);
+        let truth = photo(&file, Channel::Grey).unwrap();
+        let scan = file.windows(2).position(|w| w == b"\xff\xda").expect("a scan");
+        for filling in [0u8, 0x55, 0xff] {
+            for _ in 0..12 {
+                random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                let at = scan + 600 + (random >> 8) as usize % (file.len() - scan - 1200);
+                let mut holed = file.clone();
+                holed[at..at + 512].fill(filling);
+                match photo(&holed, Channel::Grey) {
+                    Ok(photo) => {
+                        let (wrong, _) = wrong_and_whole(&photo, &truth);
+                        assert_eq!(wrong, 0, "{restart} {filling} at {at} of {}: {:?}", file.len(), photo.damaged_rows);
+                        assert!(!photo.damaged_rows.is_empty());
+                    }
+                    Err(error) => assert!(error.code() == "broken_image" && restart == 0, "{error}"),
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn noise_in_the_data_is_seldom_taken_for_picture() {
+    let mut random = 5u32;
+    let mut next = move |below: usize| {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (random >> 8) as usize % below
+    };
+    let mut missed = 0;
+    for restart in [0, 10] {
+        let file = sample(false, restart);
+        let truth = photo(&file, Channel::Grey).unwrap();
+        let scan = file.windows(2).position(|w| w == b"\xff\xda").expect("a scan");
+        for _ in 0..200 {
+            let at = scan + 20 + next(file.len() - scan - 100);
+            let mut spoilt = file.clone();
+            spoilt[at..at + 64].iter_mut().for_each(|byte| *byte = next(255) as u8);
+            if let Ok(photo) = photo(&spoilt, Channel::Grey) {
+                missed += usize::from(wrong_and_whole(&photo, &truth).0 > 0);
+            }
+        }
+    }
+    assert!(missed <= 20, "{missed} of 400");
+}
+
+#[test]
+fn a_chosen_channel_names_damaged_rows_too() {
+    let file = sample(false, 10);
+    let truth = photo(&file, Channel::Green).unwrap();
+    let photo = photo(&file[..file.len() / 2], Channel::Green).unwrap();
+    let (wrong, whole) = wrong_and_whole(&photo, &truth);
+    assert!(wrong == 0 && whole > 64, "{wrong} of {whole}: {:?}", photo.damaged_rows);
+}
+
+#[test]
+fn a_header_is_held_against_the_bytes() {
+    let mut file = sample(false, 0);
+    let frame = file.windows(2).position(|w| w == b"\xff\xc0").expect("a frame");
+    // 15600 rows of 16000 pixels
+    file[frame + 5..frame + 9].copy_from_slice(&[0x3c, 0xf0, 0x3e, 0x80]);
+    file.truncate(2400);
+    for error in [size(&file).expect_err("size"), grey(&file, Channel::Red).expect_err("samples")] {
+        assert!(error.code() == "broken_image" && error.to_string().contains("16000 x 15600"), "{error}");
+    }
+    let mut png = encoded(&coloured(), ImageFormat::Png);
+    png[16..24].copy_from_slice(&[0, 0, 0x3a, 0x98, 0, 0, 0x3a, 0x98]);
+    let crc = crc32(&png[12..29]);
+    png[29..33].copy_from_slice(&crc.to_be_bytes());
+    assert!(png.len() < 200);
+    let error = grey(&png, Channel::Grey).expect_err("15000 x 15000");
+    assert!(error.code() == "broken_image" && error.to_string().contains("15000 x 15000"), "{error}");
+    let tiff = encoded(&coloured(), ImageFormat::Tiff);
+    let reader = bytes::Reader::tiff(&tiff).expect("a TIFF");
+    let mut large = tiff.clone();
+    for entry in reader.entries().iter().filter(|entry| entry.tag == 256 || entry.tag == 257) {
+        reader.overwrite(&mut large, entry, 15_000);
+    }
+    assert_eq!(grey(&large, Channel::Grey).expect_err("15000 x 15000").code(), "broken_image");
+}
+
+#[test]
+fn profiles_of_png_are_not_unpacked() {
+    let png = encoded(&coloured(), ImageFormat::Png);
+    let mut with_profile = png[..33].to_vec();
+    // a profile that is none: only who unpacks it can know
+    let chunk = b"iCCPname\0\0not deflated at all";
+    with_profile.extend((chunk.len() as u32 - 4).to_be_bytes());
+    with_profile.extend(chunk);
+    with_profile.extend(crc32(chunk).to_be_bytes());
+    with_profile.extend(&png[33..]);
+    assert_eq!(bytes::without_texts(&with_profile), png);
+    assert_eq!(grey(&with_profile, Channel::Red), grey(&png, Channel::Red));
+    assert_eq!(size(&with_profile), size(&png));
+}
