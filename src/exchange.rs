@@ -12,7 +12,8 @@
 //! | `comparator` | plates: fiducial marks, distortion table, readings in millimetres | |
 //! | `csv`, `tsv` | | points, cameras, photos, observations with their statistics |
 //!
-//! Numbers are written with a decimal point whatever the user's language. A format that holds a part of a project only
+//! Numbers are written with a decimal point whatever the user's language, and no cell can arm a spreadsheet: text that would be a
+//! formula gets an apostrophe before it. A format that holds a part of a project only
 //! (`control-csv`, `mark-points`, `aicon`) is read as a project with that part.
 
 pub mod aicon;
@@ -26,10 +27,13 @@ pub mod photomodeler;
 pub mod results;
 mod text;
 
+pub(crate) use text::disarmed;
+
 use std::collections::BTreeMap;
 
 use crate::adjustment::Adjustment;
 use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
+use crate::limits;
 use crate::project::{DatumKind, Photo, Point, Project};
 
 /// Files by name.
@@ -108,7 +112,7 @@ pub fn import(format: &str, files: &Files) -> Result<Project> {
 /// Writes a project, with the result of its adjustment where the format has a place for it.
 ///
 /// # Errors
-/// [`Error::Unknown`] for a format that is not written.
+/// [`Error::Unknown`] for a format that is not written, [`Error::Invalid`] for an identifier that the format cannot carry.
 pub fn export(format: &str, project: &Project, adjustment: Option<&Adjustment>) -> Result<Files> {
     let one = |name: &str, bytes: Vec<u8>| Files::from([(name.to_owned(), bytes)]);
     match format {
@@ -118,8 +122,24 @@ pub fn export(format: &str, project: &Project, adjustment: Option<&Adjustment>) 
                 package::Package { project: project.clone(), adjustment: adjustment.cloned(), ..Default::default() };
             Ok(one("project.sightline", package::write(&content)?))
         }
-        "control-csv" => Ok(one("control.csv", control_csv::write(&project.points).into_bytes())),
-        "mark-points" => Ok(one("marks.txt", mark_points::write(&project.observations).into_bytes())),
+        "control-csv" => {
+            let text = control_csv::write(&project.points);
+            let read =
+                control_csv::parse(&text).into_points().map(|all| all.into_iter().map(|point| point.id).collect());
+            let written = project.points.iter().filter(|point| point.xyz.is_some()).map(|point| &point.id);
+            carried(written, read, Place::point)?;
+            Ok(one("control.csv", text.into_bytes()))
+        }
+        "mark-points" => {
+            let text = mark_points::write(&project.observations);
+            let read = mark_points::observations(&text);
+            let written = || project.observations.iter().filter(|observation| observation.enabled);
+            let photos = read.clone().map(|all| all.into_iter().map(|mark| mark.photo).collect());
+            carried(written().map(|observation| &observation.photo), photos, Place::photo)?;
+            let points = read.map(|all| all.into_iter().map(|mark| mark.point).collect());
+            carried(written().map(|observation| &observation.point), points, Place::point)?;
+            Ok(one("marks.txt", text.into_bytes()))
+        }
         "csv" => results::write(project, adjustment, results::Separator::Comma),
         "tsv" => results::write(project, adjustment, results::Separator::Tab),
         _ => Err(unknown_format(format, |known| known.export)),
@@ -128,15 +148,22 @@ pub fn export(format: &str, project: &Project, adjustment: Option<&Adjustment>) 
 
 /// The document from JSON; its format and version are looked at first, so that a newer one is named as such.
 pub(crate) fn document(bytes: &[u8]) -> Result<Project> {
+    /// What is looked at first; the rest is passed over without being kept.
+    #[derive(serde::Deserialize)]
+    struct Head {
+        format: Option<serde_json::Value>,
+        version: Option<serde_json::Value>,
+    }
     let text = encoding::text(bytes)?;
-    let value: serde_json::Value = serde_json::from_str(&text).map_err(|error| Error::Invalid {
+    check_parsed(text.as_bytes())?;
+    let head: Head = serde_json::from_str(&text).map_err(|error| Error::Invalid {
         reason: Reason::NotJson { message: error.to_string() },
         at: Place { line: Some(error.line()), ..Place::default() },
     })?;
-    if value.get("format").and_then(|format| format.as_str()) != Some("sightline") {
+    if head.format.as_ref().and_then(|format| format.as_str()) != Some("sightline") {
         return Err(Error::Invalid { reason: Reason::NotADocument, at: Place::field("format") });
     }
-    let version = match value.get("version") {
+    let version = match &head.version {
         Some(version) if version.as_u64() == Some(1) => None,
         Some(serde_json::Value::String(other)) => Some(Reason::NewerVersion { version: shortened(other) }),
         Some(serde_json::Value::Number(other)) => Some(Reason::NewerVersion { version: other.to_string() }),
@@ -145,10 +172,35 @@ pub(crate) fn document(bytes: &[u8]) -> Result<Project> {
     if let Some(reason) = version {
         return Err(Error::Invalid { reason, at: Place::field("version") });
     }
-    serde_path_to_error::deserialize(value).map_err(|error| Error::Invalid {
+    let mut json = serde_json::Deserializer::from_str(&text);
+    serde_path_to_error::deserialize(&mut json).map_err(|error| Error::Invalid {
         reason: Reason::DamagedDocument { message: shortened(&error.inner().to_string()) },
         at: Place::field(error.path().to_string()),
     })
+}
+
+/// Refuses a document that would take more memory than there is, by a count of its parts.
+fn check_parsed(document: &[u8]) -> Result<()> {
+    if limits::parsed(document) <= limits::PARSED {
+        return Ok(());
+    }
+    let reason = Reason::TakesTooMuch { megabytes: limits::PARSED >> 20 };
+    Err(Error::Invalid { reason, at: Place::default() })
+}
+
+/// Refuses to write what would be read back as something else: `ids` are those that were written, `read` those that come back.
+fn carried<'a>(
+    ids: impl Iterator<Item = &'a String>,
+    read: Result<Vec<String>>,
+    at: fn(String) -> Place,
+) -> Result<()> {
+    let read = read.unwrap_or_default();
+    for (k, id) in ids.enumerate() {
+        if read.get(k) != Some(id) {
+            return Err(Error::Invalid { reason: Reason::CannotCarry { name: shortened(id) }, at: at(id.clone()) });
+        }
+    }
+    Ok(())
 }
 
 fn unknown_format(format: &str, wanted: fn(&Format) -> bool) -> Error {

@@ -156,7 +156,7 @@ fn row(line: &Row, columns: &Columns, decimal: Decimal) -> std::result::Result<C
             sigma => Err(field.fault(Reason::Negative { name: field.name().into(), value: sigma.into() })),
         },
     };
-    let id = required(Field::Id)?.to_owned();
+    let id = text::armed(required(Field::Id)?).to_owned();
     let xyz = [coordinate(Field::X)?, coordinate(Field::Y)?, coordinate(Field::Z)?];
     let sigma = if columns.place(Field::Sigma).is_some() {
         [sigma(Field::Sigma)?; 3]
@@ -209,7 +209,7 @@ pub fn write(points: &[Point]) -> String {
             Role::Check => "check",
         };
         // Writing to a string does not fail.
-        let _ = writeln!(text, "{},{x},{y},{z},{sx},{sy},{sz},{role}", text::quoted(&point.id, ','));
+        let _ = writeln!(text, "{},{x},{y},{z},{sx},{sy},{sz},{role}", text::quoted(&text::disarmed(&point.id), ','));
     }
     text
 }

@@ -40,8 +40,8 @@ pub fn observations(text: &str) -> Result<Vec<Observation>> {
         }
         let sigma = |index| row.positive(index, "sigma");
         marks.push(Observation {
-            photo: row.text(0, "photo")?.to_owned(),
-            point: row.text(1, "point")?.to_owned(),
+            photo: text::armed(row.text(0, "photo")?).to_owned(),
+            point: text::armed(row.text(1, "point")?).to_owned(),
             u: row.number(2, "u")?,
             v: row.number(3, "v")?,
             sigma: match row.fields.len() {
@@ -61,7 +61,7 @@ pub fn write(observations: &[Observation]) -> String {
     for observation in observations.iter().filter(|observation| observation.enabled) {
         let [su, sv] = observation.sigma.both();
         let Observation { photo, point, u, v, .. } = observation;
-        let [photo, point] = [photo, point].map(|id| text::quoted(id, ','));
+        let [photo, point] = [photo, point].map(|id| text::quoted(&text::disarmed(id), ',').into_owned());
         // A quote counts at the very beginning of a field.
         let blank = if point.starts_with('"') { "" } else { " " };
         // Writing to a string does not fail.

@@ -15,14 +15,8 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 use crate::adjustment::Adjustment;
 use crate::detection::Detection;
 use crate::error::{Error, Place, Reason, Result, shortened};
+use crate::limits;
 use crate::project::Project;
-
-/// Most bytes that a document may have when unpacked.
-const DOCUMENT_LIMIT: u64 = 512 << 20;
-/// Most bytes that all photos may have: wasm has 4 GB for everything.
-const PHOTOS_LIMIT: u64 = 2 << 30;
-/// Most entries of an archive.
-const ENTRIES_LIMIT: usize = 20_000;
 
 /// Content of a project file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,6 +29,8 @@ pub struct Package {
     pub adjustment: Option<Adjustment>,
     /// The photos' files by name.
     pub photos: BTreeMap<String, Vec<u8>>,
+    /// What was damaged and is left out, each with the entry it stood in; not written.
+    pub damaged: Vec<Error>,
 }
 
 /// Writes a project file. Photos are stored as they are: they are compressed already.
@@ -78,40 +74,63 @@ pub fn archive(files: &super::Files) -> Result<Vec<u8>> {
     archive.finish().map(Cursor::into_inner).map_err(cannot_write)
 }
 
-/// Reads a project file.
+/// Reads a project file. The checksum of every entry is checked: a damaged result costs the result, damaged targets the targets,
+/// a damaged photo the photo, and each is named in `damaged`; a damaged document is an error.
 ///
 /// # Errors
-/// [`Error::Invalid`] for what is no project file, is damaged or too large.
+/// [`Error::Invalid`] for what is no project file, is damaged or too large by its headers, before memory is taken for it.
 pub fn read(bytes: &[u8]) -> Result<Package> {
     if bytes.trim_ascii_start().first() == Some(&b'{') {
         return Ok(Package { project: super::document(bytes)?, ..Package::default() });
     }
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
-    if archive.len() > ENTRIES_LIMIT {
-        return Err(invalid(Reason::Entries { entries: archive.len(), limit: ENTRIES_LIMIT }));
+    if archive.len() > limits::ENTRIES {
+        return Err(invalid(Reason::Entries { entries: archive.len(), limit: limits::ENTRIES }));
+    }
+    if archive.has_overlapping_files().map_err(|error| damaged(&error))? {
+        return Err(invalid(Reason::SharedBytes));
     }
     let mut package = Package::default();
-    let (mut found, mut room) = (false, PHOTOS_LIMIT);
+    let (mut found, mut room) = (false, photos_room(bytes.len() as u64));
     for index in 0..archive.len() {
         let mut entry = archive.by_index(index).map_err(|error| damaged(&error))?;
         let name = entry.name().map_err(|error| damaged(&error))?.into_owned();
-        match name.as_str() {
-            "project.json" => {
-                package.project =
-                    super::document(&unpack(&mut entry, DOCUMENT_LIMIT)?).map_err(|error| error.in_file(&name))?;
-                found = true;
+        let claimed = entry.size();
+        if name == "project.json" {
+            let content = unpack(&mut entry, claimed, limits::DOCUMENT).map_err(|error| error.in_file(&name))?;
+            package.project = super::document(&content).map_err(|error| error.in_file(&name))?;
+            found = true;
+        } else if name == "targets.json" {
+            let targets = unpack(&mut entry, claimed, limits::DOCUMENT).and_then(|content| parse(&content));
+            package.keep(&name, targets, |package, targets| package.targets = targets);
+        } else if name == "adjustment.json" {
+            let adjustment = unpack(&mut entry, claimed, limits::DOCUMENT).and_then(|content| parse(&content));
+            package.keep(&name, adjustment, |package, adjustment| package.adjustment = Some(adjustment));
+        } else if let Some(file) = name.strip_prefix("photos/").filter(|file| plain(file)) {
+            if claimed > room {
+                return Err(too_large(room).in_file(&name));
             }
-            "targets.json" => package.targets = parse(&unpack(&mut entry, DOCUMENT_LIMIT)?, &name)?,
-            "adjustment.json" => package.adjustment = Some(parse(&unpack(&mut entry, DOCUMENT_LIMIT)?, &name)?),
-            _ => {
-                let Some(file) = name.strip_prefix("photos/").filter(|file| plain(file)) else { continue };
-                let content = unpack(&mut entry, room)?;
-                room -= content.len() as u64;
-                package.photos.insert(file.to_owned(), content);
-            }
+            let content = unpack(&mut entry, claimed, room);
+            room -= claimed;
+            package.keep(&name, content, |package, content| _ = package.photos.insert(file.to_owned(), content));
         }
     }
     if found { Ok(package) } else { Err(invalid(Reason::NoProjectInside)) }
+}
+
+impl Package {
+    /// Takes over what was read of an entry, or that it was damaged.
+    fn keep<T>(&mut self, name: &str, content: Result<T>, take: impl FnOnce(&mut Self, T)) {
+        match content {
+            Ok(content) => take(self, content),
+            Err(error) => self.damaged.push(error.in_file(name)),
+        }
+    }
+}
+
+/// Most bytes of photos in a file of a size.
+fn photos_room(file: u64) -> u64 {
+    limits::PHOTOS.min(file.saturating_mul(limits::PHOTOS_RATIO).saturating_add(limits::PHOTOS_FREE))
 }
 
 /// A document as JSON. Numbers keep every bit.
@@ -122,21 +141,30 @@ pub fn json(value: &impl Serialize) -> Result<Vec<u8>> {
     serde_json::to_vec(&value).map_err(failed)
 }
 
-fn parse<T: DeserializeOwned>(bytes: &[u8], name: &str) -> Result<T> {
-    serde_json::from_slice(bytes).map_err(|error| {
-        let at = Place { line: Some(error.line()), ..Place::default() }.with_file(name);
-        Error::Invalid { reason: Reason::DamagedEntry { message: shortened(&error.to_string()) }, at }
+fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T> {
+    super::check_parsed(bytes)?;
+    serde_json::from_slice(bytes).map_err(|error| Error::Invalid {
+        reason: Reason::DamagedEntry { message: shortened(&error.to_string()) },
+        at: Place { line: Some(error.line()), ..Place::default() },
     })
 }
 
-/// Unpacks an entry without believing its header.
-fn unpack(entry: &mut impl Read, limit: u64) -> Result<Vec<u8>> {
+/// Unpacks an entry that claims a size; it is held to it.
+fn unpack(entry: &mut impl Read, claimed: u64, limit: u64) -> Result<Vec<u8>> {
+    if claimed > limit {
+        return Err(too_large(limit));
+    }
     let mut content = Vec::new();
-    entry.take(limit + 1).read_to_end(&mut content).map_err(|error| damaged(&error.into()))?;
-    if content.len() as u64 > limit {
-        return Err(invalid(Reason::Unpacks { megabytes: limit >> 20 }));
+    let read = entry.take(claimed + 1).read_to_end(&mut content);
+    read.map_err(|error| invalid(Reason::DamagedEntry { message: shortened(&error.to_string()) }))?;
+    if content.len() as u64 != claimed {
+        return Err(invalid(Reason::EntrySize));
     }
     Ok(content)
+}
+
+fn too_large(limit: u64) -> Error {
+    invalid(Reason::Unpacks { megabytes: limit >> 20 })
 }
 
 /// Whether a name is a file's and no path.
@@ -177,7 +205,7 @@ mod tests {
         };
         let targets =
             BTreeMap::from([("1".to_owned(), Detection { width: 3, height: 2, bits: 8, ..Detection::default() })]);
-        Package { project, targets, adjustment: None, photos: [("사진 1.jpg".to_owned(), vec![1, 2, 3])].into() }
+        Package { project, targets, photos: [("사진 1.jpg".to_owned(), vec![1, 2, 3])].into(), ..Package::default() }
     }
 
     fn archive(entries: &[(&str, &[u8])]) -> Vec<u8> {
@@ -225,12 +253,6 @@ mod tests {
         assert!(
             detail(&archive(&[("project.json", b"{\"format\": \"sightline\", \"version\": 2}")])).contains("version 2")
         );
-        for version in ["\"2\"", "1.5", "-1"] {
-            let newer = format!("{{\"format\": \"sightline\", \"version\": {version}}}");
-            let told = detail(&archive(&[("project.json", newer.as_bytes())]));
-            assert!(told.contains(&format!("version {}", version.trim_matches('"'))), "{told}");
-        }
-        assert!(unpack(&mut std::io::repeat(0), 1000).unwrap_err().to_string().contains("unpacks"));
         let document = json(&package().project).unwrap();
         let odd = archive(&[
             ("project.json", &document),
@@ -241,5 +263,74 @@ mod tests {
         assert!(read(&odd).unwrap().photos.is_empty());
         let path = Package { photos: [("../a.jpg".to_owned(), vec![])].into(), ..package() };
         assert!(write(&path).is_err());
+    }
+
+    #[test]
+    fn a_damaged_part_costs_that_part() {
+        let all = Package { adjustment: Some(Adjustment::default()), ..package() };
+        let bytes = write(&all).unwrap();
+        assert_eq!(read(&bytes).unwrap(), all);
+        for (name, cost) in [
+            ("adjustment.json", Package { adjustment: None, ..all.clone() }),
+            ("targets.json", Package { targets: BTreeMap::new(), ..all.clone() }),
+            ("photos/사진 1.jpg", Package { photos: BTreeMap::new(), ..all.clone() }),
+        ] {
+            let mut bad = bytes.clone();
+            let header = bytes.windows(name.len()).position(|w| w == name.as_bytes()).expect("the entry");
+            bad[header + name.len() + 1] ^= 0x11;
+            let read = read(&bad).unwrap_or_else(|error| panic!("{name}: {error}"));
+            assert_eq!(read.damaged.len(), 1, "{name}");
+            assert_eq!(read.damaged[0].place().file.as_deref(), Some(name));
+            assert_eq!(Package { damaged: Vec::new(), ..read }, cost);
+        }
+        let document = json(&all.project).unwrap();
+        let wrong = archive(&[("project.json", &document), ("adjustment.json", b"{\"termination\": 3}")]);
+        assert_eq!(read(&wrong).unwrap().damaged[0].place().file.as_deref(), Some("adjustment.json"));
+    }
+
+    /// Sets the size that entries claim in both of their headers.
+    fn claim(bytes: &mut [u8], name: &str, size: u32) {
+        for (mark, size_at, name_at) in [(b"PK\x03\x04", 22, 30), (b"PK\x01\x02", 24, 46)] {
+            for at in 0..bytes.len() - name_at {
+                if bytes[at..].starts_with(mark) && bytes[at + name_at..].starts_with(name.as_bytes()) {
+                    bytes[at + size_at..at + size_at + 4].copy_from_slice(&size.to_le_bytes());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn memory_is_bounded_by_what_the_headers_claim() {
+        let document = json(&package().project).unwrap();
+        let zeros = vec![0; 80 << 20];
+        let bomb = archive(&[("project.json", &document), ("photos/a.jpg", &zeros)]);
+        assert!(bomb.len() < 1 << 20);
+        let error = read(&bomb).unwrap_err();
+        assert!(error.to_string().contains("unpacks to more than"), "{error}");
+        assert_eq!(error.place().file.as_deref(), Some("photos/a.jpg"));
+        // it claims less than it is
+        let mut liar = archive(&[("project.json", &document), ("photos/a.jpg", &zeros[..1 << 20])]);
+        claim(&mut liar, "photos/a.jpg", 1000);
+        let read_back = read(&liar).unwrap();
+        assert!(read_back.photos.is_empty() && read_back.damaged.len() == 1);
+        let mut large = archive(&[("project.json", &document)]);
+        claim(&mut large, "project.json", 600 << 20);
+        assert!(read(&large).unwrap_err().to_string().contains("512 MB"));
+        let lists = format!("{{\"format\": \"sightline\", \"version\": 1, \"points\": [{}]}}", "[],".repeat(4 << 20));
+        assert!(read(lists.as_bytes()).unwrap_err().to_string().contains("would take more than"));
+    }
+
+    #[test]
+    fn entries_that_share_bytes_are_refused() {
+        let document = json(&package().project).unwrap();
+        let mut bytes =
+            archive(&[("project.json", &document), ("photos/a.jpg", &document), ("photos/b.jpg", &document)]);
+        // the last entry of the directory points to the one before
+        let headers = |bytes: &[u8], mark: &[u8; 4]| {
+            (0..bytes.len() - 4).filter(|at| bytes[*at..].starts_with(mark)).collect::<Vec<_>>()
+        };
+        let (local, central) = (headers(&bytes, b"PK\x03\x04"), headers(&bytes, b"PK\x01\x02"));
+        bytes[central[2] + 42..central[2] + 46].copy_from_slice(&(local[1] as u32).to_le_bytes());
+        assert!(read(&bytes).is_err());
     }
 }

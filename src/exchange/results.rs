@@ -7,7 +7,7 @@ mod given;
 use std::collections::HashMap;
 
 use super::Files;
-use super::text::quoted;
+use super::text::{disarmed, quoted};
 use crate::adjustment::Adjustment;
 use crate::error::Result;
 use crate::project::{Camera, Interior, Parameter, Project, Role};
@@ -55,7 +55,11 @@ impl Table {
     fn text(&self, separator: Separator) -> String {
         let mark = if separator == Separator::Comma { ',' } else { '\t' };
         let line = |row: &Vec<String>| {
-            row.iter().map(|field| quoted(field, mark)).collect::<Vec<_>>().join(&mark.to_string()) + "\n"
+            row.iter()
+                .map(|field| quoted(&disarmed(field), mark).into_owned())
+                .collect::<Vec<_>>()
+                .join(&mark.to_string())
+                + "\n"
         };
         self.rows.iter().map(line).collect()
     }

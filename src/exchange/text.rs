@@ -145,6 +145,30 @@ impl Row {
     }
 }
 
+/// What a spreadsheet would run as a formula, with an apostrophe before it, which spreadsheets take for "this is text".
+///
+/// Cells that begin with = + - @ tab or return are meant, numbers excepted; those that begin with apostrophes and such a mark get one
+/// more, so that [`armed`] gives every field back.
+pub fn disarmed(field: &str) -> Cow<'_, str> {
+    let behind = field.trim_start_matches('\'');
+    if behind.starts_with(FORMULA) && (behind.len() < field.len() || number(field).is_none()) {
+        format!("'{field}").into()
+    } else {
+        field.into()
+    }
+}
+
+/// A field without the apostrophe that [`disarmed`] set before it.
+pub fn armed(field: &str) -> &str {
+    match field.strip_prefix('\'') {
+        Some(rest) if rest.trim_start_matches('\'').starts_with(FORMULA) => rest,
+        _ => field,
+    }
+}
+
+/// What formulas begin with.
+const FORMULA: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
+
 /// A finite number with a decimal point.
 pub fn number(text: &str) -> Option<f64> {
     // `parse` also takes "inf" and "nan", which no measurement is.
@@ -200,6 +224,26 @@ mod tests {
         assert_eq!(rows[1].1, ["two\nlines\n# no comment", "say \"a\""]);
         assert_eq!(rows[2].1, ["5\" pipe", "2"]);
         assert_eq!(rows[3].1, ["a b"]);
+    }
+
+    #[test]
+    fn formulas_are_disarmed_and_come_back() {
+        for (field, written) in [
+            ("=1+1", "'=1+1"),
+            ("+x", "'+x"),
+            ("-A1", "'-A1"),
+            ("@SUM(A1)", "'@SUM(A1)"),
+            ("\tx", "'\tx"),
+            ("'=1", "''=1"),
+            ("-5", "-5"),
+            ("+0.5e-3", "+0.5e-3"),
+            ("it's", "it's"),
+            ("'", "'"),
+            ("", ""),
+        ] {
+            assert_eq!(disarmed(field), written);
+            assert_eq!(armed(written), field);
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! An experiment as CSV files: one for the figures, one a table, one a chart (long form: line, x, y), every digit kept.
 
 use super::outcome::{Cell, Chart, Column, Experiment, Table};
-use crate::exchange::Files;
+use crate::exchange::{Files, disarmed};
 
 /// File names and contents.
 pub fn csv(experiment: &Experiment) -> Files {
@@ -70,7 +70,7 @@ fn written<H: AsRef<[u8]>>(head: &[H], rows: impl IntoIterator<Item = Vec<String
     // Writing into memory cannot fail, and all rows are as long as the head.
     let _ = writer.write_record(head);
     rows.into_iter().for_each(|row| {
-        let _ = writer.write_record(&row);
+        let _ = writer.write_record(row.iter().map(|field| disarmed(field).into_owned()));
     });
     writer.into_inner().unwrap_or_default()
 }

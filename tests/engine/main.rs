@@ -21,6 +21,7 @@ mod panel;
 mod photos;
 mod published;
 mod reports;
+mod round_trips;
 mod sample;
 mod scenes;
 mod sharp;

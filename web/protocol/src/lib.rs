@@ -134,7 +134,7 @@ tasks! {
     ShowPhoto {} => Nothing, Shown;
     /// Find the targets of a photo.
     Detect { /** How. */ pub options: DetectOptions } => Nothing, Detection;
-    /// Measure at one place of a photo; by the file's digest a worker knows the photo that it decoded last.
+    /// Measure at one place of a photo; by the file's digest a worker knows the photos that it decoded last.
     Measure {
         /** Of the file. */ pub digest: u64,
         /** Pixels to the right. */ pub u: f64,
@@ -233,6 +233,8 @@ pub struct Unpacked {
     pub content: Content,
     /// Of the photos.
     pub names: Vec<String>,
+    /// What was damaged and is left out.
+    pub damaged: Vec<Error>,
 }
 
 /// What a project file holds besides photos.

@@ -14,7 +14,7 @@ use super::{Asking, Desk, JobKind, Step, Until};
 use crate::browser::file::{self, Blob, NamedFile};
 use crate::browser::page;
 use crate::browser::worker::Bytes;
-use crate::i18n::{Text, text};
+use crate::i18n::{Text, errors, text};
 
 /// Ending of project files.
 pub const EXTENSION: &str = "sightline";
@@ -114,11 +114,15 @@ impl Desk {
         let on_outcome = move |outcome: Outcome<Unpack>| {
             self.end_job();
             match outcome {
-                Outcome::Done(Unpacked { content, names }, bytes) => {
+                Outcome::Done(Unpacked { content, names, damaged }, bytes) => {
                     let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_owned();
                     self.take_content(content, &stem, &names, &bytes);
                     let document = self.document.get_untracked();
                     self.saved.set(Some((page::clock(), document)));
+                    if !damaged.is_empty() {
+                        let told = move || damaged.iter().map(errors::sentence).collect::<Vec<_>>().join(" ");
+                        self.warn(told);
+                    }
                 }
                 Outcome::Failed(Failure::Refused(error)) => self.warn_error(error.in_file(&name)),
                 Outcome::Failed(failure) => self.tell_failure(failure),

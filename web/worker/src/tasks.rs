@@ -1,16 +1,14 @@
 //! How the engine does each task: every one is a call into it.
 
-use std::cell::RefCell;
 use std::collections::HashSet;
-use std::hash::{DefaultHasher, Hash, Hasher};
 
 use sightline::adjust::{adjust, apply};
 use sightline::adjustment::{AdjustOptions, StatisticsChoice};
+use sightline::decode::Photo;
 use sightline::detection::{Channel, Codes, DetectOptions, Detection, Target};
 use sightline::exchange::export;
 use sightline::exchange::package::{self, Package};
 use sightline::experiments::{self, Experiment};
-use sightline::image::Grey;
 use sightline::matching::{MatchOptions, Matching, match_uncoded};
 use sightline::orient::{Note, orient};
 use sightline::project::Project;
@@ -20,6 +18,8 @@ use sightline_protocol::{
     Pack, Progress, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served, Service, ShowPhoto, Shown, Unpack,
     Unpacked,
 };
+
+use crate::kept::{self, digest, with_photo};
 
 type Files = Vec<Vec<u8>>;
 
@@ -42,24 +42,17 @@ impl Service<ShowPhoto> for Engine {
 
 impl Service<Detect> for Engine {
     fn serve(&self, task: Detect, files: Files, _: Progress<Nothing>) -> Served<Detection> {
-        let grey = decode::grey(first(&files), task.options.channel)?;
-        Ok((detect::detect(&grey.view()?, &task.options)?, Vec::new()))
+        let (file, options) = (first(&files), &task.options);
+        let detect = |photo: &Photo| detect::detect_photo(photo, options);
+        Ok((with_photo(file, digest(file), options.channel, detect)?, Vec::new()))
     }
 }
 
 impl Service<Measure> for Engine {
     fn serve(&self, task: Measure, files: Files, _: Progress<Nothing>) -> Served<Option<Target>> {
         let Measure { digest, u, v, options } = task;
-        CLICKED.with_borrow_mut(|clicked| {
-            let known = clicked.take().filter(|(of, channel, _)| (*of, *channel) == (digest, options.channel));
-            let grey = match known {
-                Some((.., grey)) => grey,
-                None => decode::grey(first(&files), options.channel)?,
-            };
-            let target = detect::measure_at(&grey.view()?, u, v, &options);
-            *clicked = Some((digest, options.channel, grey));
-            Ok((target?, Vec::new()))
-        })
+        let measure = |photo: &Photo| detect::measure_in_photo(photo, u, v, &options);
+        Ok((with_photo(first(&files), digest, options.channel, measure)?, Vec::new()))
     }
 }
 
@@ -88,15 +81,15 @@ impl Service<Pack> for Engine {
     fn serve(&self, task: Pack, files: Files, _: Progress<Nothing>) -> Served<()> {
         let Content { project, targets, adjustment } = task.content;
         let photos = task.names.into_iter().zip(files).collect();
-        Ok(((), vec![package::write(&Package { project, targets, adjustment, photos })?]))
+        Ok(((), vec![package::write(&Package { project, targets, adjustment, photos, ..Package::default() })?]))
     }
 }
 
 impl Service<Unpack> for Engine {
     fn serve(&self, _: Unpack, files: Files, _: Progress<Nothing>) -> Served<Unpacked> {
-        let Package { project, targets, adjustment, photos } = package::read(first(&files))?;
+        let Package { project, targets, adjustment, photos, damaged } = package::read(first(&files))?;
         let (names, bytes) = photos.into_iter().unzip();
-        Ok((Unpacked { content: Content { project, targets, adjustment }, names }, bytes))
+        Ok((Unpacked { content: Content { project, targets, adjustment }, names, damaged }, bytes))
     }
 }
 
@@ -138,8 +131,8 @@ impl Service<SamplePhoto> for Engine {
         let file = sample::file(&task.name)?;
         let (opened, small) = look_into(&file, task.max_side)?;
         let options = DetectOptions { codes: Codes::Auto, ..DetectOptions::default() };
-        let grey = decode::grey(&file, options.channel)?;
-        let detection = detect::detect(&grey.view()?, &options)?;
+        let detect = |photo: &Photo| detect::detect_photo(photo, &options);
+        let detection = with_photo(&file, opened.digest, options.channel, detect)?;
         Ok((SamplePhotoMade { opened, detection }, vec![file, small]))
     }
 }
@@ -148,23 +141,16 @@ fn first(files: &[Vec<u8>]) -> &[u8] {
     files.first().map(Vec::as_slice).unwrap_or_default()
 }
 
-/// Size, EXIF, small picture.
+/// Size, EXIF, small picture, from one decoding; the photo is kept for what comes next.
 fn look_into(file: &[u8], max_side: u32) -> Result<(Opened, Vec<u8>)> {
-    let size = decode::size(file)?;
-    let info = exif::read(file);
+    let channel = Channel::default();
     // Decoding all of it finds what is damaged before anything is built on it.
-    let small = decode::picture(file, Some(max_side))?;
-    let mut hasher = DefaultHasher::new();
-    file.hash(&mut hasher);
-    let size = [size.width, size.height];
-    let opened = Opened { size, info, small: [small.width, small.height], digest: hasher.finish() };
+    let (photo, small) = decode::photo_and_picture(file, channel, max_side)?;
+    let size = [photo.grey.width, photo.grey.height].map(|side| side as u32);
+    let digest = digest(file);
+    kept::keep(digest, channel, photo);
+    let opened = Opened { size, info: exif::read(file), small: [small.width, small.height], digest };
     Ok((opened, small.rgba))
-}
-
-thread_local! {
-    /// The photo of the last click, decoded: the next one is most often in the same photo, and decoding takes a hundred times
-    /// as long as measuring.
-    static CLICKED: RefCell<Option<(u64, Channel, Grey)>> = const { RefCell::new(None) };
 }
 
 /// What orientation gave, as an input of the adjustment: what could not be oriented takes no part, and is not taken away.
