@@ -1,48 +1,31 @@
 //! Bundle adjustment: weighted least squares on image coordinates, control, distances and observed parameters.
 //!
-//! [`adjust`] numbers the document (`network`), chooses an order of the photos (`layout`), iterates (`iteration`) on
-//! reduced normal equations (`normal`: points are eliminated in `eliminate`, kept in `eliminated`) factored in tiles
-//! (`tiles`, `kernel`), brings the result into its datum (`datum`) and computes the statistics (`cofactor`, `ray_cofactor`, `result`).
-//! Circular targets of known diameter are freed of their eccentricity (`eccentric`). Gross errors are searched in `search`, by
-//! `snooping` or `robust` weights.
+//! The rooms, each using only those before it: `linear` (tiles and small factors), `problem` (the numbered document, its
+//! values, what is known of it beforehand), `equations` (collinearity, Schur complement, ordering), `datum`, `statistics`
+//! (cofactors), `diagnosis` (rank defect, advice), `solve` (iteration, session), `gross_errors` (snooping, robust weights) and
+//! `report`.
 
-mod blocks;
-mod cofactor;
 mod datum;
-mod doctor;
-mod eccentric;
-mod eliminate;
-mod eliminated;
-mod given;
-mod gradient;
-mod influence;
-mod iteration;
-mod kernel;
-mod layout;
-mod network;
-mod normal;
-mod parameters;
-mod ray_cofactor;
-mod result;
-mod result_given;
-mod robust;
-mod rows;
-mod search;
-mod session;
-mod snooping;
-mod tiles;
-mod transformation;
-mod triple;
-mod unmodelled;
+mod diagnosis;
+mod equations;
+mod gross_errors;
+mod linear;
+mod problem;
+mod report;
+mod solve;
+mod statistics;
 
 use crate::adjustment::{AdjustOptions, Adjustment, Advice, Iteration, Termination};
 use crate::error::Result;
 use crate::project::{Project, Role};
 
-use given::LeftOut;
-use session::{Log, Session};
+use diagnosis::advice;
+use problem::additional::LeftOut;
+use problem::{eccentric, unmodelled};
+use report::result::Solved;
+use solve::session::{Log, Session};
 
-pub use unmodelled::estimate as unmodelled;
+pub use problem::unmodelled::estimate as unmodelled;
 
 /// Adjusts the project; `on_iteration` sees every iteration and stops the work by returning false.
 ///
@@ -76,11 +59,11 @@ pub fn adjust(
         settled &= session.reweight(kind, options, &mut log, &mut record)?;
     }
     let solution = session.finish(options, termination == Termination::Converged)?;
-    let mut adjustment = session.solved(options, &solution).adjustment();
+    let mut adjustment = Solved::new(&session, options, &solution).adjustment();
     adjustment.options = options.clone();
     adjustment.termination = termination;
     adjustment.iterations = log.iterations;
-    adjustment.advice = doctor::advice(project, &session.network, &session.state, &adjustment);
+    adjustment.advice = advice::advice(project, &session.network, &session.state, &adjustment);
     if !settled {
         adjustment.advice.push(Advice::GrossErrorsUnsettled);
     }

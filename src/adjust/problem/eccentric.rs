@@ -17,16 +17,15 @@
 //! is then small beside what it takes away, and points scattered in space, with s as large as a and b, are far from it. Else
 //! nothing is corrected.
 
-use std::borrow::Cow;
-
 use nalgebra::{DMatrix, Vector3};
+use std::borrow::Cow;
 
 use crate::eccentricity::{Circle, pixels};
 use crate::error::{Error, Place, Reason, Result};
 use crate::project::{Interior, Project};
 
 use super::network::Network;
-use super::parameters::State;
+use super::state::State;
 
 /// Neighbours that span the surface.
 const NEIGHBOURS: usize = 6;

@@ -1,12 +1,12 @@
 //! Observations of other kinds than image coordinates in the result: residuals, reliability, and what was taken out.
 
+use crate::adjust::gross_errors::snooping::VANISHING;
+use crate::adjust::problem::additional::{self, Key, Observed};
+use crate::adjust::problem::network::InteriorBlock;
 use crate::adjustment::GivenObservation;
 use crate::statistics::reliability::Reliability;
 
-use super::given::{self, Key, Observed};
-use super::network::InteriorBlock;
 use super::result::{Solved, distance};
-use super::snooping::VANISHING;
 
 impl Solved<'_> {
     /// All given observations; those that were taken out come last.
@@ -41,7 +41,7 @@ impl Solved<'_> {
             }
             given
         };
-        let used = given::all(self.network).into_iter().enumerate().map(one);
+        let used = additional::all(self.network).into_iter().enumerate().map(one);
         used.chain(self.network.left_out.iter().map(|key| self.left_out(*key))).collect()
     }
 

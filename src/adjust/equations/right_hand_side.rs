@@ -1,12 +1,14 @@
 //! The weighted squares of a state and their gradient, without the normal matrix.
 
-use super::blocks::add_rows;
-use super::layout::Layout;
-use super::network::Network;
-use super::normal::{Normal, bar_row};
-use super::parameters::State;
-use super::rows::{Linearisation, Weighting, point_equations};
-use super::triple::{backward3, forward3};
+use crate::adjust::linear::blocks::add_rows;
+use crate::adjust::linear::cholesky3::{backward3, forward3};
+use crate::adjust::problem::additional::distance_row;
+use crate::adjust::problem::network::Network;
+use crate::adjust::problem::state::State;
+
+use super::collinearity::{Linearisation, Weighting, point_equations};
+use super::normal::Normal;
+use super::ordering::Layout;
 
 /// vᵀPv of a state without its normal equations, and the number of rays behind their camera; none where a projection
 /// does not exist.
@@ -29,7 +31,7 @@ pub fn cost(network: &Network, state: &State, weighting: Weighting<'_>) -> Optio
             sum += prior(estimated.prior, interior.get(estimated.parameter).unwrap_or_default());
         }
     }
-    sum += network.bars.iter().map(|bar| bar_row(network, state, bar).0.powi(2)).sum::<f64>();
+    sum += network.bars.iter().map(|bar| distance_row(network, state, bar).0.powi(2)).sum::<f64>();
     sum.is_finite().then_some((sum, behind))
 }
 

@@ -7,10 +7,8 @@
 use crate::adjustment::Given;
 use crate::project::{Parameter, Project};
 
-use super::cofactor::Cofactors;
-use super::network::Network;
-use super::normal::bar_row;
-use super::parameters::State;
+use super::network::{Bar, Network};
+use super::state::State;
 
 /// An observation by its place in the [`Network`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,48 +100,12 @@ impl Observed {
         match self {
             Self::Control(k, a) => state.points[k][a] - network.points[k].prior[a].0,
             Self::Position(k, a) => state.poses[k].centre[a] - network.photos[k].prior[a].0,
-            Self::Distance(k) => bar_row(network, state, &network.bars[k]).0 / network.bars[k].weight,
+            Self::Distance(k) => distance_row(network, state, &network.bars[k]).0 / network.bars[k].weight,
             Self::Parameter(k, n) => {
                 let estimated = &network.interiors[k].estimated[n];
                 state.interiors[k].get(estimated.parameter).unwrap_or_default() - estimated.prior.0
             }
         }
-    }
-
-    /// Cofactor of the weighted adjusted observation, 1 - r.
-    pub fn cofactor(self, network: &Network, cofactors: &Cofactors) -> f64 {
-        let squared = self.weight(network).powi(2);
-        match self {
-            Self::Control(k, a) => cofactors.given_points[k][a] * squared,
-            Self::Position(k, a) => cofactors.photos[k][(3 + a, 3 + a)] * squared,
-            Self::Distance(k) => cofactors.bars[k],
-            Self::Parameter(k, n) => {
-                cofactors.interiors[k][(n, n)] * network.interiors[k].estimated[n].scale.powi(2) * squared
-            }
-        }
-    }
-
-    /// Shift, by a unit of weighted observation error, of the point that it moves most, and that point. None where it
-    /// acts on no point.
-    pub fn influence(self, network: &Network, cofactors: &Cofactors) -> Option<(f64, usize)> {
-        let weight = self.weight(network);
-        let influence = &cofactors.given_influence;
-        let (shift, point) = match self {
-            Self::Control(k, a) => {
-                let (shift, point) = influence.points[k][a];
-                (shift * weight, point)
-            }
-            Self::Position(k, a) => {
-                let (shift, point) = influence.photos[k][a];
-                (shift * weight, point)
-            }
-            Self::Distance(k) => influence.bars[k],
-            Self::Parameter(k, n) => {
-                let (shift, point) = influence.interiors[k][n];
-                (shift * weight * network.interiors[k].estimated[n].scale, point)
-            }
-        };
-        (point < network.points.len()).then_some((shift, point))
     }
 
     /// Unit of the residual in the observation's own unit.
@@ -183,4 +145,19 @@ impl Key {
             },
         }
     }
+}
+
+/// Weighted residual of a distance and its derivatives by both ends.
+pub fn distance_row(network: &Network, state: &State, bar: &Bar) -> (f64, [f64; 6]) {
+    let (a, b) = (&state.points[bar.from], &state.points[bar.to]);
+    let d: [f64; 3] = std::array::from_fn(|k| b[k] - a[k]);
+    let length = d[0].hypot(d[1]).hypot(d[2]);
+    let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
+    let mut rows = [0.0; 6];
+    for k in 0..3 {
+        let slope = d[k] * inverse * bar.weight;
+        rows[k] = if network.points[bar.from].fixed[k] { 0.0 } else { -slope };
+        rows[3 + k] = if network.points[bar.to].fixed[k] { 0.0 } else { slope };
+    }
+    ((length - bar.length) * bar.weight, rows)
 }

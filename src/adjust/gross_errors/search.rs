@@ -1,15 +1,15 @@
 //! The search for gross errors: data snooping ([`super::snooping`]) and robust weights ([`super::robust`]) over observations
 //! of every kind, and the record that it leaves.
 
+use crate::adjust::equations::collinearity::Weighting;
+use crate::adjust::equations::right_hand_side;
+use crate::adjust::problem::additional::{self, LeftOut, Observed};
+use crate::adjust::problem::network::Network;
+use crate::adjust::solve::session::{Log, Session, unsound};
 use crate::adjustment::{AdjustOptions, Given, GrossError, GrossErrorAction, Robust, StatisticsChoice, Termination};
 use crate::error::Result;
 
-use super::given::{self, LeftOut, Observed};
-use super::gradient;
-use super::network::Network;
 use super::robust::{factor, prediction, reweight, scale};
-use super::rows::Weighting;
-use super::session::{Log, Session, unsound};
 use super::snooping::{Decision, Item, TESTABLE, Tests, VANISHING, consequences, decide, items};
 
 /// Rounds of a search for gross errors.
@@ -20,7 +20,7 @@ const SETTLED: f64 = 1e-6;
 impl Session<'_> {
     fn residuals(&self, options: &AdjustOptions) -> Result<Vec<[f64; 2]>> {
         let weighting = Weighting { place: options.residuals, robust: &[], shift: &self.shift };
-        gradient::weighted_residuals(&self.network, &self.state, weighting).ok_or_else(unsound)
+        right_hand_side::weighted_residuals(&self.network, &self.state, weighting).ok_or_else(unsound)
     }
 
     /// An entry of the record; the caller completes what led to it.
@@ -146,7 +146,7 @@ impl Session<'_> {
         record: &mut Vec<GrossError>,
     ) -> Result<bool> {
         self.weights = vec![[1.0; 2]; self.network.rays.len()];
-        let given = given::all(&self.network);
+        let given = additional::all(&self.network);
         let weights: Vec<f64> = given.iter().map(|observed| observed.weight(&self.network)).collect();
         self.given_factors = vec![1.0; given.len()];
         let mut settled = false;

@@ -1,6 +1,6 @@
 //! Cofactors among the rays of one point, from the inverse Q of the reduced equations.
 //!
-//! With the photo and interior part G of ray i's rows, B = A·L⁻ᵀ and Z = ΣGᵀB (see [`super::normal`]):
+//! With the photo and interior part G of ray i's rows, B = A·L⁻ᵀ and Z = ΣGᵀB (see [`crate::adjust::equations::normal`]):
 //!
 //! ```text
 //! P_ik = G_i Q G_kᵀ,   C_i = Σ_k P_ik B_k = G_i Q Z,   K = I + ZᵀQZ = I + Σ_i B_iᵀ C_i
@@ -12,19 +12,19 @@
 //! its registers within a larger function.
 
 use std::hint::black_box;
-
 use wide::f64x2;
 
-use super::blocks::add_rows;
-use super::cofactor::block;
-use super::eliminated::{Eliminated, Own};
-use super::influence::Taken;
-use super::kernel::TILE;
-use super::layout::Layout;
-use super::network::Network;
-use super::rows::Row;
-use super::tiles::{Line, TileMatrix};
-use super::triple::{backward3, forward3};
+use crate::adjust::equations::back_substitution::{Eliminated, Own};
+use crate::adjust::equations::collinearity::Row;
+use crate::adjust::equations::ordering::Layout;
+use crate::adjust::linear::blocks::add_rows;
+use crate::adjust::linear::cholesky3::{backward3, forward3};
+use crate::adjust::linear::kernel::TILE;
+use crate::adjust::linear::tiles::{Line, TileMatrix};
+use crate::adjust::problem::network::Network;
+
+use super::cofactors::block;
+use super::external_reliability::Taken;
 
 /// Two rows over the axes of a point and a zero.
 type Pair = [[f64; 4]; 2];
@@ -317,8 +317,8 @@ fn with_interior<const N: usize, const STRIDE: usize>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::tiles::Pattern;
     use super::*;
+    use crate::adjust::linear::tiles::Pattern;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
 

@@ -1,14 +1,15 @@
 //! Accumulation of the reduced normal equations, point by point: what a kept point adds, what an eliminated one leaves.
 
-use super::blocks::{add_lower, add_product, add_rows, add_squares};
-use super::kernel::TILE;
-use super::layout::Layout;
-use super::network::{Network, PhotoBlock, PointBlock};
+use crate::adjust::linear::blocks::{add_lower, add_product, add_rows, add_squares};
+use crate::adjust::linear::cholesky3::{PointFactor, factor3, forward3};
+use crate::adjust::linear::kernel::TILE;
+use crate::adjust::linear::tiles::{Line, TileMatrix};
+use crate::adjust::problem::network::{Network, PhotoBlock, PointBlock};
+use crate::adjust::problem::state::State;
+
+use super::collinearity::{Linearisation, Row, Weighting, point_equations};
 use super::normal::Normal;
-use super::parameters::State;
-use super::rows::{Linearisation, Row, Weighting, point_equations};
-use super::tiles::{Line, TileMatrix};
-use super::triple::{PointFactor, factor3, forward3};
+use super::ordering::Layout;
 
 /// [`add_product`] for a block that may have fewer rows and columns than the arrays, and may belong above the diagonal.
 fn add_outer_part<const M: usize, const R: usize, const C: usize>(

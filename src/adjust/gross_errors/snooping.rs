@@ -6,10 +6,9 @@
 //! out stay in the equations with a vanishing weight, so that their prediction error e/(σ0 √(1 + q)) is at hand: they come
 //! back when it is below the same limit.
 
+use crate::adjust::problem::additional::{self, Observed};
+use crate::adjust::problem::network::Network;
 use crate::statistics::distribution::critical_tau;
-
-use super::given::{self, Observed};
-use super::network::Network;
 
 /// Square root of the weight of what is taken out.
 pub const VANISHING: f64 = 1e-6;
@@ -29,7 +28,7 @@ pub enum Item {
 /// All items of a network, rays first.
 pub fn items(network: &Network) -> Vec<Item> {
     let rays = (0..network.rays.len()).map(Item::Ray);
-    rays.chain(given::all(network).into_iter().map(Item::Given)).collect()
+    rays.chain(additional::all(network).into_iter().map(Item::Given)).collect()
 }
 
 /// What the tests of an item need: per scalar observation the weighted residual, without the vanishing weight, and the

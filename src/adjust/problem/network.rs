@@ -7,8 +7,8 @@ use crate::camera;
 use crate::error::{Defect, Error, Lack, Result};
 use crate::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
 
-use super::given::{Key, LeftOut};
-use super::parameters::{Frame, Pose, State};
+use super::additional::{Key, LeftOut};
+use super::state::{Frame, Pose, State};
 
 /// An image observation that takes part.
 #[derive(Clone, Debug)]

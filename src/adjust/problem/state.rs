@@ -1,8 +1,7 @@
 //! Values of the unknowns, and how a step changes them.
 
-use std::collections::HashMap;
-
 use nalgebra::{Matrix3, Vector3};
+use std::collections::HashMap;
 
 use crate::project::{Interior, Parameter};
 use crate::rotation;

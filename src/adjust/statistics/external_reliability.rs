@@ -5,18 +5,18 @@
 //! observed projection centre or parameter that of the point it moves most: among the ends of the distance, the points
 //! of the photo, the points that the camera sees.
 
-use super::blocks::add_rows;
-use super::datum::{SIMILARITY, at_point};
-use super::eliminated::Own;
-use super::kernel::TILE;
-use super::layout::Layout;
-use super::network::Network;
-use super::normal::bar_row;
-use super::parameters::State;
-use super::rows::Row;
-use super::tiles::TileMatrix;
-use super::transformation::Transformation;
-use super::triple::backward3;
+use crate::adjust::datum::free::{SIMILARITY, at_point};
+use crate::adjust::datum::s_transformation::Transformation;
+use crate::adjust::equations::back_substitution::Own;
+use crate::adjust::equations::collinearity::Row;
+use crate::adjust::equations::ordering::Layout;
+use crate::adjust::linear::blocks::add_rows;
+use crate::adjust::linear::cholesky3::backward3;
+use crate::adjust::linear::kernel::TILE;
+use crate::adjust::linear::tiles::TileMatrix;
+use crate::adjust::problem::additional::distance_row;
+use crate::adjust::problem::network::Network;
+use crate::adjust::problem::state::State;
 
 /// Length of the largest shift so far, and whose it is; `usize::MAX` for nobody's.
 pub type Largest = (f64, usize);
@@ -220,7 +220,7 @@ impl Influence {
     /// Distances move their ends.
     pub fn distances(&mut self, blocks: &Blocks<'_>, inverse: &TileMatrix) {
         for bar in &blocks.network.bars {
-            let (_, rows) = bar_row(blocks.network, blocks.state, bar);
+            let (_, rows) = distance_row(blocks.network, blocks.state, bar);
             let places = [blocks.layout.point[bar.from], blocks.layout.point[bar.to]];
             let at = |k: usize| places[k / 3] + k % 3;
             let mut taken = [0.0; SIMILARITY];

@@ -5,9 +5,9 @@
 //! Orders are compared by the tile products of the factorisation they lead to, and the cheapest is taken: a dense network
 //! keeps its own order, a strip or a ring is renumbered (reverse Cuthill-McKee, or minimum degree).
 
-use super::kernel::TILE;
-use super::network::Network;
-use super::tiles::Pattern;
+use crate::adjust::linear::kernel::TILE;
+use crate::adjust::linear::tiles::Pattern;
+use crate::adjust::problem::network::Network;
 
 /// Places of the blocks.
 #[derive(Clone, Debug)]

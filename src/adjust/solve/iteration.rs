@@ -5,14 +5,13 @@
 //! rounding of the observations, so that exact observations (sigma0 of 0) converge like any others.
 //! D. Marquardt, J. SIAM 11 (1963); K. Madsen, H. B. Nielsen, O. Tingleff 2004.
 
+use crate::adjust::equations::collinearity::Weighting;
+use crate::adjust::equations::normal::Normal;
+use crate::adjust::equations::ordering::Layout;
+use crate::adjust::equations::right_hand_side::cost;
+use crate::adjust::problem::network::Network;
+use crate::adjust::problem::state::State;
 use crate::adjustment::{Iteration, Termination};
-
-use super::gradient::cost;
-use super::layout::Layout;
-use super::network::Network;
-use super::normal::Normal;
-use super::parameters::State;
-use super::rows::Weighting;
 
 /// Steps shorter than this part of the standard errors end the iteration.
 const NEGLIGIBLE: f64 = 1e-5;

@@ -2,12 +2,13 @@
 
 use nalgebra::{DMatrix, SMatrix};
 
-use super::datum::{FreeDatum, SIMILARITY};
-use super::layout::Layout;
-use super::network::Network;
-use super::normal::Normal;
-use super::parameters::State;
-use super::triple::forward3;
+use crate::adjust::equations::normal::Normal;
+use crate::adjust::equations::ordering::Layout;
+use crate::adjust::linear::cholesky3::forward3;
+use crate::adjust::problem::network::Network;
+use crate::adjust::problem::state::State;
+
+use super::free::{FreeDatum, SIMILARITY};
 
 /// The datum's S-transformation at reduced unknowns: V = (DᵀG)⁻¹DᵀQ, and (DᵀG)⁻¹DᵀQD(DᵀG)⁻ᵀ.
 pub struct Transformation {

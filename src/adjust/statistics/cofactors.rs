@@ -1,28 +1,30 @@
 //! Cofactors of all unknowns and of all adjusted observations, without the full inverse.
 //!
-//! With Z = GᵀB per point (see [`super::normal`]), Q = S⁻¹ and K of [`super::ray_cofactor`]:
+//! With Z = GᵀB per point (see [`crate::adjust::equations::normal`]), Q = S⁻¹ and K of [`super::ray_cofactors`]:
 //!
 //! ```text
 //! Q_pp = L⁻ᵀ(I + ZᵀQZ)L⁻¹ = L⁻ᵀKL⁻¹,   Q_cp = -QZ·L⁻¹
 //! ```
 //!
 //! so that only the blocks of Q between photos that share a point are needed. The cofactor of an adjusted observation is
-//! its row times these; the datum of the unknowns is set by the S-transformation of [`super::datum`].
+//! its row times these; the datum of the unknowns is set by the S-transformation of [`crate::adjust::datum::free`].
 
 use nalgebra::{DMatrix, Matrix3, Matrix6, SMatrix};
 
-use super::datum::{self, FreeDatum, SIMILARITY, at_point};
-use super::influence::{Alignment, Blocks, Carried, Influence, Taken, length};
-use super::kernel::TILE;
-use super::layout::Layout;
-use super::network::Network;
-use super::normal::{Normal, bar_row, with_interior_size};
-use super::parameters::State;
-use super::ray_cofactor::{RayCofactors, at_photo};
-use super::rows::{Linearisation, Row, Weighting};
-use super::tiles::TileMatrix;
-use super::transformation::{Transformation, carried, transformation, transformed};
-use super::triple::{backward3, forward3};
+use crate::adjust::datum::free::{self, FreeDatum, SIMILARITY, at_point};
+use crate::adjust::datum::s_transformation::{Transformation, carried, transformation, transformed};
+use crate::adjust::equations::collinearity::{Linearisation, Row, Weighting};
+use crate::adjust::equations::normal::{Normal, with_interior_size};
+use crate::adjust::equations::ordering::Layout;
+use crate::adjust::linear::cholesky3::{backward3, forward3};
+use crate::adjust::linear::kernel::TILE;
+use crate::adjust::linear::tiles::TileMatrix;
+use crate::adjust::problem::additional::distance_row;
+use crate::adjust::problem::network::Network;
+use crate::adjust::problem::state::State;
+
+use super::external_reliability::{Alignment, Blocks, Carried, Influence, Taken, length};
+use super::ray_cofactors::{RayCofactors, at_photo};
 
 /// Cofactors in the scaled unknowns of the frame of the adjustment.
 #[derive(Clone, Debug, Default)]
@@ -61,7 +63,7 @@ pub fn cofactors(
 }
 
 /// A block of the inverse: numbers of the first index side by side, or of the second.
-pub(super) struct Block<'a> {
+pub struct Block<'a> {
     data: &'a [f64],
     turned: bool,
 }
@@ -78,7 +80,7 @@ impl Block<'_> {
     }
 }
 
-pub(super) fn block(q: &TileMatrix, row: usize, column: usize) -> Block<'_> {
+pub fn block(q: &TileMatrix, row: usize, column: usize) -> Block<'_> {
     let turned = row < column;
     let at = if turned { q.place(column, row) } else { q.place(row, column) };
     Block { data: &q.data()[at..], turned }
@@ -179,7 +181,7 @@ fn compute<const N: usize>(
         result.points[point].column_mut(axis).fill(0.0);
     }
     for bar in &network.bars {
-        let (_, rows) = bar_row(network, state, bar);
+        let (_, rows) = distance_row(network, state, bar);
         let places = [layout.point[bar.from], layout.point[bar.to]];
         let at = |k: usize| places[k / 3] + k % 3;
         let sum = (0..36).map(|n| rows[n / 6] * rows[n % 6] * block(&inverse, at(n / 6), at(n % 6)).data[0]);
@@ -317,7 +319,7 @@ fn reduced_blocks(
             cross = DMatrix::from_fn(6, length, |i, j| with_interior.get(i, j));
         }
         if let Some(t) = transformation {
-            let rows = datum::at_photo(&state.poses[k].m, &state.poses[k].centre);
+            let rows = free::at_photo(&state.poses[k].m, &state.poses[k].centre);
             let g = SMatrix::<f64, 6, SIMILARITY>::from_fn(|i, j| rows[i][j]);
             let v = |at: usize, j: usize| t.v.get(j).map_or(0.0, |v| v[at]);
             q = transformed(&q, &g, &SMatrix::<f64, SIMILARITY, 6>::from_fn(|j, i| v(place + i, j)), t);

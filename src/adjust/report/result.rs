@@ -2,20 +2,20 @@
 
 use nalgebra::{Matrix3, Matrix6};
 
+use crate::adjust::equations::collinearity::Weighting;
+use crate::adjust::problem::network::Network;
+use crate::adjust::problem::state::{Frame, State};
+use crate::adjust::solve::session::{Session, Solution};
+use crate::adjust::statistics::cofactors::Cofactors;
 use crate::adjustment::{
-    AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Adjustment, CheckPoint, CheckStatistics,
-    Correlation, GlobalTest, Precision,
+    AdjustOptions, AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Adjustment, CheckPoint,
+    CheckStatistics, Correlation, GlobalTest, Precision,
 };
 use crate::camera;
 use crate::project::{Camera, Project, Role};
 use crate::rotation;
 use crate::statistics::distribution::{GLOBAL_ALPHA, chi_squared_quantile};
 use crate::statistics::reliability::Reliability;
-
-use super::cofactor::Cofactors;
-use super::network::Network;
-use super::parameters::{Frame, State};
-use super::rows::Weighting;
 
 /// What a result is made of.
 pub struct Solved<'a> {
@@ -65,13 +65,31 @@ fn correlation(names: Vec<String>, covariance: impl Fn(usize, usize) -> f64) -> 
     Correlation { names, matrix }
 }
 
+impl<'a> Solved<'a> {
+    /// The result's view of a session.
+    pub fn new(session: &'a Session<'_>, options: &AdjustOptions, solution: &'a Solution) -> Self {
+        Self {
+            project: session.project,
+            network: &session.network,
+            state: &session.state,
+            cofactors: solution.cofactors.as_ref(),
+            weighting: Weighting { place: options.residuals, robust: &session.weights, shift: &session.shift },
+            given_factors: &session.given_factors,
+            cost: solution.cost,
+            constraints: session.datum.as_ref().map_or(0, |d| d.defect),
+            redundancy: session.redundancy,
+        }
+    }
+}
+
 impl Solved<'_> {
     /// σ0², or 1 where nothing determines it.
     fn variance_factor(&self) -> f64 {
         if self.redundancy > 0 { self.cost / self.redundancy as f64 } else { 1.0 }
     }
 
-    pub(super) fn frame(&self) -> &Frame {
+    /// Origin and unit of the coordinates inside.
+    pub fn frame(&self) -> &Frame {
         &self.network.frame
     }
 
@@ -206,7 +224,7 @@ impl Solved<'_> {
     }
 
     /// Coordinates outside; held axes return exactly as given.
-    pub(super) fn point(&self, k: usize) -> [f64; 3] {
+    pub fn point(&self, k: usize) -> [f64; 3] {
         let block = &self.network.points[k];
         let mut xyz = self.frame().outside(self.state.points[k]);
         if let Some(given) = self.project.points[block.index].xyz {

@@ -4,11 +4,10 @@
 //! With p = M(X - XL) and the model's derivative J = ∂e/∂p, the turn t of the photo (M' = exp([t]×)M) and the shift of its
 //! centre: ∂e/∂X = J·M, ∂e/∂XL = -J·M, ∂e/∂t = p × Jᵀ (per row).
 
+use crate::adjust::problem::network::{Network, PointBlock, Ray};
+use crate::adjust::problem::state::{Pose, State};
 use crate::adjustment::ResidualPlace;
 use crate::camera::{Brown, Linearised, Model, PARAMETERS};
-
-use super::network::{Network, PointBlock, Ray};
-use super::parameters::{Pose, State};
 
 /// Weighted rows of one ray. `N` is the number of interior unknowns, padded with zeros.
 #[derive(Clone, Copy, Debug)]

@@ -1,25 +1,24 @@
-//! One network on its way to a solution: iteration, cofactors; the search for gross errors is in [`super::search`].
+//! One network on its way to a solution: iteration, cofactors; the search for gross errors is in [`crate::adjust::gross_errors::search`].
 
 use nalgebra::DMatrix;
 
+use crate::adjust::datum::free::{self, FreeDatum, at_point};
+use crate::adjust::diagnosis::{rank_defect, structure};
+use crate::adjust::equations::back_substitution::Full;
+use crate::adjust::equations::collinearity::Weighting;
+use crate::adjust::equations::normal::Normal;
+use crate::adjust::equations::ordering::{Layout, layout};
+use crate::adjust::equations::right_hand_side;
+use crate::adjust::problem::additional::LeftOut;
+use crate::adjust::problem::eccentric;
+use crate::adjust::problem::network::Network;
+use crate::adjust::problem::state::State;
+use crate::adjust::statistics::cofactors::{Cofactors, cofactors};
 use crate::adjustment::{AdjustOptions, Covariance, Iteration, ResidualPlace, StatisticsChoice, Termination};
 use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::project::Project;
 
-use super::cofactor::{Cofactors, cofactors};
-use super::datum::{self, FreeDatum, at_point};
-use super::doctor;
-use super::eccentric;
-use super::eliminated::Full;
-use super::given::LeftOut;
-use super::gradient;
 use super::iteration::{Outcome, Setting, iterate};
-use super::layout::{Layout, layout};
-use super::network::Network;
-use super::normal::Normal;
-use super::parameters::State;
-use super::result::Solved;
-use super::rows::Weighting;
 
 /// Rounds of eccentricity corrections, and their change in standard errors of a measurement that no longer matters.
 const MOST_CORRECTIONS: usize = 4;
@@ -39,34 +38,39 @@ pub struct Log<'a> {
 
 /// The network with its values.
 pub struct Session<'a> {
-    pub(super) project: &'a Project,
+    /// The document.
+    pub project: &'a Project,
     /// The network.
     pub network: Network,
     layout: Layout,
     initial: State,
     /// Present values.
     pub state: State,
-    datum: Option<FreeDatum>,
-    pub(super) redundancy: usize,
+    /// The datum of a network without control.
+    pub datum: Option<FreeDatum>,
+    /// n - u + d.
+    pub redundancy: usize,
     normal: Normal,
     /// Square roots of robust factors, per ray; empty for none.
-    pub(super) weights: Vec<[f64; 2]>,
+    pub weights: Vec<[f64; 2]>,
     /// Square roots of robust factors of the other observations, contained in the network's weights; empty for none.
-    pub(super) given_factors: Vec<f64>,
+    pub given_factors: Vec<f64>,
     /// Eccentricity corrections, per ray; empty for none.
-    pub(super) shift: Vec<[f64; 2]>,
+    pub shift: Vec<[f64; 2]>,
 }
 
 /// What is known at the end.
 pub struct Solution {
     /// vᵀPv.
-    pub(super) cost: f64,
-    pub(super) cofactors: Option<Cofactors>,
+    pub cost: f64,
+    /// With statistics.
+    pub cofactors: Option<Cofactors>,
     /// Covariance of the points asked for.
     pub covariance: Option<Covariance>,
 }
 
-pub(super) fn unsound() -> Error {
+/// Where the equations cannot be set up.
+pub fn unsound() -> Error {
     Error::Invalid { reason: Reason::NoImage, at: Place::default() }
 }
 
@@ -78,8 +82,8 @@ impl<'a> Session<'a> {
     pub fn new(project: &'a Project, left_out: &LeftOut) -> Result<Self> {
         let (mut network, state) = Network::new(project, left_out)?;
         let layout = layout(&mut network);
-        doctor::structure(project, &network, &state)?;
-        let datum = datum::free_datum(&network, &state)?;
+        structure::structure(project, &network, &state)?;
+        let datum = free::free_datum(&network, &state)?;
         let constraints = datum.as_ref().map_or(0, |d| d.defect);
         let (n, u) = (network.observations_count() + constraints, network.unknowns());
         let normal = Normal::new(&network, &layout);
@@ -104,7 +108,7 @@ impl<'a> Session<'a> {
     }
 
     fn pins(&self) -> Vec<usize> {
-        self.datum.as_ref().map_or_else(Vec::new, |d| datum::pins(&self.layout, &self.state, d.defect))
+        self.datum.as_ref().map_or_else(Vec::new, |d| free::pins(&self.layout, &self.state, d.defect))
     }
 
     /// Iterates to the end; a rank defect is an error.
@@ -173,7 +177,7 @@ impl<'a> Session<'a> {
         let mut last = None;
         let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
         if options.statistics == StatisticsChoice::None {
-            let (cost, _) = gradient::cost(&self.network, &self.state, weighting).ok_or_else(unsound)?;
+            let (cost, _) = right_hand_side::cost(&self.network, &self.state, weighting).ok_or_else(unsound)?;
             return Ok(Solution { cost, cofactors: None, covariance: None });
         }
         // The equations are factored for the statistics anyway: further steps with that factor, until the unknowns keep
@@ -296,23 +300,8 @@ impl<'a> Session<'a> {
         Ok(Covariance { points: ids.to_vec(), matrix: rows })
     }
 
-    /// The result's view of this session.
-    pub fn solved<'b>(&'b self, options: &AdjustOptions, solution: &'b Solution) -> Solved<'b> {
-        Solved {
-            project: self.project,
-            network: &self.network,
-            state: &self.state,
-            cofactors: solution.cofactors.as_ref(),
-            weighting: Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift },
-            given_factors: &self.given_factors,
-            cost: solution.cost,
-            constraints: self.datum.as_ref().map_or(0, |d| d.defect),
-            redundancy: self.redundancy,
-        }
-    }
-
     fn rank_defect(&mut self) -> Error {
         let pins = self.pins();
-        doctor::rank_defect(self.project, &self.network, &self.layout, &self.state, &mut self.normal, &pins)
+        rank_defect::rank_defect(self.project, &self.network, &self.layout, &self.state, &mut self.normal, &pins)
     }
 }

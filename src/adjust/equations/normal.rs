@@ -8,16 +8,18 @@
 //! ```
 //!
 //! Points that a distance ties to another stay in S. Damping (Levenberg-Marquardt) multiplies the diagonals of the
-//! normal equations by 1 + λ. Pins, a weight on seven photo unknowns, take up a free datum; see [`super::datum`].
+//! normal equations by 1 + λ. Pins, a weight on seven photo unknowns, take up a free datum; see [`crate::adjust::datum::free`].
 
-use super::eliminate::accumulate;
-use super::eliminated::{Eliminated, Full};
-use super::gradient::gradient;
-use super::layout::Layout;
-use super::network::Network;
-use super::parameters::{State, Step};
-use super::rows::Weighting;
-use super::tiles::TileMatrix;
+use crate::adjust::linear::tiles::TileMatrix;
+use crate::adjust::problem::additional::distance_row;
+use crate::adjust::problem::network::Network;
+use crate::adjust::problem::state::{State, Step};
+
+use super::back_substitution::{Eliminated, Full};
+use super::collinearity::Weighting;
+use super::ordering::Layout;
+use super::right_hand_side::gradient;
+use super::schur::accumulate;
 
 /// Reduced normal equations at a state.
 #[derive(Clone, Debug)]
@@ -62,7 +64,7 @@ macro_rules! with_interior_size {
         }
     };
 }
-pub(super) use with_interior_size;
+pub(in crate::adjust) use with_interior_size;
 
 impl Normal {
     /// Empty equations of a layout.
@@ -129,7 +131,7 @@ impl Normal {
     /// Distances and observed values of photos and interior orientations, in the matrix too if `whole`.
     fn add_given(&mut self, network: &Network, layout: &Layout, state: &State, whole: bool) {
         for bar in &network.bars {
-            let (e, rows) = bar_row(network, state, bar);
+            let (e, rows) = distance_row(network, state, bar);
             self.cost += e * e;
             let places = [layout.point[bar.from], layout.point[bar.to]];
             let at = |k: usize| places[k / 3] + k % 3;
@@ -229,19 +231,4 @@ impl Normal {
             vector.backward(network, layout, &self.eliminated);
         }
     }
-}
-
-/// Weighted residual of a distance and its derivatives by both ends.
-pub fn bar_row(network: &Network, state: &State, bar: &super::network::Bar) -> (f64, [f64; 6]) {
-    let (a, b) = (&state.points[bar.from], &state.points[bar.to]);
-    let d: [f64; 3] = std::array::from_fn(|k| b[k] - a[k]);
-    let length = d[0].hypot(d[1]).hypot(d[2]);
-    let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
-    let mut rows = [0.0; 6];
-    for k in 0..3 {
-        let slope = d[k] * inverse * bar.weight;
-        rows[k] = if network.points[bar.from].fixed[k] { 0.0 } else { -slope };
-        rows[3 + k] = if network.points[bar.to].fixed[k] { 0.0 } else { slope };
-    }
-    ((length - bar.length) * bar.weight, rows)
 }

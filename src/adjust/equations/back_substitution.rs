@@ -7,10 +7,11 @@
 
 use std::ops::Range;
 
-use super::layout::Layout;
-use super::network::Network;
-use super::parameters::{Pose, State};
-use super::triple::{PointFactor, backward3, forward3};
+use crate::adjust::linear::cholesky3::{PointFactor, backward3, forward3};
+use crate::adjust::problem::network::Network;
+use crate::adjust::problem::state::{Pose, State};
+
+use super::ordering::Layout;
 
 /// An interior orientation that sees a point.
 #[derive(Clone, Copy, Debug)]
@@ -269,11 +270,11 @@ impl Full {
 
 #[cfg(test)]
 mod tests {
-    use super::super::given::LeftOut;
-    use super::super::layout::layout;
+    use super::super::collinearity::{Linearisation, Weighting};
     use super::super::normal::Normal;
-    use super::super::rows::{Linearisation, Weighting};
+    use super::super::ordering::layout;
     use super::*;
+    use crate::adjust::problem::additional::LeftOut;
     use crate::adjustment::ResidualPlace;
     use crate::network::{NetworkPoint, Station, simulate};
     use crate::project::{Camera, DatumKind, Interior, Role, Sigma};

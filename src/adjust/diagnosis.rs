@@ -1,0 +1,6 @@
+//! Why a network cannot be solved, and what a solvable one is weak in.
+
+pub mod advice;
+mod null_space;
+pub mod rank_defect;
+pub mod structure;

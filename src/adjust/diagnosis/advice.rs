@@ -1,0 +1,109 @@
+//! What a solved network is weak in.
+
+use crate::adjust::problem::additional::Key;
+use crate::adjust::problem::network::Network;
+use crate::adjust::problem::state::State;
+use crate::adjustment::{Adjustment, Advice};
+use crate::project::Project;
+
+use super::structure::{photo_id, point_id};
+
+/// Correlations beyond this are told.
+const HIGH_CORRELATION: f64 = 0.95;
+/// Redundancy numbers below this are told.
+const LOW_REDUNDANCY: f64 = 0.1;
+/// Rays that meet under less than this are told, in radians.
+const NARROW_INTERSECTION: f64 = 5.0 * std::f64::consts::PI / 180.0;
+
+/// What a solved network is weak in.
+pub fn advice(project: &Project, network: &Network, state: &State, adjustment: &Adjustment) -> Vec<Advice> {
+    let mut advice = Vec::new();
+    for camera in &adjustment.cameras {
+        let correlation = &camera.correlation;
+        for (i, row) in correlation.matrix.iter().enumerate() {
+            for (j, value) in row.iter().enumerate().take(i).filter(|(_, value)| value.abs() > HIGH_CORRELATION) {
+                advice.push(Advice::HighCorrelation {
+                    camera: camera.camera.id.clone(),
+                    photo: camera.photo.clone(),
+                    first: correlation.names[j].clone(),
+                    second: correlation.names[i].clone(),
+                    correlation: *value,
+                });
+            }
+        }
+    }
+    for (block, photo) in network.photos.iter().zip(&adjustment.photos) {
+        let Some(correlation) = &photo.correlation else { continue };
+        for (i, row) in correlation.matrix.iter().enumerate() {
+            // The interior orientation's own correlations are told once, above.
+            for (j, value) in row.iter().enumerate().take(i.min(6)).filter(|(_, v)| v.abs() > HIGH_CORRELATION) {
+                advice.push(Advice::HighCorrelation {
+                    camera: project.photos[block.index].camera.clone(),
+                    photo: Some(photo.id.clone()),
+                    first: correlation.names[j].clone(),
+                    second: correlation.names[i].clone(),
+                    correlation: *value,
+                });
+            }
+        }
+    }
+    let weak = adjustment
+        .observations
+        .iter()
+        .filter(|o| o.enabled && [o.rx, o.ry].into_iter().flatten().any(|r| r < LOW_REDUNDANCY));
+    let weak: Vec<_> = weak.map(|o| (o.photo.clone(), o.point.clone())).collect();
+    let given = adjustment.given.iter();
+    let given = given.filter(|g| g.enabled && g.reliability.is_some_and(|r| r.redundancy < LOW_REDUNDANCY));
+    let given: Vec<_> = given.map(|g| g.what.clone()).collect();
+    if !(weak.is_empty() && given.is_empty()) {
+        advice.push(Advice::LowRedundancy { observations: weak, given });
+    }
+    let (mut two, mut narrow, mut behind) = (Vec::new(), Vec::new(), Vec::new());
+    for (k, block) in network.points.iter().enumerate() {
+        let id = || point_id(project, network, k);
+        let rays = &network.rays[block.rays.clone()];
+        let given = (0..3).all(|a| block.fixed[a] || block.prior[a].1 > 0.0);
+        if rays.len() == 2 && !given {
+            two.push(id());
+        }
+        let x = &state.points[k];
+        let directions: Vec<[f64; 3]> = rays.iter().map(|ray| direction(&state.poses[ray.photo].centre, x)).collect();
+        // Rays from opposite sides meet as badly as parallel ones.
+        let cosines =
+            directions.iter().enumerate().flat_map(|(n, a)| directions[..n].iter().map(move |b| cosine(a, b).abs()));
+        let angle = cosines.fold(1.0, f64::min).acos();
+        if rays.len() >= 2 && !given && angle < NARROW_INTERSECTION {
+            narrow.push((id(), angle));
+        }
+        for ray in rays.iter().filter(|ray| state.poses[ray.photo].camera_point(x)[2] >= 0.0) {
+            behind.push((photo_id(project, network, ray.photo), id()));
+        }
+    }
+    if !two.is_empty() {
+        advice.push(Advice::TwoRays { points: two });
+    }
+    if !narrow.is_empty() {
+        advice.push(Advice::NarrowIntersection { points: narrow });
+    }
+    if !behind.is_empty() {
+        advice.push(Advice::BehindCamera { observations: behind });
+    }
+    let used: Vec<usize> = network.bars.iter().map(|bar| bar.index).collect();
+    let out = |k: &usize| network.left_out.contains(&Key::Distance(*k));
+    let unused = project.distances.iter().enumerate().filter(|(k, _)| !used.contains(k) && !out(k));
+    let unused: Vec<_> = unused.map(|(_, d)| (d.from.clone(), d.to.clone())).collect();
+    if !unused.is_empty() {
+        advice.push(Advice::DistanceUnused { distances: unused });
+    }
+    advice
+}
+
+fn direction(from: &[f64; 3], to: &[f64; 3]) -> [f64; 3] {
+    let d: [f64; 3] = std::array::from_fn(|a| to[a] - from[a]);
+    let length = d[0].hypot(d[1]).hypot(d[2]).max(1e-300);
+    d.map(|x| x / length)
+}
+
+fn cosine(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

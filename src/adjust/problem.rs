@@ -1,0 +1,7 @@
+//! The document as the adjustment sees it: numbering, values, additional observations, preparation.
+
+pub mod additional;
+pub mod eccentric;
+pub mod network;
+pub mod state;
+pub mod unmodelled;
