@@ -2,6 +2,7 @@
 
 mod invariants;
 mod licences;
+mod order;
 
 use crate::Outcome;
 

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use crate::Outcome;
 use crate::process::root;
 
+use super::order;
+
 /// Lines from which a file should be split; said, not enforced.
 const LONG: usize = 450;
 
@@ -62,7 +64,9 @@ const BANS: [Ban; 6] = [
 pub fn faults() -> Outcome<Vec<String>> {
     let root = root();
     let mut faults = Vec::new();
-    for path in sources(&root)? {
+    let sources = sources(&root)?;
+    faults.extend(order::faults(&sources)?);
+    for path in sources {
         let text = fs::read_to_string(root.join(&path)).map_err(|error| format!("{path}: {error}"))?;
         faults.extend(BANS.iter().flat_map(|ban| ban.broken_in(&path, &text)));
         let lines = text.lines().count();
