@@ -7,7 +7,8 @@ use crate::{Outcome, build};
 /// A part: its name on the command line and how it runs.
 type Part = (&'static str, fn() -> Outcome);
 
-const PARTS: [Part; 3] = [("detect", detect), ("border", || script("border")), ("growth", || script("growth"))];
+const PARTS: [Part; 4] =
+    [("detect", detect), ("border", || script("border")), ("growth", || script("growth")), ("estimation", estimation)];
 
 /// `bench [part ...]`.
 pub fn command(names: &[String]) -> Outcome {
@@ -15,8 +16,10 @@ pub fn command(names: &[String]) -> Outcome {
         let known = PARTS.map(|(part, _)| part).join(", ");
         return Err(format!("there is no part {name}; the parts are {known}"));
     }
-    install::node()?;
-    build::pkg()?;
+    if names.is_empty() || names.iter().any(|name| name != "estimation") {
+        install::node()?;
+        build::pkg()?;
+    }
     for (name, part) in PARTS {
         if names.is_empty() || names.iter().any(|wanted| wanted == name) {
             println!("== {name}");
@@ -31,6 +34,11 @@ fn detect() -> Outcome {
     let folder = format!("{}/bench", build::target_directory()?);
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "detect", "--", &folder]))?;
     run(&mut program("node", &["benches/detect.mjs", &folder]))
+}
+
+/// Seeded networks adjusted natively against their truth.
+fn estimation() -> Outcome {
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "estimation"]))
 }
 
 fn script(name: &str) -> Outcome {
