@@ -7,8 +7,13 @@ use crate::{Outcome, build};
 /// A part: its name on the command line and how it runs.
 type Part = (&'static str, fn() -> Outcome);
 
-const PARTS: [Part; 4] =
-    [("detect", detect), ("border", || script("border")), ("growth", || script("growth")), ("estimation", estimation)];
+const PARTS: [Part; 5] = [
+    ("detect", detect),
+    ("codes", codes),
+    ("estimation", estimation),
+    ("border", || script("border")),
+    ("growth", || script("growth")),
+];
 
 /// `bench [part ...]`.
 pub fn command(names: &[String]) -> Outcome {
@@ -39,6 +44,11 @@ fn detect() -> Outcome {
 /// Seeded networks adjusted natively against their truth.
 fn estimation() -> Outcome {
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "estimation"]))
+}
+
+/// Ring codes are drawn and read natively.
+fn codes() -> Outcome {
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "codes"]))
 }
 
 fn script(name: &str) -> Outcome {
