@@ -22,12 +22,17 @@ mod whole;
 
 pub(crate) use ellipse::{conic, outline};
 
-use crate::detection::{Codes, DetectOptions, Detection, MethodResult, Reason, Target};
+use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, PictureReport, Reason, Target};
 use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
+use code::outline_of;
 use measure::Measure;
 use outline::Outline;
-use picture::noise;
+use picture::character::{APART, Character};
+use picture::noise::{self, Levels};
+use picture::sharpening::{self, Sharpening};
+use picture::softened::Softened;
+use rendered::colour::{Colour, Correlation};
 use search::census::Census;
 use search::{Blobs, Candidate};
 pub use whole::{detect_photo, measure_in_photo};
@@ -114,10 +119,141 @@ fn check(options: &DetectOptions) -> Result<()> {
     Ok(())
 }
 
+/// The picture as it is; and, where it is no laboratory's, also softened and with its sharpening undone, for what is hidden
+/// otherwise. What was found first stands.
 fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let levels = noise::levels(&plane);
+    let character = Character::of(&plane, &levels);
+    let processed = character.is_processed(&levels);
+    let mut picture = report(&levels, &character);
+    let mut passed = pass(plane, levels, options, processed && character.is_compressed(), &[]);
+    picture.noise_correlation = passed.correlate();
+    if processed {
+        let mut first = std::mem::take(&mut passed.detection.targets);
+        let mut grounds = std::mem::take(&mut passed.grounds);
+        passed = soften(&plane, &levels, options, &mut first, &mut picture);
+        passed.detection.targets.append(&mut first);
+        passed.grounds.append(&mut grounds);
+        passed.detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
+    }
+    let mut detection = passed.detection;
+    let found = detection.targets.len();
+    detection.targets.append(&mut passed.grounds);
+    code::read_all(&plane, &mut detection.targets, options.codes);
+    code::settle_grounds(&mut detection, found);
+    code::drop_parts(&mut detection);
+    let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);
+    Detection { width: size(plane.width), height: size(plane.height), picture, ..detection }
+}
+
+fn report(levels: &Levels, character: &Character) -> PictureReport {
+    let [clipped_dark, clipped_bright] = character.clipped;
+    PictureReport {
+        clipped_dark,
+        clipped_bright,
+        compression: character.blocks,
+        noise: levels.noise,
+        noise_correlation: 1.0,
+        ..PictureReport::default()
+    }
+}
+
+/// What a softened picture shows beyond the targets that are known, and, when the rims of all these show a sharpening, what it
+/// shows once that is undone.
+fn soften<T: Sample>(
+    plane: &Plane<T>,
+    levels: &Levels,
+    options: &DetectOptions,
+    known: &mut Vec<Target>,
+    picture: &mut PictureReport,
+) -> Pass {
+    picture.softened = true;
+    let mut softened = pass_softened(plane, None, SOFT, options, known);
+    let outlines: Vec<Outline> = known.iter().chain(&softened.detection.targets).map(outline_of).collect();
+    let Some(sharpening) = sharpening::of_rims(plane, outlines.iter(), levels.saturation) else {
+        picture.noise_correlation = softened.correlate();
+        return softened;
+    };
+    (picture.sharpening, picture.sharpening_radius) = (sharpening.amount, sharpening.radius);
+    let mut restored = pass_softened(plane, Some(sharpening), RESTORED, options, known);
+    picture.noise_correlation = restored.correlate();
+    softened.correlate();
+    known.append(&mut restored.detection.targets);
+    softened.grounds.append(&mut restored.grounds);
+    let is_new = |target: &Target| {
+        let outline = outline_of(target);
+        !known.iter().any(|other| {
+            let [c, s] = outline_of(other).normalised(outline.u, outline.v);
+            let [own_c, own_s] = outline.normalised(other.u, other.v);
+            c.hypot(s) < 1.0 || own_c.hypot(own_s) < 1.0
+        })
+    };
+    softened.detection.targets.retain(is_new);
+    softened
+}
+
+/// Sigma in pixels of the mean in which what is sharpened is searched: the middle of the range in which webcam pictures of dots
+/// show all of them.
+const SOFT: f64 = 1.6;
+/// The same where the sharpening is undone: what is left of the picture's own blocks and ringing.
+const RESTORED: f64 = 0.7;
+
+/// One pass over a picture made of another one, in that one's grey levels.
+fn pass_softened<T: Sample>(
+    plane: &Plane<T>,
+    sharpening: Option<Sharpening>,
+    sigma: f64,
+    options: &DetectOptions,
+    known: &[Target],
+) -> Pass {
+    let soft = Softened::of(plane, sharpening, sigma);
+    let levels = noise::levels_at(&soft.plane(), APART);
+    // a mean has no end of the scale, and no noise less than that of rounding
+    let levels =
+        Levels { saturation: f64::from(u16::MAX), noise: levels.noise.max(0.3 * soft.scale), stairs: false, ..levels };
+    let mut passed = pass(soft.plane(), levels, options, true, known);
+    for target in passed.detection.targets.iter_mut().chain(&mut passed.grounds) {
+        target.contrast /= soft.scale;
+        target.quality.noise /= soft.scale;
+        if options.method == Method::LeastSquares {
+            target.quality.fit_rms /= soft.scale;
+        }
+    }
+    passed
+}
+
+/// What one pass over a picture found.
+struct Pass {
+    detection: Detection,
+    /// Targets that may be the ground of a code's ring, to be settled when codes are read.
+    grounds: Vec<Target>,
+    /// What neighbouring pixels share, of the targets at these places.
+    colours: Vec<([f64; 2], Colour)>,
+}
+
+impl Pass {
+    /// Puts the correlation of neighbouring pixels into the covariances; by how much standard errors grow.
+    fn correlate(&mut self) -> f64 {
+        let Some(correlation) = Correlation::of(self.colours.iter().map(|(_, colour)| colour)) else { return 1.0 };
+        let (mut sum, mut count) = (0.0, 0.0);
+        for target in &mut self.detection.targets {
+            let own = self.colours.iter().find(|(place, _)| *place == [target.u, target.v]);
+            let Some((_, colour)) = own else { continue };
+            let factor = correlation.factor(colour);
+            target.sigma_u *= factor.sqrt();
+            target.sigma_v *= factor.sqrt();
+            target.covariance_uv *= factor;
+            (sum, count) = (sum + factor, count + 1.0);
+        }
+        if count > 0.0 { f64::sqrt(sum / count) } else { 1.0 }
+    }
+}
+
+/// One pass: what is found beyond the targets that are known.
+fn pass<T: Sample>(plane: Plane<T>, levels: Levels, options: &DetectOptions, coloured: bool, known: &[Target]) -> Pass {
     let blobs = search::search(&plane, &levels, options);
     let mut census = Census::new(plane.width, plane.height, code::have_spots(options.codes));
+    known.iter().for_each(|target| census.know(target));
     census.expect(blobs.iter().map(|blobs| blobs.shapeless.len() + blobs.unlike.len()).sum());
     for Blobs { shapeless, unlike, too_small, too_large, .. } in &blobs {
         census.add(Reason::TooSmall, *too_small);
@@ -127,23 +263,21 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         }
     }
     let mut measure = Measure::new(plane, levels, options);
+    measure.work.coloured = coloured;
+    let mut colours = Vec::new();
     for candidate in blobs.iter().flat_map(|blobs| &blobs.candidates) {
         if !census.is_new(candidate) {
             continue;
         }
         let Candidate { outline, bright } = candidate;
         match measure.confirm(outline, *bright).and_then(|found| measure.finish(&found, options.method)) {
-            Ok(target) => census.accept(target, *bright),
+            Ok(target) => {
+                colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
+                census.accept(target, *bright);
+            }
             Err(reason) => census.reject(*outline, *bright, reason),
         }
     }
     let grounds = std::mem::take(&mut census.grounds);
-    let mut detection = census.finish();
-    let found = detection.targets.len();
-    detection.targets.extend(grounds);
-    code::read_all(&plane, &mut detection.targets, options.codes);
-    code::settle_grounds(&mut detection, found);
-    code::drop_parts(&mut detection);
-    let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);
-    Detection { width: size(plane.width), height: size(plane.height), ..detection }
+    Pass { detection: census.finish(), grounds, colours }
 }

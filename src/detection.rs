@@ -306,6 +306,28 @@ pub struct MethodResult {
     pub reason: Option<Reason>,
 }
 
+/// What a picture shows of how it was taken and processed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct PictureReport {
+    /// Amount of the unsharp mask that its edges show: the share of the difference from a mean that was added; 0 where none is seen.
+    pub sharpening: f64,
+    /// Sigma of that mean in pixels; 0 where there is none.
+    pub sharpening_radius: f64,
+    /// Share of samples at the dark end of the scale, 0 to 1.
+    pub clipped_dark: f64,
+    /// Share of samples at the bright end of the scale, 0 to 1.
+    pub clipped_bright: f64,
+    /// Compression: how much larger the differences across the borders of blocks of eight are than others, as a share.
+    pub compression: f64,
+    /// Standard deviation of the noise of single samples, in grey levels.
+    pub noise: f64,
+    /// Standard error of centres relative to what white noise of the same size would do: sqrt of the mean factor of their variances.
+    pub noise_correlation: f64,
+    /// Whether the picture was searched and measured softened as well, for what it would have hidden otherwise.
+    pub softened: bool,
+}
+
 /// Result of the detection in one photo.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Detection {
@@ -318,6 +340,9 @@ pub struct Detection {
     /// Rows of the photo that could not be decoded and were not measured: first row and the row after the last.
     #[serde(default)]
     pub damaged_rows: Vec<[u32; 2]>,
+    /// What the picture shows of how it was taken and processed.
+    #[serde(default)]
+    pub picture: PictureReport,
     /// The targets, from top to bottom.
     pub targets: Vec<Target>,
     /// How many blobs were rejected, by reason.

@@ -461,12 +461,31 @@ export type RejectionReason =
   | "too_small" | "too_large" | "not_an_ellipse" | "too_flat" | "low_contrast" | "touching" | "saturated" | "at_border" | "occluded"
   | "code_ring" | "no_fit";
 
+/** What a picture shows of how it was taken and processed. */
+export interface PictureReport {
+  /** Amount of the unsharp mask that its edges show, 0 where none is seen, and the sigma of its mean in pixels. */
+  sharpening: number;
+  sharpening_radius: number;
+  /** Share of samples at either end of the scale, 0 to 1. */
+  clipped_dark: number;
+  clipped_bright: number;
+  /** How much larger differences are across the borders of blocks of eight than elsewhere, as a share. */
+  compression: number;
+  /** Standard deviation of single samples in grey levels. */
+  noise: number;
+  /** Standard errors of centres over those that white noise would give; 1 where neighbours share none. */
+  noise_correlation: number;
+  /** Whether the picture was searched and measured softened as well. */
+  softened: boolean;
+}
+
 export interface Detection {
   width: number;
   height: number;
   bits: number;
   /** Rows that could not be decoded and were not measured: first row and the row after the last. Empty for a sound file. */
   damaged_rows: [number, number][];
+  picture: PictureReport;
   targets: Target[];
   rejected: Partial<Record<RejectionReason, number>>;
   /** Made when they are first read. */

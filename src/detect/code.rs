@@ -71,7 +71,7 @@ pub(super) fn have_spots(codes: Codes) -> bool {
 }
 
 /// Ellipse of a target.
-fn outline_of(target: &Target) -> Outline {
+pub fn outline_of(target: &Target) -> Outline {
     Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle)
 }
 

@@ -12,6 +12,7 @@ use super::ellipse::outline::Outline;
 use super::median;
 use super::picture::noise::Levels;
 use super::rendered::band::Region;
+use super::rendered::colour::Colour;
 use super::rendered::fit::{self, Workspace};
 use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
 use crate::image::{Plane, Sample};
@@ -70,6 +71,8 @@ pub(crate) struct Measure<'a, T> {
     pub options: &'a DetectOptions,
     pub edges: Edges,
     pub work: Workspace,
+    /// What neighbouring pixels of the target measured last share.
+    pub colour: Option<Colour>,
 }
 
 /// A target as found from its edges, before the final measurement.
@@ -101,7 +104,7 @@ fn largest_rms(b: f64) -> f64 {
 impl<'a, T: Sample> Measure<'a, T> {
     /// Nothing measured yet.
     pub fn new(plane: Plane<'a, T>, levels: Levels, options: &'a DetectOptions) -> Self {
-        Self { plane, levels, options, edges: Edges::default(), work: Workspace::default() }
+        Self { plane, levels, options, edges: Edges::default(), work: Workspace::default(), colour: None }
     }
 
     /// Edges, ellipse and surround of a target that has passed its first look, whose outline is known to a fraction of its size.
@@ -290,6 +293,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         let centre = match method {
             Method::LeastSquares => {
                 let (fit, around) = self.least_squares(found)?;
+                self.colour = fit.colour;
                 surround = around;
                 outline = fit.outline;
                 (contrast, blur, fit_rms) = (fit.contrast.abs(), fit.blur, fit.rms);

@@ -13,6 +13,7 @@
 //! added up in the end. Single precision is enough: its rounding is 1e-6 of the contrast.
 
 pub(crate) mod band;
+pub(crate) mod colour;
 pub(crate) mod fit;
 mod flats;
 mod scatter;

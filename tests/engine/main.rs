@@ -2,6 +2,7 @@
 
 mod aerial;
 mod behaviour;
+mod camera_model;
 #[allow(dead_code, reason = "the benchmark uses the rest")]
 mod coded_patch;
 mod codes;
@@ -13,11 +14,13 @@ mod document;
 mod estimation;
 mod exchange;
 mod experiments;
+mod grid_fit;
 mod gross_errors;
 mod monte_carlo;
 mod naming;
 mod networks;
 mod oracle;
+mod ordinary;
 mod orientation;
 mod painter;
 mod panel;

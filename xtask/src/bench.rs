@@ -38,7 +38,8 @@ pub fn command(names: &[String]) -> Outcome {
 fn detect() -> Outcome {
     let folder = format!("{}/bench", build::target_directory()?);
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "detect", "--", &folder]))?;
-    run(&mut program("node", &["benches/detect.mjs", &folder]))
+    run(&mut program("node", &["benches/detect.mjs", &folder]))?;
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "photos"]))
 }
 
 /// Seeded networks adjusted natively against their truth.

@@ -39,12 +39,17 @@ impl Levels {
 /// Noise from second differences along rows: |g(x-1) - 2 g(x) + g(x+1)| has the median 0.6745 sqrt(6) sigma where the
 /// picture is plane, and edges are too few to move a median. Quantiles of integers are interpolated inside their bin.
 pub(crate) fn levels<T: Sample>(plane: &Plane<T>) -> Levels {
+    levels_at(plane, 1)
+}
+
+/// The same with second differences over `apart` pixels, for noise of which neighbours know.
+pub(crate) fn levels_at<T: Sample>(plane: &Plane<T>, apart: usize) -> Levels {
     let bins = T::MAX as usize + 1;
     let (mut values, mut differences) = (vec![0u32; bins], vec![0u32; bins]);
     let step = (plane.height / ROWS).max(1);
     for y in (step / 2..plane.height).step_by(step) {
-        for triple in plane.row(y).windows(3).step_by(2) {
-            let difference = (triple[0].level() + triple[2].level()).abs_diff(2 * triple[1].level());
+        for places in plane.row(y).windows(2 * apart + 1).step_by(2) {
+            let difference = (places[0].level() + places[2 * apart].level()).abs_diff(2 * places[apart].level());
             differences[(difference as usize).min(bins - 1)] += 1;
         }
     }

@@ -267,6 +267,11 @@ impl Band {
         (left / (used - 24.0).max(1.0)).max(0.0).sqrt()
     }
 
+    /// The residuals.
+    pub(super) fn residuals(&self) -> &[f32] {
+        &self.residual
+    }
+
     /// Variance of the residuals of the pixels that count, and how many pixels they are.
     pub fn variance(&self) -> (f64, usize) {
         let used = self.kept.iter().filter(|kept| **kept > 0.0).count();
@@ -308,7 +313,7 @@ impl Band {
         Lights { powers: [n, lit, second], squares: [all, bright], lit: centre }
     }
 
-    fn columns(&self) -> [&[f32]; UNKNOWNS] {
+    pub(super) fn columns(&self) -> [&[f32]; UNKNOWNS] {
         let [u, v, s, p, q, r] = &self.derivatives;
         [u, v, p, q, r, s, &self.share, &self.kept, &self.x, &self.y]
     }

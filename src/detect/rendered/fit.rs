@@ -9,6 +9,7 @@
 //! same, as the residuals are always exact.
 
 use super::band::{Band, Normal, Region, Unknowns};
+use super::colour::Colour;
 use super::flats::Flats;
 use super::scatter;
 use crate::detect::ellipse::outline::Outline;
@@ -54,6 +55,8 @@ pub(crate) struct Fit {
     pub disturbed: f64,
     /// Covariance of the centre: uu, uv, vv.
     pub covariance: [f64; 3],
+    /// What neighbouring pixels share, where that is wanted.
+    pub colour: Option<Colour>,
 }
 
 /// Memory that is reused from target to target.
@@ -63,6 +66,8 @@ pub(crate) struct Workspace {
     band: Band,
     /// Place that the band's pixels are counted from.
     origin: [f64; 2],
+    /// Whether neighbouring pixels may share their noise.
+    pub coloured: bool,
 }
 
 /// Outline, blur and contrast of a fit of a sketched ellipse ([`Band::sketch`]) to all pixels, which only needs to be good
@@ -172,7 +177,10 @@ pub(crate) fn fit<T: Sample>(
     if dropped > 0 && mean * variance > covariance[0] + covariance[2] {
         covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
     }
+    let Workspace { band, field, origin, coloured } = work;
+    let colour = coloured.then(|| band.colour(field, &cofactors, state.contrast, &state.outline, *origin));
     (covariance[0] > 0.0 && covariance[2] > 0.0).then_some(Fit {
+        colour,
         outline: state.outline,
         blur: state.blur,
         contrast: state.contrast,

@@ -7,7 +7,7 @@
 use super::blob::NoBlob;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::search::Candidate;
-use crate::detection::{Detection, Reason, Rejected, Target};
+use crate::detection::{Detection, Polarity, Reason, Rejected, Target};
 
 /// Largest size of the spot in the centre of a code's dot, in radii of the dot.
 pub(crate) const SPOT: f64 = 0.16;
@@ -128,6 +128,12 @@ impl Census {
     /// Whether codes are read and one outline is small enough to be the spot in the other's centre.
     fn is_spot(&self, inner: &Outline, outer: &Outline) -> bool {
         self.spots && inner.semi_axes().0 < SPOT * outer.semi_axes().0
+    }
+
+    /// Enters a target that was found before, so that it is not found again.
+    pub fn know(&mut self, target: &Target) {
+        let outline = Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle);
+        self.enter(Entry { outline, bright: target.polarity == Polarity::Bright, accepted: true });
     }
 
     /// Enters an outline that is no target's.

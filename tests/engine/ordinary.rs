@@ -1,0 +1,101 @@
+//! Ordinary photos: a sharpened webcam before grids of dots, and pictures without targets.
+
+use sightline::detect::detect;
+use sightline::detection::{Codes, DetectOptions, Detection};
+use sightline::image::Grey;
+use sightline::{decode, image};
+
+use super::camera_model::{Camera, Tally};
+use super::grid_fit::{self, Score};
+use super::{camera_model, data};
+
+fn read(name: &str) -> Option<Grey> {
+    let bytes = data::data(&format!("photos/{name}"))?;
+    Some(decode::grey(&bytes, DetectOptions::default().channel).unwrap_or_else(|error| panic!("{name}: {error}")))
+}
+
+fn detected(picture: &Grey, options: &DetectOptions) -> Detection {
+    let samples = match &picture.samples {
+        image::Samples::U8(samples) => image::SamplesView::U8(samples),
+        image::Samples::U16(samples) => image::SamplesView::U16(samples),
+    };
+    let view = image::GreyView::new(picture.width, picture.height, samples).expect("a picture");
+    detect(&view, options).expect("valid options")
+}
+
+/// Rms in pixels of the centres of OpenCV 5.0 (cv2.findCirclesGrid, no options but the kind of grid) from the same model.
+const OPENCV: [(&str, f64); 6] = [
+    ("acircles1.png", 0.4387),
+    ("acircles2.png", 0.1637),
+    ("acircles4.png", 0.0716),
+    ("acircles7.png", 0.0736),
+    ("circles1.png", 0.0674),
+    ("circles5.png", 0.2187),
+];
+
+#[test]
+fn the_dots_of_webcam_pictures_are_found_and_measured_as_well_as_by_opencv() {
+    let Some(grids) = data::text("photos/grids.json") else { return };
+    for (name, size, dots) in grid_fit::grids(&grids) {
+        let Some(picture) = read(&name) else { return };
+        let detection = detected(&picture, &DetectOptions::default());
+        let score = grid_fit::score(&detection, [picture.width, picture.height], &name, size, &dots);
+        let Score { hits, others, rms, chi } = score;
+        let peer = OPENCV.iter().find(|(other, _)| *other == name);
+        let share = if peer.is_some() { 0.97 } else { 0.9 };
+        assert!(hits as f64 >= share * dots.len() as f64 && others <= 3, "{name}: {score:?} of {}", dots.len());
+        if let Some((_, peer)) = peer {
+            assert!(rms <= 1.05 * peer, "{name}: {rms} px, {chi} sigmas, OpenCV {peer} px");
+        }
+    }
+}
+
+#[test]
+fn dots_at_a_pitch_of_two_and_a_half_radii_are_found() {
+    let Some(picture) = read("circlesgrid.png") else { return };
+    let found = detected(&picture, &DetectOptions::default()).targets.len();
+    assert!((34..=36).contains(&found), "{found} found");
+}
+
+/// Pictures of OpenCV and of scikit-image without a target.
+const WITHOUT: [&str; 14] = [
+    "IMG_0191.jpg",
+    "bark_img4.png",
+    "boat_img4.png",
+    "chelsea.png",
+    "class57.png",
+    "clock_motion.png",
+    "coffee.png",
+    "graf_img2.png",
+    "larroquette.png",
+    "leuven_img4.png",
+    "moon.png",
+    "page.png",
+    "rocket.jpg",
+    "text.png",
+];
+
+#[test]
+fn pictures_without_targets_have_hardly_any() {
+    let mut all = 0;
+    for name in WITHOUT {
+        let Some(picture) = read(&format!("no-targets/{name}")) else { return };
+        let detection = detected(&picture, &DetectOptions { codes: Codes::Auto, ..DetectOptions::default() });
+        assert!(detection.targets.iter().all(|target| target.code.is_none()), "{name}");
+        all += detection.targets.len();
+    }
+    assert!(all <= 2, "{all}");
+}
+
+#[test]
+fn cameras_drawn_at_random_are_told_by_their_sigmas_and_show_nothing_false() {
+    let mut tally = Tally::default();
+    for seed in 0..20 {
+        let camera = Camera::drawn(seed);
+        let (picture, spots) = camera.picture(seed);
+        tally.add(&camera, &camera_model::score(&detected(&picture, &DetectOptions::default()), &spots));
+    }
+    let all = tally.all();
+    assert!(all.others <= 6 && all.hits as f64 > 0.75 * all.targets as f64, "{tally}");
+    assert!((0.7..1.5).contains(&Tally::chi(&all)), "{tally}");
+}
