@@ -18,13 +18,11 @@ mod picture;
 mod rendered;
 mod search;
 
-use edges::edge;
 pub(crate) use ellipse::{conic, outline};
 
-use crate::detection::{Codes, DetectOptions, Detection, MethodResult, Polarity, Reason, Rejected, Target};
+use crate::detection::{Codes, DetectOptions, Detection, MethodResult, Reason, Target};
 use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
-use code::{DotLevels, Family, Reading};
 use measure::Measure;
 use outline::Outline;
 use picture::noise;
@@ -71,6 +69,15 @@ pub fn measure_all(image: &GreyView, u: f64, v: f64, options: &DetectOptions) ->
     })
 }
 
+/// Reads the ring codes of targets that are measured already, with this choice of families.
+pub fn read_codes(image: &GreyView, targets: &mut [Target], codes: Codes) {
+    let (width, height) = (image.width(), image.height());
+    match image.samples() {
+        SamplesView::U8(samples) => code::read_all(&Plane::new(width, height, samples), targets, codes),
+        SamplesView::U16(samples) => code::read_all(&Plane::new(width, height, samples), targets, codes),
+    }
+}
+
 fn check_place(image: &GreyView, u: f64, v: f64) -> Result<()> {
     for (name, value, size) in [("u", u, image.width()), ("v", v, image.height())] {
         if !(value >= 0.0 && value <= size as f64) {
@@ -107,7 +114,7 @@ fn check(options: &DetectOptions) -> Result<()> {
 fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let levels = noise::levels(&plane);
     let blobs = search::search(&plane, &levels, options);
-    let mut census = Census::new(plane.width, plane.height);
+    let mut census = Census::new(plane.width, plane.height, code::have_spots(options.codes));
     census.expect(blobs.iter().map(|blobs| blobs.shapeless.len() + blobs.unlike.len()).sum());
     for Blobs { shapeless, unlike, too_small, too_large, .. } in &blobs {
         census.add(Reason::TooSmall, *too_small);
@@ -127,65 +134,13 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
             Err(reason) => census.reject(*outline, *bright, reason),
         }
     }
+    let grounds = std::mem::take(&mut census.grounds);
     let mut detection = census.finish();
-    read_codes(&plane, &mut detection, options.codes);
-    drop_ring_parts(&mut detection);
+    let found = detection.targets.len();
+    detection.targets.extend(grounds);
+    code::read_all(&plane, &mut detection.targets, options.codes);
+    code::settle_grounds(&mut detection, found);
+    code::drop_parts(&mut detection);
     let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);
     Detection { width: size(plane.width), height: size(plane.height), ..detection }
-}
-
-/// Reads the codes of all targets; under "auto" the family that reads most rings is everyone's.
-fn read_codes<T: Sample>(plane: &Plane<T>, detection: &mut Detection, codes: Codes) {
-    let mut best: Option<(usize, Vec<Reading>)> = None;
-    for family in Family::of(codes) {
-        let readings: Vec<Reading> = detection.targets.iter().map(|target| read_code(plane, target, &family)).collect();
-        let count = readings.iter().filter(|reading| matches!(reading, Reading::Code { .. })).count();
-        if best.as_ref().is_none_or(|(most, _)| count > *most) {
-            best = Some((count, readings));
-        }
-    }
-    let Some((_, readings)) = best else { return };
-    for (target, reading) in detection.targets.iter_mut().zip(readings) {
-        match reading {
-            Reading::Plain => {}
-            Reading::Code { number, margin } => {
-                target.code = Some(number);
-                target.quality.code_margin = Some(margin);
-            }
-            Reading::Unsafe { margin, note } => {
-                target.quality.code_margin = Some(margin);
-                target.quality.code_note = Some(note);
-            }
-        }
-    }
-}
-
-/// Takes out what lies in the ring of a code that was read.
-fn drop_ring_parts(detection: &mut Detection) {
-    let coded = detection.targets.iter().filter(|target| target.code.is_some());
-    let dots: Vec<Outline> = coded.map(outline_of).collect();
-    let in_ring = |target: &Target| {
-        let part = |dot: &Outline| {
-            let [c, s] = dot.normalised(target.u, target.v);
-            (code::RING.0 - 0.2..code::RING.1 + 0.2).contains(&c.hypot(s))
-        };
-        target.code.is_none() && dots.iter().any(part)
-    };
-    let (parts, targets) = std::mem::take(&mut detection.targets).into_iter().partition(in_ring);
-    detection.targets = targets;
-    for Target { u, v, major, .. } in parts {
-        *detection.rejected.entry(Reason::CodeRing).or_default() += 1;
-        detection.rejected_blobs.push(Rejected { u, v, diameter: major, reason: Reason::CodeRing });
-    }
-}
-
-fn outline_of(target: &Target) -> Outline {
-    Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle)
-}
-
-fn read_code<T: Sample>(plane: &Plane<T>, target: &Target, family: &Family) -> Reading {
-    let dot = outline_of(target);
-    let middle = f64::from(plane.sample(target.u as f32, target.v as f32));
-    let sign = if target.polarity == Polarity::Bright { 1.0 } else { -1.0 };
-    code::read(plane, &dot, DotLevels { dot: middle, background: middle - sign * target.contrast }, family)
 }

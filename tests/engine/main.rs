@@ -2,6 +2,8 @@
 
 mod aerial;
 mod behaviour;
+#[allow(dead_code, reason = "the benchmark uses the rest")]
+mod coded_patch;
 mod codes;
 mod damage;
 mod data;

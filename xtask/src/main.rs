@@ -19,7 +19,7 @@ cargo xtask <command>
   serve [--port N]     build, serve the page on loopback and print the address (port 8080, or the next free one)
   build                leave the page in dist/ and the engine with its JavaScript face in pkg/
   test [suite ...]     run everything, or only the suites named: native wasm face types page
-  bench [part ...]     measure the engine as wasm in Node, or only the parts named: detect border growth
+  bench [part ...]     measure the engine as wasm in Node, or only the parts named: detect codes border growth
   check                licences of the dependency tree, invariants of the code, the code map; works offline";
 
 fn main() -> ExitCode {
