@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 use sightline::detection::Detection;
+use sightline::ring_code::Family;
 use sightline_protocol::Detect;
 
 use super::document::Change;
@@ -49,6 +50,16 @@ impl Desk {
     }
 
     fn add_detection(self, photo: &str, detection: Detection) {
-        self.change_on(|document| targets::take_detection(document, photo, detection));
+        let family = match self.detect_options.with_untracked(|o| o.codes.families()) {
+            [family] => Some(*family),
+            _ => None,
+        };
+        self.change_on(|document| targets::take_detection(document, photo, detection, family));
+    }
+
+    /// Reads the rings as codes of this family, now and in photos to come.
+    pub fn choose_family(self, family: Family) {
+        self.detect_options.update(|o| o.codes = family.into());
+        self.change(Change::TargetsDetected, |document| targets::take_family(document, family));
     }
 }
