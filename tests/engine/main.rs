@@ -23,6 +23,7 @@ mod published;
 mod reports;
 mod sample;
 mod scenes;
+mod seeded;
 mod sharp;
 mod targets;
 mod tree;

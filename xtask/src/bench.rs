@@ -7,7 +7,8 @@ use crate::{Outcome, build};
 /// A part: its name on the command line and how it runs.
 type Part = (&'static str, fn() -> Outcome);
 
-const PARTS: [Part; 3] = [("detect", detect), ("border", || script("border")), ("growth", || script("growth"))];
+const PARTS: [Part; 4] =
+    [("detect", detect), ("border", || script("border")), ("growth", || script("growth")), ("orient", orient)];
 
 /// `bench [part ...]`.
 pub fn command(names: &[String]) -> Outcome {
@@ -31,6 +32,12 @@ fn detect() -> Outcome {
     let folder = format!("{}/bench", build::target_directory()?);
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "detect", "--", &folder]))?;
     run(&mut program("node", &["benches/detect.mjs", &folder]))
+}
+
+/// Seeded networks and bare dots, natively.
+fn orient() -> Outcome {
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "orient"]))?;
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "orient", "--", "dots"]))
 }
 
 fn script(name: &str) -> Outcome {
