@@ -1,5 +1,8 @@
 //! Uncoded targets of oriented photos: named where the geometry is sure, listed where it is not.
 
+#[path = "../../benches/dots/scene.rs"]
+mod dots;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::orientation::{network, uniform};
@@ -90,6 +93,19 @@ fn dots_among_clutter_are_named_and_never_mixed() {
         let wanted: Vec<&String> = rays.iter().filter(|(_, n)| **n >= 4).map(|(id, _)| *id).collect();
         let missed = wanted.iter().filter(|id| !found.contains(**id)).count();
         assert!(missed * 20 <= wanted.len(), "seed {seed}: {missed} of {} missed", wanted.len());
+    }
+}
+
+/// The short form of `cargo bench --bench dots`: hundreds of dots without clutter.
+#[test]
+fn hundreds_of_dots_are_found_and_never_mixed() {
+    for (photos, count, tolerance, share) in [(8, 600, None, 98), (8, 300, Some(10.0), 90)] {
+        for seed in 0..3 {
+            let m = dots::matched(&dots::scene(seed, photos, count), tolerance);
+            println!("seed {seed}: {m:?}");
+            assert_eq!(m.wrong, 0, "seed {seed}: {m:?}");
+            assert!(100 * m.found >= share * m.wanted, "seed {seed}: {m:?}");
+        }
     }
 }
 

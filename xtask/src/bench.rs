@@ -7,7 +7,8 @@ use crate::{Outcome, build};
 /// A part: its name on the command line and how it runs.
 type Part = (&'static str, fn() -> Outcome);
 
-const PARTS: [Part; 3] = [("detect", detect), ("border", || script("border")), ("growth", || script("growth"))];
+const PARTS: [Part; 4] =
+    [("detect", detect), ("border", || script("border")), ("growth", || script("growth")), ("dots", dots)];
 
 /// `bench [part ...]`.
 pub fn command(names: &[String]) -> Outcome {
@@ -31,6 +32,11 @@ fn detect() -> Outcome {
     let folder = format!("{}/bench", build::target_directory()?);
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "detect", "--", &folder]))?;
     run(&mut program("node", &["benches/detect.mjs", &folder]))
+}
+
+/// Bare dots in oriented photos, natively.
+fn dots() -> Outcome {
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "dots"]))
 }
 
 fn script(name: &str) -> Outcome {
