@@ -14,7 +14,7 @@ test('what cannot be read is told on the start page', { timeout: 120_000 }, asyn
   try {
     await drop(page, [scratch('letter.jpg', 'Dear Sir or Madam')]);
     await page.waitForSelector('.problems li');
-    assert.match(await page.textContent('.problems'), /letter\.jpg.*JPEG, PNG or TIFF/);
+    assert.match(await page.textContent('.problems'), /letter\.jpg.*JPEG, PNG, TIFF or BMP/);
     assert.equal(await page.evaluate(() => location.hash), '#start');
     // It goes when something else is dropped.
     await drop(page, [scratch('nothing.jpg', '')]);
