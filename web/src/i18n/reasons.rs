@@ -130,7 +130,7 @@ pub fn reason(reason: &Reason) -> String {
         R::EntrySize => "프로젝트 파일의 이 부분이 손상되었습니다. 적힌 크기와 다릅니다",
         R::TakesTooMuch { megabytes } => return format!("문서가 메모리를 {megabytes} MB보다 많이 차지합니다"),
         R::CannotCarry { name } => {
-            return format!("식별자 \"{name}\"을(를) 이 형식으로 쓰면 다른 식별자로 읽힙니다. 이름을 바꾸십시오");
+            return format!("식별자 \"{name}\": 이 형식으로 쓰면 다른 식별자로 읽힙니다. 이름을 바꾸십시오");
         }
         R::DamagedEntry { message } => return format!("프로젝트 파일이 손상되었습니다: {message}"),
         R::Unpacks { megabytes } => {
