@@ -12,7 +12,7 @@ use sightline::{decode, detect};
 mod camera_model;
 #[path = "../../tests/engine/grid_fit.rs"]
 mod grid_fit;
-#[allow(dead_code)]
+#[allow(dead_code, reason = "the tests use the rest")]
 #[path = "../../tests/engine/painter.rs"]
 mod painter;
 
