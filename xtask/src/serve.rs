@@ -1,11 +1,9 @@
 //! A server of one folder on loopback, for the page while it is built and tested.
 
 use std::fs::File;
-use std::io::Read;
-use std::net::{Ipv4Addr, TcpListener};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::path::{Component, Path, PathBuf};
-
-use tiny_http::{Header, Response, Server};
 
 use crate::Outcome;
 use crate::build::{self, Profile};
@@ -26,7 +24,8 @@ pub fn command(arguments: &[String]) -> Outcome {
         None => (8080..8100).find_map(|port| listen(port).ok()).map_or_else(|| listen(0), Ok)?,
     };
     println!("{} (Ctrl-C stops)", address(&listener)?);
-    answer(listener, &root().join("dist"))
+    answer(listener, &root().join("dist"));
+    Ok(())
 }
 
 /// Serves a folder in the background until the process ends; its address.
@@ -45,26 +44,50 @@ fn address(listener: &TcpListener) -> Outcome<String> {
     listener.local_addr().map(|address| format!("http://{address}/")).map_err(|error| error.to_string())
 }
 
-/// Answers until the process ends. Several at once: a browser keeps six connections open.
-fn answer(listener: TcpListener, folder: &Path) -> Outcome {
-    let server = Server::from_listener(listener, None).map_err(|error| format!("the server: {error}"))?;
+/// Answers until the process ends. Every connection has a thread of its own and gives one answer: a browser opens connections
+/// ahead and leaves them idle, and none may wait for another.
+fn answer(listener: TcpListener, folder: &Path) {
     std::thread::scope(|threads| {
-        for _ in 0..4 {
-            threads.spawn(|| {
-                for request in server.incoming_requests() {
-                    // Fails where the browser has gone, which then needs no answer.
-                    let _ = match file(folder, request.url()) {
-                        Some((file, kind)) => request.respond(with_headers(Response::from_file(file), kind)),
-                        None => request.respond(with_headers(
-                            Response::from_string("not here").with_status_code(404),
-                            "text/plain",
-                        )),
-                    };
-                }
-            });
+        for stream in listener.incoming().flatten() {
+            // Fails where the browser has gone, which then needs no answer.
+            threads.spawn(move || respond(stream, folder).ok());
         }
     });
-    Ok(())
+}
+
+/// Largest head of a request.
+const LONGEST_HEAD: u64 = 64 << 10;
+
+/// Reads the head of a request, which is all that a GET has, and sends the file it asks for.
+fn respond(stream: TcpStream, folder: &Path) -> std::io::Result<()> {
+    let mut head = Vec::new();
+    let mut reader = BufReader::new(stream.try_clone()?.take(LONGEST_HEAD));
+    while !matches!(head.as_slice(), [.., b'\n', b'\r', b'\n'] | [.., b'\n', b'\n']) {
+        if reader.read_until(b'\n', &mut head)? == 0 {
+            return Ok(());
+        }
+    }
+    let head = String::from_utf8_lossy(&head);
+    let mut words = head.split_ascii_whitespace();
+    let asked = (words.next() == Some("GET")).then(|| words.next()).flatten();
+    let mut stream = stream;
+    match asked.and_then(|address| file(folder, address)) {
+        Some((mut file, kind)) => {
+            write_head(&mut stream, "200 OK", kind, file.metadata()?.len())?;
+            std::io::copy(&mut file, &mut stream)?;
+        }
+        None => {
+            let body = b"not here";
+            write_head(&mut stream, "404 Not Found", "text/plain", body.len() as u64)?;
+            stream.write_all(body)?;
+        }
+    }
+    stream.flush()
+}
+
+fn write_head(stream: &mut TcpStream, status: &str, kind: &str, length: u64) -> std::io::Result<()> {
+    let headers = "Cache-Control: no-cache\r\nX-Content-Type-Options: nosniff\r\nConnection: close";
+    write!(stream, "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {length}\r\n{headers}\r\n\r\n")
 }
 
 /// The file of an address with its kind; none outside the folder. A folder's file is its index.html.
@@ -115,28 +138,19 @@ fn decoded(path: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
-fn with_headers<R: Read>(response: Response<R>, kind: &str) -> Response<R> {
-    let headers = [("Content-Type", kind), ("Cache-Control", "no-cache"), ("X-Content-Type-Options", "nosniff")];
-    headers.into_iter().fold(response, |response, (name, value)| {
-        response.with_header(Header::from_bytes(name, value).expect("a header of plain letters"))
-    })
-}
-
 #[cfg(test)]
 mod tests {
-    use std::io::Write;
-    use std::net::TcpStream;
     use std::time::Duration;
 
     use super::*;
 
-    /// What the server answers to a request on a new connection that stays open.
+    /// What the server answers to a request.
     fn ask(stream: &mut TcpStream, path: &str) -> std::io::Result<String> {
         write!(stream, "GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n")?;
         stream.set_read_timeout(Some(Duration::from_secs(10)))?;
-        let mut bytes = [0; 4096];
-        let read = stream.read(&mut bytes)?;
-        Ok(String::from_utf8_lossy(&bytes[..read]).into_owned())
+        let mut bytes = Vec::new();
+        stream.read_to_end(&mut bytes)?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
     fn connect(address: &str) -> TcpStream {
@@ -146,8 +160,9 @@ mod tests {
     #[test]
     fn every_connection_of_a_burst_is_answered() {
         let address = background(root().join("xtask")).expect("a server");
-        let mut open: Vec<_> = (0..32).map(|_| connect(&address)).collect();
-        for stream in &mut open {
+        let mut open: Vec<_> = (0..64).map(|_| connect(&address)).collect();
+        // The first half stays idle, as connections that a browser opens ahead.
+        for stream in &mut open[32..] {
             let answer = ask(stream, "/Cargo.toml").expect("an answer");
             assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
             assert!(answer.contains("Cache-Control: no-cache"), "{answer}");
