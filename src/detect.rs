@@ -51,6 +51,7 @@ pub fn detect(image: &GreyView, options: &DetectOptions) -> Result<Detection> {
         SamplesView::U16(samples) => detect_in(Plane::new(image.width(), image.height(), samples), options),
     };
     detection.bits = image.bits();
+    detection.number_targets();
     Ok(detection)
 }
 

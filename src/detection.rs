@@ -1,6 +1,6 @@
 //! What detection reports: targets with their centres and sigmas, and what was rejected and why.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
@@ -137,6 +137,9 @@ pub struct Quality {
 /// One target of a photo. Pixels, radians.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Target {
+    /// Number in its photo, from 1; 0 while it belongs to none.
+    #[serde(default)]
+    pub id: u32,
     /// Centre, to the right.
     pub u: f64,
     /// Centre, downwards.
@@ -162,6 +165,13 @@ pub struct Target {
     pub code: Option<u32>,
     /// How good the image is.
     pub quality: Quality,
+}
+
+impl Target {
+    /// What an observation of it refers to.
+    pub fn number(&self) -> Option<u32> {
+        Some(self.id).filter(|id| *id > 0)
+    }
 }
 
 /// Why a blob is no target. The serialised names are part of the JavaScript face.
@@ -259,4 +269,26 @@ pub struct Detection {
     pub rejected: BTreeMap<Reason, usize>,
     /// The rejected blobs that could be mistaken for targets, for showing.
     pub rejected_blobs: Vec<Rejected>,
+}
+
+impl Detection {
+    /// Gives every target a number of its own in the photo; those that have one keep it.
+    pub fn number_targets(&mut self) {
+        let mut taken = BTreeSet::new();
+        for target in &mut self.targets {
+            if !taken.insert(target.id) {
+                target.id = 0;
+            }
+        }
+        let mut next = taken.last().copied().unwrap_or(0);
+        for target in self.targets.iter_mut().filter(|target| target.id == 0) {
+            next += 1;
+            target.id = next;
+        }
+    }
+
+    /// The target of a number.
+    pub fn target(&self, id: u32) -> Option<&Target> {
+        self.targets.iter().find(|target| target.id == id)
+    }
 }

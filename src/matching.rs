@@ -14,7 +14,7 @@ pub use snap::{Mark, Snapped, Unsnapped, UnsnappedReason, snap};
 pub use uncoded::{MatchOptions, Matching, match_uncoded};
 
 use crate::detection::Target;
-use crate::project::Sigma;
+use crate::project::{Observation, Sigma};
 
 /// The targets detected in one photo.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -34,6 +34,9 @@ pub struct Doubtful {
     pub u: f64,
     /// Place in pixels.
     pub v: f64,
+    /// Number of the target in its photo, where it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target: Option<u32>,
     /// Points it could be, where there are names for them.
     pub points: Vec<String>,
     /// Why it is in doubt.
@@ -61,9 +64,23 @@ fn sigma_of(target: &Target) -> Sigma {
     Sigma::Two([usable(target.sigma_u), usable(target.sigma_v)])
 }
 
+/// An observation of a target.
+fn observed(photo: &str, point: &str, target: &Target) -> Observation {
+    Observation {
+        photo: photo.to_owned(),
+        point: point.to_owned(),
+        u: target.u,
+        v: target.v,
+        sigma: sigma_of(target),
+        enabled: true,
+        target: target.number(),
+    }
+}
+
 #[cfg(test)]
 pub(crate) fn target(u: f64, v: f64, code: Option<u32>) -> Target {
     Target {
+        id: 0,
         u,
         v,
         sigma_u: 0.02,

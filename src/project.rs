@@ -198,6 +198,9 @@ pub struct Observation {
     /// Whether it takes part.
     #[serde(default = "yes")]
     pub enabled: bool,
+    /// Number of the photo's target whose centre it is, where it is a target's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target: Option<u32>,
 }
 
 /// A measured distance between two points (scale bar).

@@ -90,6 +90,8 @@ export interface Observation {
   v: number;
   sigma: number | [number, number];
   enabled?: boolean;
+  /** Number of the photo's target whose centre it is. */
+  target?: number | null;
 }
 
 export interface Distance {
@@ -324,6 +326,8 @@ export interface Quality {
 
 /** A target of a photo: pixels, radians; major and minor are the ellipse's full axes. */
 export interface Target {
+  /** Number in its photo, from 1; 0 for a target measured by itself. */
+  id: number;
   u: number;
   v: number;
   sigma_u: number;
@@ -391,7 +395,7 @@ export interface PhotoInfo {
 /** The targets detected in one photo. */
 export interface PhotoTargets {
   photo: string;
-  targets: Target[];
+  targets: (Omit<Target, "id"> & { id?: number })[];
 }
 
 /** A target whose identity is in doubt: shown to the user, not used. */
@@ -399,6 +403,8 @@ export interface Doubtful {
   photo: string;
   u: number;
   v: number;
+  /** Number of the target in its photo, where it has one. */
+  target?: number;
   points: string[];
   reason: "duplicate_code" | "ambiguous" | "disagrees";
 }

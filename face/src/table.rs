@@ -62,8 +62,9 @@ pub fn observations(rows: &JsValue) -> Result<Vec<Observation>> {
         v: n[1],
         sigma: if p[2] & TWO_SIGMAS == 0 { Sigma::One(n[2]) } else { Sigma::Two([n[2], n[3]]) },
         enabled: p[2] & ENABLED != 0,
+        target: Some(p[3]).filter(|number| *number > 0),
     };
-    Ok(numbers.chunks_exact(4).zip(places.chunks_exact(3)).map(row).collect())
+    Ok(numbers.chunks_exact(4).zip(places.chunks_exact(4)).map(row).collect())
 }
 
 /// Points of a project from their rows.
@@ -88,14 +89,15 @@ pub fn observation_rows(observations: &[Observation]) -> Array {
     let mut names = Names::default();
     let (mut last_photo, mut last_point) = (Repeated::default(), Repeated::default());
     let (mut numbers, mut places) =
-        (Vec::with_capacity(4 * observations.len()), Vec::with_capacity(3 * observations.len()));
+        (Vec::with_capacity(4 * observations.len()), Vec::with_capacity(4 * observations.len()));
     // Rows are taken apart by name everywhere below, so that the compiler misses a new field before a reader does.
-    for Observation { photo, point, u, v, sigma, enabled } in observations {
+    for Observation { photo, point, u, v, sigma, enabled, target } in observations {
         let [su, sv] = sigma.both();
         numbers.extend([*u, *v, su, sv]);
         let two = if matches!(sigma, Sigma::Two(_)) { TWO_SIGMAS } else { 0 };
         let flags = two | if *enabled { ENABLED } else { 0 };
-        places.extend([last_photo.number(&mut names, photo), last_point.number(&mut names, point), flags]);
+        let (photo, point) = (last_photo.number(&mut names, photo), last_point.number(&mut names, point));
+        places.extend([photo, point, flags, target.unwrap_or(0)]);
     }
     write_observations(&numbers, &places, &names.list)
 }

@@ -24,6 +24,7 @@ class Names {
 }
 
 const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
+const isTarget = (value) => Number.isInteger(value) && value > 0 && value < 2 ** 32;
 const isRow = (row) => typeof row === 'object' && row !== null && !Array.isArray(row);
 
 /** Three numbers, each perhaps null, into a column; whether they are that. */
@@ -37,15 +38,15 @@ function three(value, column, at, nullable) {
   return true;
 }
 
-/** Columns u, v, sigma_u, sigma_v; photo, point, flags (1: enabled, 2: two sigmas). */
+/** Columns u, v, sigma_u, sigma_v; photo, point, flags (1: enabled, 2: two sigmas), number of the target or 0. */
 export function readObservations(rows) {
   const names = new Names();
   const numbers = new Float64Array(4 * rows.length);
-  const places = new Uint32Array(3 * rows.length);
+  const places = new Uint32Array(4 * rows.length);
   for (let row = 0; row < rows.length; row++) {
     const source = rows[row];
     if (!isRow(source)) return { row, field: '', expected: 'object' };
-    const { u, v, sigma, enabled } = source;
+    const { u, v, sigma, enabled, target } = source;
     const photo = names.number(source.photo);
     if (photo < 0) return { row, field: 'photo', expected: 'photo_id' };
     const point = names.number(source.point);
@@ -62,13 +63,16 @@ export function readObservations(rows) {
     if (!isNumber(su) || !isNumber(sv)) return { row, field: 'sigma', expected: 'one_or_two' };
     if (enabled === undefined || enabled === true) flags |= 1;
     else if (enabled !== false) return { row, field: 'enabled', expected: 'truth' };
+    const none = target === undefined || target === null;
+    if (!none && !isTarget(target)) return { row, field: 'target', expected: 'target_number' };
     numbers[4 * row] = u;
     numbers[4 * row + 1] = v;
     numbers[4 * row + 2] = su;
     numbers[4 * row + 3] = sv;
-    places[3 * row] = photo;
-    places[3 * row + 1] = point;
-    places[3 * row + 2] = flags;
+    places[4 * row] = photo;
+    places[4 * row + 1] = point;
+    places[4 * row + 2] = flags;
+    places[4 * row + 3] = none ? 0 : target;
   }
   return { numbers, places, names: names.list };
 }
@@ -114,9 +118,9 @@ const orNull = (value) => (value === value ? value : null);
 
 /** The reverse of readObservations. */
 export function writeObservations(numbers, places, names) {
-  const rows = new Array(places.length / 3);
+  const rows = new Array(places.length / 4);
   for (let row = 0; row < rows.length; row++) {
-    const [n, p] = [4 * row, 3 * row];
+    const [n, p] = [4 * row, 4 * row];
     const flags = places[p + 2];
     rows[row] = {
       photo: names[places[p]],
@@ -126,6 +130,7 @@ export function writeObservations(numbers, places, names) {
       sigma: flags & 2 ? [numbers[n + 2], numbers[n + 3]] : numbers[n + 2],
       enabled: (flags & 1) === 1,
     };
+    if (places[p + 3] > 0) rows[row].target = places[p + 3];
   }
   return rows;
 }

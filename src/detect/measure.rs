@@ -315,6 +315,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             return Err(Reason::NoFit);
         }
         Ok(Target {
+            id: 0,
             u: centre.u,
             v: centre.v,
             sigma_u: uu.sqrt(),

@@ -36,6 +36,8 @@ pub fn detect_photo(photo: &Photo, options: &DetectOptions) -> Result<Detection>
             *all.rejected.entry(reason).or_default() += count;
         }
     }
+    all.targets.iter_mut().for_each(|target| target.id = 0);
+    all.number_targets();
     Ok(all)
 }
 

@@ -280,6 +280,7 @@ words! {
         FiniteNumber = "finite_number" => "a finite number";
         Pixels = "pixels" => "a whole number of pixels";
         Truth = "truth" => "true or false";
+        TargetNumber = "target_number" => "the number of a target, 1 or larger";
         PhotoId = "photo_id" => "a photo id";
         PointId = "point_id" => "a point id";
         OneOrTwo = "one_or_two" => "a number or two";

@@ -244,7 +244,7 @@ impl Script<'_> {
                     };
                     let (u, v) = (row.number(x, "x")?, row.number(y, "y")?);
                     let (photo, point) = (row.text(photo, "im")?.to_owned(), row.text(id, "id")?.to_owned());
-                    Ok(Observation { photo, point, u, v, sigma, enabled: true })
+                    Ok(Observation { photo, point, u, v, sigma, enabled: true, target: None })
                 };
                 project.observations.push(mark().map_err(|error| error.in_file(&table.file))?);
             }

@@ -3,7 +3,7 @@
 //! Reading trusts nothing: a foreign or damaged archive, names that point elsewhere and archives that unpack to more than
 //! the limits are errors. A bare `project.json` is taken for a project file too.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::io::{Cursor, Read, Write};
 
 use serde::Serialize;
@@ -115,10 +115,26 @@ pub fn read(bytes: &[u8]) -> Result<Package> {
             package.keep(&name, content, |package, content| _ = package.photos.insert(file.to_owned(), content));
         }
     }
+    package.number_targets();
     if found { Ok(package) } else { Err(invalid(Reason::NoProjectInside)) }
 }
 
 impl Package {
+    /// Targets and observations of files in which they had no numbers yet: an observation belonged to the target at exactly
+    /// its place.
+    fn number_targets(&mut self) {
+        let mut at: HashMap<(&str, [u64; 2]), u32> = HashMap::new();
+        for (photo, detection) in &mut self.targets {
+            detection.number_targets();
+            at.extend(detection.targets.iter().map(|t| ((photo.as_str(), [t.u.to_bits(), t.v.to_bits()]), t.id)));
+        }
+        for o in &mut self.project.observations {
+            let known = |id: &u32| self.targets.get(&o.photo).is_some_and(|d| d.target(*id).is_some());
+            let here = || at.get(&(o.photo.as_str(), [o.u.to_bits(), o.v.to_bits()])).copied();
+            o.target = o.target.filter(known).or_else(here);
+        }
+    }
+
     /// Takes over what was read of an entry, or that it was damaged.
     fn keep<T>(&mut self, name: &str, content: Result<T>, take: impl FnOnce(&mut Self, T)) {
         match content {
@@ -187,7 +203,7 @@ fn invalid(reason: Reason) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::Photo;
+    use crate::project::{Observation, Photo, Sigma};
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -223,6 +239,28 @@ mod tests {
         assert_eq!(read(&bytes).unwrap(), package());
         assert_eq!(write(&read(&bytes).unwrap()).unwrap(), bytes);
         assert_eq!(read(&json(&package().project).unwrap()).unwrap().project, package().project);
+    }
+
+    #[test]
+    fn targets_without_numbers_get_them_and_their_observations_too() {
+        let mut old = package();
+        let detection = old.targets.get_mut("1").unwrap();
+        detection.targets = [3.25, 7.5, 9.0].map(|u| crate::matching::target(u, 1.0 / 3.0, None)).into();
+        let at = |point: &str, u: f64, target| Observation {
+            photo: "1".into(),
+            point: point.into(),
+            u,
+            v: 1.0 / 3.0,
+            sigma: Sigma::One(0.1),
+            enabled: true,
+            target,
+        };
+        old.project.observations = vec![at("a", 7.5, None), at("by hand", 7.500001, None), at("lost", 1.0, Some(9))];
+        let new = read(&write(&old).unwrap()).unwrap();
+        assert_eq!(new.targets["1"].targets.iter().map(|t| t.id).collect::<Vec<_>>(), [1, 2, 3]);
+        let numbers: Vec<_> = new.project.observations.iter().map(|o| o.target).collect();
+        assert_eq!(numbers, [Some(2), None, None]);
+        assert_eq!(read(&write(&new).unwrap()).unwrap(), new);
     }
 
     #[test]

@@ -92,6 +92,7 @@ pub fn parse(text: &str) -> Result<Project> {
             v: row.number(3, "v")?,
             sigma: Sigma::Two([row.number(4, "sigma u")?, row.number(5, "sigma v")?]),
             enabled: true,
+            target: None,
         });
     }
     let photos: std::collections::HashSet<&str> = project.photos.iter().map(|photo| photo.id.as_str()).collect();

@@ -283,6 +283,7 @@ mod tests {
                 v: 2.25,
                 sigma: Sigma::One(0.1),
                 enabled: true,
+                target: None,
             }],
             ..Project::default()
         };

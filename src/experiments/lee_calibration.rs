@@ -237,6 +237,7 @@ fn project(network: &Network, exact: &Project, measured: &[Vec<Measured>], optio
             v: target.v,
             sigma: Sigma::Two([target.sigma_u, target.sigma_v]),
             enabled: true,
+            target: None,
         });
     }
     // Targets at the rim of the field are seen too seldom; the paper's photos miss some too.

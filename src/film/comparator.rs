@@ -111,6 +111,7 @@ pub fn observations(camera: &Camera, setup: &Setup, readings: &[Reading]) -> Res
                 v,
                 sigma: Sigma::Two(sigma),
                 enabled: true,
+                target: None,
             });
         }
         let marks = marks.iter().map(|r| r.mark.clone()).collect();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Doubt, Doubtful, PhotoTargets, sigma_of};
+use super::{Doubt, Doubtful, PhotoTargets, observed};
 use crate::project::{Observation, Point};
 
 /// What the codes say.
@@ -38,20 +38,14 @@ pub fn name_coded(photos: &[PhotoTargets]) -> Coded {
                     photo: photo.photo.clone(),
                     u: target.u,
                     v: target.v,
+                    target: target.number(),
                     points: vec![point],
                     reason: Doubt::DuplicateCode,
                 });
                 continue;
             }
             codes.insert(code, ());
-            coded.observations.push(Observation {
-                photo: photo.photo.clone(),
-                point,
-                u: target.u,
-                v: target.v,
-                sigma: sigma_of(target),
-                enabled: true,
-            });
+            coded.observations.push(observed(&photo.photo, &point, target));
         }
     }
     coded.points = codes.keys().map(|code| Point { id: code.to_string(), ..Point::default() }).collect();

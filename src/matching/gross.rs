@@ -56,6 +56,7 @@ pub fn without_gross_errors(
                 photo: observation.photo.clone(),
                 u: observation.u,
                 v: observation.v,
+                target: observation.target,
                 points: vec![observation.point.clone()],
                 reason: Doubt::Disagrees,
             });

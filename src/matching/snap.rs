@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use super::{PhotoTargets, sigma_of};
+use super::{PhotoTargets, observed};
 use crate::project::Observation;
 
 /// An approximate measurement: a point seen at a place of a photo.
@@ -98,15 +98,7 @@ pub fn snap(marks: &[Mark], photos: &[PhotoTargets], radius_px: f64) -> Snapped 
             (None, _) => UnsnappedReason::NoDetection,
             (_, None) => UnsnappedReason::NoTarget,
             (Some(photo), Some(t)) if winners.contains(&k) => {
-                let target = &photo.targets[t];
-                snapped.observations.push(Observation {
-                    photo: mark.photo.clone(),
-                    point: mark.point.clone(),
-                    u: target.u,
-                    v: target.v,
-                    sigma: sigma_of(target),
-                    enabled: true,
-                });
+                snapped.observations.push(observed(&mark.photo, &mark.point, &photo.targets[t]));
                 continue;
             }
             (Some(photo), Some(t)) => {

@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::photo::OrientedPhoto;
-use super::{Doubt, Doubtful, PhotoTargets, sigma_of};
+use super::{Doubt, Doubtful, PhotoTargets};
 use crate::detection::{Polarity, Target};
 use crate::error::Result;
 use crate::initial::intersection::{Intersection, Ray, intersect};
@@ -168,20 +168,13 @@ impl View<'_> {
     }
 
     fn observation(&self, free: usize, point: &str) -> Observation {
-        let target = &self.targets[self.free[free].target];
-        Observation {
-            photo: self.photo.id.clone(),
-            point: point.into(),
-            u: target.u,
-            v: target.v,
-            sigma: sigma_of(target),
-            enabled: true,
-        }
+        super::observed(&self.photo.id, point, &self.targets[self.free[free].target])
     }
 
     fn doubtful(&self, free: usize, points: Vec<String>) -> Doubtful {
         let target = &self.targets[self.free[free].target];
-        Doubtful { photo: self.photo.id.clone(), u: target.u, v: target.v, points, reason: Doubt::Ambiguous }
+        let (photo, number) = (self.photo.id.clone(), target.number());
+        Doubtful { photo, u: target.u, v: target.v, target: number, points, reason: Doubt::Ambiguous }
     }
 }
 

@@ -59,6 +59,7 @@ pub fn simulate(network: &Network) -> Result<Project> {
             v: s.pixel[1],
             sigma: s.sigma,
             enabled: true,
+            target: None,
         }));
         project.photos.push(Photo {
             id: station.id.clone(),

@@ -112,6 +112,7 @@ fn part(block: &Block, freedom: Freedom) -> Option<Project> {
             v: sight.pixel[1],
             sigma,
             enabled: true,
+            target: None,
         });
     }
     let mut controls = 0;

@@ -206,6 +206,7 @@ mod tests {
                 v: 2.0,
                 sigma: Sigma::One(0.1),
                 enabled: true,
+                target: None,
             }],
             distances: vec![Distance { from: "1".into(), to: "2".into(), length: 3.0, sigma: 0.1 }],
             ..Project::default()

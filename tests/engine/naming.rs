@@ -11,6 +11,7 @@ use sightline::project::{Point, Project};
 
 fn target(u: f64, v: f64) -> Target {
     Target {
+        id: 0,
         u,
         v,
         sigma_u: 0.05,

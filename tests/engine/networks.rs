@@ -146,6 +146,7 @@ pub fn exact(wanted: &Wanted, seed: u64) -> Project {
                 v,
                 sigma: Sigma::One(wanted.sigma_px),
                 enabled: true,
+                target: None,
             });
         }
         project.photos.push(Photo {

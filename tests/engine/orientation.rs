@@ -69,6 +69,7 @@ pub fn network(seed: u64, photos: usize, points: usize, flat: f64, noise_px: f64
                 v,
                 sigma: Sigma::One(noise_px.max(0.01)),
                 enabled: true,
+                target: None,
             });
         }
         project.photos.push(Photo {
@@ -136,6 +137,7 @@ fn marks(project: &mut Project, list: &str, sigma_px: f64, point_first: bool) {
             v: fields[3].parse().expect("a number"),
             sigma: Sigma::One(sigma_px),
             enabled: true,
+            target: None,
         });
     }
 }

@@ -162,6 +162,7 @@ fn the_textbook_resection_is_reproduced() {
             v,
             sigma: Sigma::One(0.001),
             enabled: true,
+            target: None,
         });
     }
     project.photos.push(Photo {

@@ -45,6 +45,7 @@ fn project(random: &mut Uniform) -> Project {
         v: number(random),
         sigma: Sigma::Two([number(random).abs() + 1e-9, number(random).abs() + 1e-9]),
         enabled: true,
+        target: None,
     });
     Project {
         observations: observations.collect(),

@@ -238,6 +238,7 @@ mod tests {
                     v: ellipse.v,
                     sigma: Sigma::One(0.01),
                     enabled: true,
+                    target: None,
                 });
             }
             let (position, rotation) = (Some(centre.into()), Some(angles(&m)));

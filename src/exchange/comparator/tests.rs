@@ -70,6 +70,7 @@ fn one_file_holds_both_and_a_scan_points_down() {
                 v: r.y,
                 sigma: crate::project::Sigma::One(0.1),
                 enabled: true,
+                target: None,
             })
             .collect(),
         ..Project::default()

@@ -9,14 +9,14 @@ use super::natural;
 /// Standard error of a place that was set by hand, in pixels.
 pub const BY_HAND_SIGMA: f64 = 0.5;
 
-/// A place as something that can be compared: names belong to exactly the centre they were given to.
-pub fn place(u: f64, v: f64) -> (u64, u64) {
-    (u.to_bits(), v.to_bits())
+/// The observation of a target of a photo.
+pub fn observation_of<'a>(project: &'a Project, photo: &str, target: u32) -> Option<&'a Observation> {
+    project.observations.iter().find(|o| o.photo == photo && o.target == Some(target))
 }
 
-/// The observation at a place of a photo.
-pub fn observation_at<'a>(project: &'a Project, photo: &str, u: f64, v: f64) -> Option<&'a Observation> {
-    project.observations.iter().find(|o| o.photo == photo && place(o.u, o.v) == place(u, v))
+/// Photo and number of the target that an observation belongs to.
+pub fn target_of(observation: &Observation) -> Option<(String, u32)> {
+    observation.target.map(|target| (observation.photo.clone(), target))
 }
 
 /// What naming a place did besides.
@@ -31,12 +31,12 @@ pub struct Naming {
 /// Names a target or a place of a photo: a place has one name, and a point one place in a photo.
 pub fn observe(project: &mut Project, observation: Observation) -> Naming {
     let mut naming = Naming::default();
-    let at = place(observation.u, observation.v);
+    let at = observation.target;
     project.observations.retain(|o| {
         if o.photo != observation.photo {
             return true;
         }
-        let (here, same) = (place(o.u, o.v) == at, o.point == observation.point);
+        let (here, same) = (at.is_some() && o.target == at, o.point == observation.point);
         if here && !same {
             naming.before = Some(o.point.clone());
         }
@@ -56,6 +56,7 @@ pub fn nudge(project: &mut Project, photo: &str, point: &str, step: [f64; 2]) ->
     observation.u += step[0];
     observation.v += step[1];
     observation.sigma = Sigma::One(BY_HAND_SIGMA);
+    observation.target = None;
     true
 }
 
@@ -201,6 +202,7 @@ mod tests {
             v: 5.0,
             sigma: Sigma::Two([0.01, 0.02]),
             enabled: true,
+            target: Some(u as u32),
         }
     }
 
@@ -230,8 +232,8 @@ mod tests {
         let naming = observe(&mut p, seen("1", "12", 10.0));
         assert_eq!(naming, Naming { before: Some("11".into()), elsewhere: true });
         assert_eq!(p.observations.iter().filter(|o| o.photo == "1").count(), 1);
-        assert_eq!(observation_at(&p, "1", 10.0, 5.0).map(|o| o.point.as_str()), Some("12"));
-        assert!(observation_at(&p, "2", 10.0, 5.0).is_none());
+        assert_eq!(observation_of(&p, "1", 10).map(|o| o.point.as_str()), Some("12"));
+        assert!(observation_of(&p, "2", 10).is_none());
         assert_eq!(observe(&mut p, seen("4", "20", 1.0)), Naming::default());
         assert_eq!(ids(&p), ["11", "12", "13", "20"]);
     }

@@ -7,7 +7,7 @@ use sightline::detection::{Detection, Target};
 use sightline::matching::{Mark, Matching, PhotoTargets, Snapped, name_coded, snap};
 use sightline::project::{Observation, Point, Project};
 
-use super::points::{place, tidy};
+use super::points::{target_of, tidy};
 use crate::store::document::Document;
 
 /// How far a name follows its target when the photo is measured again, in pixels.
@@ -45,11 +45,10 @@ pub fn take_detection(document: &mut Document, photo: &str, detection: Detection
     });
     let snapped = snap(&marks.collect::<Vec<_>>(), &new, FOLLOW);
     let mut now = coded.observations;
-    let named = now.iter().map(|o| (o.point.clone(), place(o.u, o.v))).collect::<Vec<_>>();
-    let free = |o: &Observation| !named.iter().any(|(point, at)| *point == o.point || *at == place(o.u, o.v));
+    let named = now.iter().map(|o| (o.point.clone(), o.target)).collect::<Vec<_>>();
+    let free = |o: &Observation| !named.iter().any(|(point, target)| *point == o.point || *target == o.target);
     now.extend(snapped.observations.into_iter().filter(free));
-    let was_target =
-        |o: &Observation| old.as_ref().is_some_and(|d| d.targets.iter().any(|t| place(t.u, t.v) == place(o.u, o.v)));
+    let was_target = |o: &Observation| o.target.is_some_and(|id| old.as_ref().is_some_and(|d| d.target(id).is_some()));
     let still_here = now.iter().map(|o| o.point.clone()).collect::<BTreeSet<_>>();
     now.extend(before.iter().filter(|o| !still_here.contains(&o.point) && !was_target(o)).cloned());
     for observation in &mut now {
@@ -70,7 +69,8 @@ pub fn add(document: &mut Document, photo: &str, target: Target) -> usize {
     let same = |t: &Target| (t.u - target.u).hypot(t.v - target.v) < SAME;
     let at = detection.targets.iter().position(same).unwrap_or(detection.targets.len());
     if at == detection.targets.len() {
-        detection.targets.push(target);
+        detection.targets.push(Target { id: 0, ..target });
+        detection.number_targets();
         detections.insert(photo.to_owned(), Arc::new(detection));
     }
     at
@@ -81,9 +81,9 @@ pub fn take_matching(document: &mut Document, matching: Matching) {
     document.doubtful = Arc::new(matching.doubtful);
     let project = document.project_mut();
     let taken = project.observations.iter().map(|o| (o.photo.clone(), o.point.clone())).collect::<BTreeSet<_>>();
-    let centres = project.observations.iter().map(|o| (o.photo.clone(), place(o.u, o.v))).collect::<BTreeSet<_>>();
+    let centres = project.observations.iter().filter_map(target_of).collect::<BTreeSet<_>>();
     let new = |o: &Observation| {
-        !taken.contains(&(o.photo.clone(), o.point.clone())) && !centres.contains(&(o.photo.clone(), place(o.u, o.v)))
+        !taken.contains(&(o.photo.clone(), o.point.clone())) && target_of(o).is_none_or(|at| !centres.contains(&at))
     };
     project.observations.extend(matching.observations.into_iter().filter(new));
     for point in matching.points {
@@ -100,9 +100,9 @@ pub fn take_marks(project: &mut Project, snapped: &Snapped) -> usize {
     for o in &snapped.observations {
         taken.insert((o.photo.clone(), o.point.clone()), o.clone());
     }
-    let centres = taken.values().map(|o| (o.photo.clone(), place(o.u, o.v))).collect::<BTreeSet<_>>();
+    let centres = taken.values().filter_map(target_of).collect::<BTreeSet<_>>();
     let replaced = |o: &Observation| {
-        taken.contains_key(&(o.photo.clone(), o.point.clone())) || centres.contains(&(o.photo.clone(), place(o.u, o.v)))
+        taken.contains_key(&(o.photo.clone(), o.point.clone())) || target_of(o).is_some_and(|at| centres.contains(&at))
     };
     project.observations.retain(|o| !replaced(o));
     let count = taken.len();

@@ -311,6 +311,7 @@ fn expected(expected: Expected) -> &'static str {
         Expected::FiniteNumber => "유한한 수",
         Expected::Pixels => "정수 화소 수",
         Expected::Truth => "참 또는 거짓",
+        Expected::TargetNumber => "1 이상의 표적 번호",
         Expected::PhotoId => "사진 식별자",
         Expected::PointId => "점 식별자",
         Expected::OneOrTwo => "수 하나 또는 둘",

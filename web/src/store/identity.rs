@@ -86,12 +86,13 @@ impl Desk {
         let found = match asked {
             Asked::Target(target) => self.document.with_untracked(|d| {
                 let target = d.detections.get(photo)?.targets.get(target)?;
-                Some(([target.u, target.v], Sigma::Two([target.sigma_u, target.sigma_v])))
+                Some(([target.u, target.v], Sigma::Two([target.sigma_u, target.sigma_v]), target.number()))
             }),
-            Asked::Spot(spot) => Some((spot, Sigma::One(points::BY_HAND_SIGMA))),
+            Asked::Spot(spot) => Some((spot, Sigma::One(points::BY_HAND_SIGMA), None)),
         };
-        let (Some(([u, v], sigma)), false) = (found, point.is_empty()) else { return };
-        let observation = Observation { photo: photo.to_owned(), point: point.clone(), u, v, sigma, enabled: true };
+        let (Some(([u, v], sigma, target)), false) = (found, point.is_empty()) else { return };
+        let (photo_id, id) = (photo.to_owned(), point.clone());
+        let observation = Observation { photo: photo_id, point: id, u, v, sigma, enabled: true, target };
         let mut naming = Naming::default();
         self.change(Change::Named(point.clone()), |d| naming = points::observe(d.project_mut(), observation));
         self.selection.update(|s| (s.point, s.spot) = (Some(point.clone()), None));
@@ -148,12 +149,13 @@ impl Desk {
         self.change(Change::TargetMeasured(photo.to_owned()), |document| {
             let (u, v, sigma) = (target.u, target.v, Sigma::Two([target.sigma_u, target.sigma_v]));
             at = targets::add(document, photo, target);
+            let number = document.detections.get(photo).and_then(|d| d.targets.get(at)?.number());
             let project = document.project_mut();
-            point = points::observation_at(project, photo, u, v).map(|o| o.point.clone());
+            point = number.and_then(|id| points::observation_of(project, photo, id)).map(|o| o.point.clone());
             let free = |code: &String| !project.observations.iter().any(|o| o.photo == photo && o.point == *code);
             if let (None, Some(code)) = (&point, code.filter(free)) {
-                let observation =
-                    Observation { photo: photo.to_owned(), point: code.clone(), u, v, sigma, enabled: true };
+                let (photo, id) = (photo.to_owned(), code.clone());
+                let observation = Observation { photo, point: id, u, v, sigma, enabled: true, target: number };
                 points::observe(project, observation);
                 point = Some(code);
             }

@@ -15,7 +15,6 @@ use super::shell::TitleBar;
 use super::strip::Strip;
 use super::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 use crate::browser::{event, file};
-use crate::edit::points::place;
 use crate::format;
 use crate::i18n::{text, text::role_word};
 use crate::store::texts::Reading;
@@ -105,19 +104,19 @@ fn named_marks(desk: Desk) -> Vec<Mark> {
     let Some(photo) = photo else { return Vec::new() };
     desk.document.with(|d| {
         let here = d.project.observations.iter().filter(|o| o.photo == photo);
-        let mut named: HashMap<_, &Observation> = here.map(|o| (place(o.u, o.v), o)).collect();
-        let doubtful = d.doubtful.iter().filter(|x| x.photo == photo).map(|x| place(x.u, x.v)).collect::<Vec<_>>();
-        let style = |o: Option<&Observation>, at: (u64, u64), selected: bool| match o {
+        let (on_targets, free): (Vec<_>, Vec<_>) = here.partition(|o| o.target.is_some());
+        let mut named: HashMap<Option<u32>, &Observation> = on_targets.into_iter().map(|o| (o.target, o)).collect();
+        let doubtful = d.doubtful.iter().filter(|x| x.photo == photo).filter_map(|x| x.target).collect::<Vec<_>>();
+        let style = |o: Option<&Observation>, target: Option<u32>, selected: bool| match o {
             _ if selected => Style::Selected,
             Some(o) if Some(&o.point) == point.as_ref() => Style::Selected,
             Some(o) if !o.enabled => Style::Rejected,
-            _ if doubtful.contains(&at) => Style::Doubtful,
+            _ if target.is_some_and(|id| doubtful.contains(&id)) => Style::Doubtful,
             _ => Style::Measured,
         };
         let mut marks = Vec::new();
         for (i, t) in d.detections.get(&photo).iter().flat_map(|d| d.targets.iter().enumerate()) {
-            let at = place(t.u, t.v);
-            let o = named.remove(&at);
+            let o = named.remove(&Some(t.id));
             marks.push(Mark {
                 u: t.u,
                 v: t.v,
@@ -126,11 +125,11 @@ fn named_marks(desk: Desk) -> Vec<Mark> {
                 angle: t.angle,
                 label: o.map(|o| o.point.clone()),
                 strong: t.code.is_some(),
-                style: style(o, at, chosen == Some(i)),
+                style: style(o, Some(t.id), chosen == Some(i)),
             });
         }
-        for (at, o) in named {
-            let style = style(Some(o), at, false);
+        for o in named.into_values().chain(free) {
+            let style = style(Some(o), None, false);
             let label = Some(o.point.clone());
             marks.push(Mark { u: o.u, v: o.v, major: 0.0, minor: 0.0, angle: 0.0, label, strong: false, style });
         }

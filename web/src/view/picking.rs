@@ -6,7 +6,7 @@ use sightline::detection::Target;
 
 use super::photo_view::{Click, Mark, Style};
 use crate::browser::event;
-use crate::edit::points::{observation_at, place};
+use crate::edit::points::observation_of;
 use crate::i18n::text;
 use crate::store::Desk;
 use crate::store::identity::Asked;
@@ -29,8 +29,7 @@ pub fn pick(desk: Desk, click: Click) {
             let free = here.min_by(|a, b| distance(a.u, a.v).total_cmp(&distance(b.u, b.v)));
             return (free.map(|o| o.point.clone()), None);
         };
-        let Target { u, v, .. } = targets[target];
-        (observation_at(&d.project, &photo, u, v).map(|o| o.point.clone()), Some(target))
+        (observation_of(&d.project, &photo, targets[target].id).map(|o| o.point.clone()), Some(target))
     });
     let nothing = point.is_none() && target.is_none();
     desk.choose_in_photo(&photo, target, point);
@@ -54,9 +53,8 @@ pub fn chosen_target(desk: Desk) -> Option<Target> {
     if let Some(target) = target {
         return desk.document.with(|d| d.detections.get(&photo)?.targets.get(target).cloned());
     }
-    let o = desk.chosen_observation()?;
-    let at = place(o.u, o.v);
-    desk.document.with(|d| d.detections.get(&photo)?.targets.iter().find(|t| place(t.u, t.v) == at).cloned())
+    let number = desk.chosen_observation()?.target?;
+    desk.document.with(|d| d.detections.get(&photo)?.target(number).cloned())
 }
 
 /// The place that waits for a name, as a mark.

@@ -11,7 +11,6 @@ use super::picking::{Question, chosen_target, pick, spot_mark};
 use super::shell::TitleBar;
 use super::strip::Strip;
 use crate::browser::event;
-use crate::edit::points::place;
 use crate::format;
 use crate::i18n::{Text, text};
 use crate::store::{Desk, Step};
@@ -70,7 +69,7 @@ fn current(desk: Desk) -> Option<std::sync::Arc<sightline::detection::Detection>
 /// The targets of the photo that is shown.
 fn target_marks(desk: Desk) -> Vec<Mark> {
     let Some(detection) = current(desk) else { return spot_mark(desk).into_iter().collect() };
-    let chosen = chosen_target(desk).map(|t| place(t.u, t.v));
+    let chosen = chosen_target(desk).map(|t| t.id);
     let mark = |t: &Target| Mark {
         u: t.u,
         v: t.v,
@@ -79,7 +78,7 @@ fn target_marks(desk: Desk) -> Vec<Mark> {
         angle: t.angle,
         label: t.code.map(|code| code.to_string()),
         strong: t.code.is_some(),
-        style: if Some(place(t.u, t.v)) == chosen { Style::Selected } else { Style::Measured },
+        style: if Some(t.id) == chosen { Style::Selected } else { Style::Measured },
     };
     detection.targets.iter().map(mark).chain(spot_mark(desk)).collect()
 }
