@@ -46,6 +46,7 @@ test('documents from nowhere are refused with a place', () => {
     [(p) => delete p.observations[0].sigma, 'observations[0].sigma'],
     [(p) => (p.observations[0].photo = {}), 'observations[0].photo'],
     [(p) => (p.observations[0].enabled = 1), 'observations[0].enabled'],
+    [(p) => (p.observations[0].target = 1.5), 'observations[0].target'],
     [(p) => (p.datum.kind = 'loose'), 'datum.kind'],
   ];
   for (const [change, field] of cases) {
