@@ -50,6 +50,7 @@ pub fn observations(text: &str) -> Result<Vec<Observation>> {
                 _ => Sigma::Two([sigma(4)?, sigma(5)?]),
             },
             enabled: true,
+            target: None,
         });
     }
     if marks.is_empty() { Err(Error::Empty { what: Lack::Observations }) } else { Ok(marks) }
@@ -103,6 +104,7 @@ mod tests {
                 v: -2.0,
                 sigma: Sigma::Two([0.1, 0.2]),
                 enabled: true,
+                target: None,
             };
             let text = write(&[mark.clone(), mark.clone()]);
             assert_eq!(observations(&text).unwrap(), [mark.clone(), mark], "{text}");

@@ -123,9 +123,9 @@ impl Package {
     /// Targets and observations of files in which they had no numbers yet: an observation belonged to the target at exactly
     /// its place.
     fn number_targets(&mut self) {
+        self.targets.values_mut().for_each(Detection::number_targets);
         let mut at: HashMap<(&str, [u64; 2]), u32> = HashMap::new();
-        for (photo, detection) in &mut self.targets {
-            detection.number_targets();
+        for (photo, detection) in &self.targets {
             at.extend(detection.targets.iter().map(|t| ((photo.as_str(), [t.u.to_bits(), t.v.to_bits()]), t.id)));
         }
         for o in &mut self.project.observations {
