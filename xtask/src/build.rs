@@ -114,9 +114,14 @@ pub fn metadata() -> Outcome<Value> {
     serde_json::from_str(&text).map_err(|error| format!("cargo metadata: {error}"))
 }
 
+/// What native builds are asked for: always the same packages, since cargo compiles a crate anew for other features, and those
+/// follow from the packages that are asked for.
+pub const NATIVE: [&str; 6] =
+    ["--package", "sightline", "--package", "sightline-desk", "--package", "sightline-protocol"];
+
 /// Builds the examples of the engine natively, with what the tests are built with, and gives their folder.
 pub fn examples() -> Outcome<String> {
-    run(&mut cargo(&["build", "--package", "sightline", "--examples"]))?;
+    run(cargo(&["build", "--examples"]).args(NATIVE))?;
     Ok(format!("{}/debug/examples", target_directory()?))
 }
 
