@@ -1,5 +1,5 @@
 // The page in a headless browser: `cargo xtask test page` serves dist/ and names its address and the browser.
-import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
@@ -12,19 +12,28 @@ const FLAGS = [
 
 /**
  * A fresh browser on the page: nothing is left of other tests. What the page logs as an error or throws is in `errors`.
- * `cores` is what the page is told of the processor, which decides how many workers it starts.
+ * `cores` is what the page is told of the processor, which decides how many workers it starts. Closing fails where the page has asked
+ * for anything elsewhere, or done what its Content-Security-Policy forbids.
  */
-export async function open({ width = 1440, height = 900, cores, ...options } = {}) {
-  const { SIGHTLINE_URL: url, CHROMIUM: program } = process.env;
+export async function open({ width = 1440, height = 900, cores, address, ...options } = {}) {
+  const { SIGHTLINE_URL: served, CHROMIUM: program } = process.env;
+  const url = address ?? served;
   if (!url || !program) throw new Error('run these tests with: cargo xtask test page');
   const executablePath = program.includes('/') ? program : which(program);
   const profile = mkdtempSync(join(tmpdir(), 'sightline-'));
   const context = await chromium.launchPersistentContext(profile, { executablePath, headless: true, args: FLAGS, viewport: { width, height }, acceptDownloads: true, ...options });
+  const trespasses = [];
   const close = async () => {
     await context.close();
     rmSync(profile, { recursive: true, force: true });
+    if (trespasses.length) throw new Error(trespasses.join('\n'));
   };
   const errors = [];
+  context.on('request', (request) => {
+    const asked = request.url();
+    if (!asked.startsWith(new URL('./', url).href) && !/^(blob|data|about):/.test(asked)) trespasses.push(`a request to ${asked}`);
+  });
+  context.on('console', (message) => /Content.Security.Policy/i.test(message.text()) && trespasses.push(message.text()));
   if (cores) await context.addInitScript((n) => Object.defineProperty(Navigator.prototype, 'hardwareConcurrency', { get: () => n }), cores);
   const page = context.pages()[0] ?? (await context.newPage());
   page.on('pageerror', (error) => errors.push(String(error)));
@@ -36,7 +45,27 @@ export async function open({ width = 1440, height = 900, cores, ...options } = {
     await close();
     throw error;
   }
-  return { page, context, errors, url, close };
+  return { page, context, errors, url, profile, close };
+}
+
+/** Kills what draws the pages of a browser, as the system does when memory runs out: nothing in the page gets another word. */
+export function killRenderers(profile) {
+  const processes = new Map();
+  for (const pid of readdirSync('/proc').filter((name) => /^\d+$/.test(name))) {
+    try {
+      const parent = Number(/^\d+ \(.*\) \S (\d+)/s.exec(readFileSync(`/proc/${pid}/stat`, 'utf8'))[1]);
+      processes.set(Number(pid), { parent, command: readFileSync(`/proc/${pid}/cmdline`, 'utf8') });
+    } catch {
+      // It has ended meanwhile.
+    }
+  }
+  const ours = (pid) => {
+    for (let at = processes.get(pid); at; at = processes.get(at.parent)) if (at.command.includes(profile)) return true;
+    return false;
+  };
+  const killed = [...processes].filter(([pid, { command }]) => command.includes('--type=renderer') && ours(pid)).map(([pid]) => pid);
+  for (const pid of killed) process.kill(pid, 'SIGKILL');
+  return killed.length;
 }
 
 /** Where a program lies on the path. */

@@ -16,7 +16,8 @@ sightline.initSync({ module: readFileSync(fileURLToPath(new URL('../pkg/sightlin
 async function saved(cores, button, work) {
   const { page, errors, close } = await open({ cores });
   let workers = 0;
-  page.on('worker', () => (workers = Math.max(workers, page.workers().length)));
+  const engines = () => page.workers().filter((worker) => worker.url().endsWith('/worker.js')).length;
+  page.on('worker', () => (workers = Math.max(workers, engines())));
   try {
     await work(page);
     const given = await downloads(page, 1, () => page.getByRole('button', { name: button, exact: true }).click());

@@ -80,34 +80,3 @@ test('photos, marks and control dropped together go where they belong', { skip: 
     await close();
   }
 });
-
-test('opening over work that is not saved asks', { timeout: 600_000 }, async () => {
-  const { page, errors, close } = await open({ width: 1366, height: 768 });
-  const empty = scratch('other.json', JSON.stringify({ format: 'sightline', version: 1, name: 'Other' }));
-  try {
-    // A sample that nobody has worked on is no work.
-    await sample(page);
-    await drop(page, [empty]);
-    await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Other');
-    await go(page, 'control');
-    await page.fill('[name=unit]', 'm');
-    await page.press('[name=unit]', 'Enter');
-    await page.click('.mark');
-    await page.click('.sample');
-    await page.waitForSelector('.asking');
-    assert.match(await page.textContent('.asking'), /Other has changes that are not saved/);
-    await page.keyboard.press('Escape');
-    assert.equal(await page.locator('.asking').count(), 0);
-    await idle(page);
-    assert.equal(await page.inputValue('.project-name'), 'Other');
-    await drop(page, [scratch('third.json', JSON.stringify({ format: 'sightline', version: 1, name: 'Third' }))]);
-    await page.locator('.asking').getByRole('button', { name: 'Open without saving' }).click();
-    await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Third');
-    // What went can be got back.
-    await page.keyboard.press('Control+z');
-    assert.equal(await page.inputValue('.project-name'), 'Other');
-    assert.deepEqual(errors, []);
-  } finally {
-    await close();
-  }
-});

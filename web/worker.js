@@ -1,5 +1,20 @@
 // A worker of the page: it runs the engine, whose compiled module the page posts to it.
 const crashed = (reason) => postMessage({ crashed: String(reason) });
 addEventListener("unhandledrejection", (event) => crashed(event.reason));
-const start = async ({ data }) => (await import("./sightline-worker.js")).default({ module_or_path: data.module });
+
+/** Holds a lock as long as this worker lives: the page gets it when it is gone, however that came. */
+const hold = (name) =>
+  new Promise((done) => {
+    const held = () => {
+      postMessage({ held: name });
+      done();
+      return new Promise(() => {});
+    };
+    navigator.locks ? navigator.locks.request(name, held).catch(done) : done();
+  });
+
+const start = async ({ data }) => {
+  await hold(data.life);
+  await (await import("./sightline-worker.js")).default({ module_or_path: data.module });
+};
 addEventListener("message", (event) => start(event).catch(crashed), { once: true });

@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use sightline::detect::{detect, measure_all, measure_at};
+use sightline::detect::{detect, detect_photo, measure_all, measure_at, measure_in_photo};
 use sightline::detection::{Channel, Codes, DetectOptions, Method, PolarityChoice, Target};
 use sightline::image::{GreyView, SamplesView};
 
@@ -47,11 +47,18 @@ fuzz_target!(|data: &[u8]| {
     let (head, rest) = data.split_at(data.len().min(16));
     let options = options(head);
     let at = |i: usize| head.get(i).copied().unwrap_or(0);
-    if let Ok(grey) = sightline::decode::grey(rest, options.channel)
-        && let Ok(view) = grey.view()
-        && view.width() * view.height() < 1 << 22
+    // as the page does it: what of a damaged file is whole is measured
+    if let Ok(photo) = sightline::decode::photo(rest, options.channel)
+        && photo.grey.width * photo.grey.height < 1 << 22
     {
-        measure(&view, &options, [at(14), at(15)]);
+        let [u, v] = [(at(14), photo.grey.width), (at(15), photo.grey.height)]
+            .map(|(place, size)| f64::from(place) / 255.0 * size as f64);
+        if let Ok(found) = detect_photo(&photo, &options) {
+            check(&found.targets);
+        }
+        if let Ok(Some(target)) = measure_in_photo(&photo, u, v, &options) {
+            check(&[target]);
+        }
     }
     // the bytes themselves, in 8 and in 16 bits
     let width = 1 + usize::from(at(13));

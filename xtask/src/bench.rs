@@ -1,13 +1,14 @@
-//! `cargo xtask bench`: what is measured of the engine, as wasm in Node on one thread.
+//! `cargo xtask bench`: what is measured of the engine, as wasm in Node on one thread, and how often the page may be killed.
 
 use crate::install;
 use crate::process::{cargo, program, run};
-use crate::{Outcome, build};
+use crate::{Outcome, build, suites};
 
 /// A part: its name on the command line and how it runs.
 type Part = (&'static str, fn() -> Outcome);
 
-const PARTS: [Part; 3] = [("detect", detect), ("border", || script("border")), ("growth", || script("growth"))];
+const PARTS: [Part; 4] =
+    [("detect", detect), ("border", || script("border")), ("growth", || script("growth")), ("field", suites::field)];
 
 /// `bench [part ...]`.
 pub fn command(names: &[String]) -> Outcome {

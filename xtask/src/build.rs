@@ -9,7 +9,7 @@ use wasm_bindgen_cli_support::Bindgen;
 
 use crate::install::{self, TARGET};
 use crate::process::{cargo, output, root, run};
-use crate::{Outcome, page};
+use crate::{Outcome, offline, page};
 
 /// How the page is built.
 #[derive(Clone, Copy, PartialEq)]
@@ -74,6 +74,8 @@ fn assemble_dist(profile: Profile) -> Outcome {
     bindings(profile, "sightline-desk", &folder, page::MODULE, false)?;
     bindings(profile, "sightline-worker", &folder, page::WORKER, false)?;
     page::assemble(&root(), &folder)?;
+    offline::icons(&folder)?;
+    offline::seal(&folder)?;
     report("dist", &folder.join(format!("{}_bg.wasm", page::MODULE)));
     report("dist", &folder.join(format!("{}_bg.wasm", page::WORKER)));
     Ok(())

@@ -4,9 +4,11 @@ mod bench;
 mod build;
 mod check;
 mod install;
+mod offline;
 mod page;
 mod process;
 mod serve;
+mod single;
 mod suites;
 
 use std::process::ExitCode;
@@ -17,9 +19,12 @@ type Outcome<T = ()> = Result<T, String>;
 const USAGE: &str = "\
 cargo xtask <command>
   serve [--port N]     build, serve the page on loopback and print the address (port 8080, or the next free one)
-  build                leave the page in dist/ and the engine with its JavaScript face in pkg/
+  build [--single-file]
+                       leave the page in dist/ and the engine with its JavaScript face in pkg/; with --single-file also
+                       dist/sightline.html, the whole page in one file that opens from a disk
   test [suite ...]     run everything, or only the suites named: native wasm face types page
-  bench [part ...]     measure the engine as wasm in Node, or only the parts named: detect border growth
+  bench [part ...]     measure the engine as wasm in Node, or only the parts named: detect border growth;
+                       field kills the page 200 times while it works
   check                licences of the dependency tree, invariants of the code, the code map; works offline";
 
 fn main() -> ExitCode {
@@ -37,10 +42,16 @@ fn run(arguments: &[String]) -> Outcome {
     let Some((command, rest)) = arguments.split_first() else { return Err(USAGE.into()) };
     match command.as_str() {
         "serve" => serve::command(rest),
-        "build" => {
-            none_of(rest)?;
-            build::all()
-        }
+        "build" => match rest {
+            [flag] if flag == "--single-file" => {
+                build::all()?;
+                single::write_to(&process::root().join("dist"))
+            }
+            _ => {
+                none_of(rest)?;
+                build::all()
+            }
+        },
         "test" => suites::command(rest),
         "bench" => bench::command(rest),
         "check" => {

@@ -75,16 +75,15 @@ fn place(root: &Path, dist: &Path, asset: &Asset) -> Outcome<String> {
         "rust" if asset.kind.as_deref() == Some("worker") => Ok(String::new()),
         "rust" => Ok(format!(
             "<link rel=\"modulepreload\" href=\"{MODULE}.js\">\
-             <link rel=\"preload\" href=\"{MODULE}_bg.wasm\" as=\"fetch\" type=\"application/wasm\" crossorigin>\n\
-             <script type=\"module\">import start from './{MODULE}.js'; await start({{ module_or_path: './{MODULE}_bg.wasm' }});</script>"
+             <link rel=\"preload\" href=\"{MODULE}_bg.wasm\" as=\"fetch\" type=\"application/wasm\" crossorigin>"
         )),
         "css" => {
             copy(&source, &folder.join(name))?;
             Ok(format!("<link rel=\"stylesheet\" href=\"{name}\">"))
         }
-        "icon" => {
+        "icon" | "manifest" => {
             copy(&source, &folder.join(name))?;
-            Ok(format!("<link rel=\"icon\" href=\"{name}\">"))
+            Ok(format!("<link rel=\"{}\" href=\"{name}\">", asset.rel))
         }
         "inline" => {
             let text = read(&source)?;

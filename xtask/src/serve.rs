@@ -8,6 +8,7 @@ use std::path::{Component, Path, PathBuf};
 use crate::Outcome;
 use crate::build::{self, Profile};
 use crate::process::root;
+use crate::single;
 
 /// `serve [--port N]`.
 pub fn command(arguments: &[String]) -> Outcome {
@@ -19,6 +20,7 @@ pub fn command(arguments: &[String]) -> Outcome {
         _ => return Err("serve [--port N]".into()),
     };
     build::dist(Profile::Serve)?;
+    single::write_to(&root().join("dist"))?;
     let listener = match port {
         Some(port) => listen(port)?,
         None => (8080..8100).find_map(|port| listen(port).ok()).map_or_else(|| listen(0), Ok)?,
@@ -109,7 +111,8 @@ fn file(folder: &Path, address: &str) -> Option<(File, &'static str)> {
         "html" => "text/html; charset=utf-8",
         "js" | "mjs" => "text/javascript; charset=utf-8",
         "css" => "text/css; charset=utf-8",
-        "json" | "webmanifest" => "application/json",
+        "json" => "application/json",
+        "webmanifest" => "application/manifest+json",
         "wasm" => "application/wasm",
         "svg" => "image/svg+xml",
         "png" => "image/png",

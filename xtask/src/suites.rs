@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use std::time::Instant;
 
 use crate::install::{self, TARGET};
-use crate::process::{cargo, program, root, watch};
-use crate::{Outcome, build, serve};
+use crate::process::{cargo, program, root, run, watch};
+use crate::{Outcome, build, serve, single};
 
 /// Tests counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -109,8 +109,20 @@ fn browser(products: &Products) -> Outcome<Count> {
     let chromium = install::chromium()?;
     // The page's numbers are compared with those that Node has.
     products.build()?;
+    single::write_to(&root().join("dist"))?;
     let address = serve::background(root().join("dist"))?;
     node_tests("e2e", &[("SIGHTLINE_URL", &address), ("CHROMIUM", &chromium)])
+}
+
+/// The page killed 200 times, for `cargo xtask bench field`; the page's tests do it a few times.
+pub fn field() -> Outcome {
+    install::packages()?;
+    let chromium = install::chromium()?;
+    build::all()?;
+    let address = serve::background(root().join("dist"))?;
+    let mut command = program("node", &["--test", "--test-reporter=spec", "e2e/kills.test.mjs"]);
+    command.envs([("SIGHTLINE_URL", address.as_str()), ("CHROMIUM", &chromium), ("SIGHTLINE_KILLS", "200")]);
+    run(&mut command)
 }
 
 /// The `*.test.mjs` of a folder under Node's own test runner.

@@ -119,6 +119,11 @@ pub fn to_text<M: Serialize>(message: &M) -> String {
     serde_json::to_value(message).and_then(|value| serde_json::to_string(&value)).unwrap_or_default()
 }
 
+/// What has every name once, as text: in its own order, without the way by a value.
+pub fn to_plain_text<M: Serialize>(message: &M) -> String {
+    serde_json::to_string(message).unwrap_or_default()
+}
+
 /// A message from its text.
 ///
 /// # Errors

@@ -32,6 +32,18 @@ impl Blob {
         self.0.size() == 0.0
     }
 
+    pub fn size(&self) -> f64 {
+        self.0.size()
+    }
+
+    pub(super) fn of(blob: web_sys::Blob) -> Self {
+        Self(blob)
+    }
+
+    pub(super) fn inner(&self) -> &web_sys::Blob {
+        &self.0
+    }
+
     pub(super) fn as_js(&self) -> JsValue {
         self.0.clone().into()
     }
@@ -45,6 +57,13 @@ fn listed(files: Option<FileList>) -> Vec<NamedFile> {
         .collect();
     all.sort_by(|a, b| a.name.cmp(&b.name));
     all
+}
+
+/// The files of a JavaScript array.
+pub(super) fn of_array(files: &JsValue) -> Vec<NamedFile> {
+    let Some(files) = files.dyn_ref::<Array>() else { return Vec::new() };
+    let files = files.iter().filter_map(|file| file.dyn_into::<web_sys::File>().ok());
+    files.map(|file| NamedFile { name: file.name(), content: Blob(file.into()) }).collect()
 }
 
 /// The files dropped or pasted with an event, in the order of their names.

@@ -5,4 +5,5 @@ pub mod event;
 pub mod file;
 pub mod page;
 pub mod picture;
+pub mod storage;
 pub mod worker;

@@ -1,16 +1,27 @@
 //! The page itself: where the program runs, language and theme of the document, preferences, address, clipboard.
 
 use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::JsFuture;
 use web_sys::{HtmlElement, Window};
 
 fn window() -> Option<Window> {
     web_sys::window()
 }
 
-/// A number of workers that leaves the machine usable.
-pub fn worker_count() -> usize {
-    let cores = window().map_or(2.0, |w| w.navigator().hardware_concurrency());
-    (cores as usize).clamp(1, 8)
+/// A number of workers that leaves the machine usable, each of them busy with a photo of so many pixels.
+pub fn worker_count(pixels: f64) -> usize {
+    let Some(navigator) = window().map(|w| w.navigator()) else { return 1 };
+    // Browsers that do not say are taken for a plain laptop.
+    let gigabytes = js_sys::Reflect::get(&navigator, &"deviceMemory".into()).ok().and_then(|m| m.as_f64());
+    workers_for(navigator.hardware_concurrency(), gigabytes.unwrap_or(4.0), pixels)
+}
+
+/// Processors less those that memory has no room for: a worker has its module and its heap, the file, its luma and what detection
+/// takes of it, about five bytes a pixel; a quarter of the memory, and never more than 0.9 GB, is for all of them.
+fn workers_for(cores: f64, gigabytes: f64, pixels: f64) -> usize {
+    let room = (gigabytes * 0.25e9).min(0.9e9);
+    let each = 40e6 + 5.0 * pixels;
+    (cores.min(room / each) as usize).clamp(1, 8)
 }
 
 /// Sets an attribute of the root element (`lang`, `data-theme`).
@@ -68,6 +79,16 @@ pub fn after(milliseconds: i32, work: impl FnOnce() + 'static) {
     }
 }
 
+/// Waits so many milliseconds.
+pub async fn pause(milliseconds: i32) {
+    let waited = js_sys::Promise::new(&mut |resolve, _| {
+        after(milliseconds, move || {
+            let _ = resolve.call0(&JsValue::UNDEFINED);
+        });
+    });
+    let _ = JsFuture::from(waited).await;
+}
+
 /// Puts text on the clipboard.
 pub fn copy(text: &str) {
     if let Some(window) = window() {
@@ -110,4 +131,112 @@ pub fn report_panics() {
 pub fn scroll_state(frame: &HtmlElement, row: &str) -> (f64, f64, Option<f64>) {
     let row = frame.query_selector(row).ok().flatten().map(|r| r.get_bounding_client_rect().height());
     (f64::from(frame.scroll_top()), f64::from(frame.client_height()), row.filter(|h| *h > 0.0))
+}
+
+/// A name that no other has.
+pub fn unique_name() -> String {
+    let part = || format!("{:08x}", (js_sys::Math::random() * 4_294_967_296.0) as u32);
+    format!("{:x}-{}{}", now() as u64, part(), part())
+}
+
+/// Whether the browser believes that there is no network.
+pub fn is_offline() -> bool {
+    window().is_some_and(|w| !w.navigator().on_line())
+}
+
+/// Calls `on_change` when the network comes or goes.
+pub fn listen_to_network(on_change: impl Fn() + 'static) {
+    let listener = Closure::<dyn FnMut()>::new(on_change).into_js_value();
+    if let Some(window) = window() {
+        for name in ["online", "offline"] {
+            let _ = window.add_event_listener_with_callback(name, listener.unchecked_ref());
+        }
+    }
+}
+
+/// What the page's start (`web/start.js`) has to say.
+pub enum Told {
+    /// A new build is here, and waits to be agreed to.
+    Update,
+    /// The installed page was opened with files.
+    Files(Vec<super::file::NamedFile>),
+}
+
+/// Calls `on_told` for what the start has said before, and for what it will say.
+pub fn listen_to_start(on_told: impl Fn(Told) + 'static) {
+    let listener = Closure::<dyn FnMut()>::new(move || {
+        let told = js_sys::Reflect::get(&js_sys::global(), &"sightlineTold".into()).unwrap_or_default();
+        let Ok(told) = told.dyn_into::<js_sys::Array>() else { return };
+        while told.length() > 0 {
+            let next = told.shift();
+            let field = |name: &str| js_sys::Reflect::get(&next, &name.into()).unwrap_or_default();
+            match field("word").as_string().as_deref() {
+                Some("update") => on_told(Told::Update),
+                Some("files") => on_told(Told::Files(super::file::of_array(&field("detail")))),
+                _ => {}
+            }
+        }
+    })
+    .into_js_value();
+    let listener: js_sys::Function = listener.unchecked_into();
+    if let Some(window) = window() {
+        let _ = window.add_event_listener_with_callback("sightline", &listener);
+        let _ = listener.call0(&JsValue::UNDEFINED);
+    }
+}
+
+/// Agrees to the new build: the page reloads with it.
+pub fn take_update() {
+    if let (Some(window), Ok(event)) = (window(), web_sys::Event::new("sightline-update")) {
+        let _ = window.dispatch_event(&event);
+    }
+}
+
+/// A moment as this browser writes dates: the time where it is of today, else the day.
+pub fn moment(milliseconds: f64, language: &str) -> String {
+    let (date, now) = (js_sys::Date::new(&milliseconds.into()), js_sys::Date::new_0());
+    let day = |d: &js_sys::Date| (d.get_full_year(), d.get_month(), d.get_date());
+    if day(&date) == day(&now) {
+        return format!("{:02}:{:02}", date.get_hours(), date.get_minutes());
+    }
+    let options = js_sys::Object::new();
+    for (name, value) in [("day", "numeric"), ("month", "short")] {
+        let _ = js_sys::Reflect::set(&options, &name.into(), &value.into());
+    }
+    String::from(date.to_locale_date_string(language, &options))
+}
+
+/// Bytes of this origin in the browser's storage: used, and in all. None where it does not say.
+pub async fn space() -> Option<(f64, f64)> {
+    let storage = storage_manager()?;
+    let estimate = JsFuture::from(storage.estimate().ok()?).await.ok()?;
+    let value = |name: &str| js_sys::Reflect::get(&estimate, &name.into()).ok()?.as_f64();
+    Some((value("usage")?, value("quota")?))
+}
+
+/// Asks that what is stored here is kept when space runs short; whether it is.
+pub async fn ask_to_persist() -> bool {
+    let asked = async { JsFuture::from(storage_manager()?.persist().ok()?).await.ok()?.as_bool() };
+    asked.await.unwrap_or(false)
+}
+
+/// Absent where the page does not come from a secure origin.
+fn storage_manager() -> Option<web_sys::StorageManager> {
+    let navigator = window()?.navigator();
+    let storage = js_sys::Reflect::get(&navigator, &"storage".into()).ok()?;
+    storage.dyn_into().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn workers_follow_memory_and_the_size_of_photos() {
+        assert_eq!(workers_for(16.0, 8.0, 2e6), 8);
+        assert_eq!(workers_for(8.0, 8.0, 24e6), 5);
+        assert_eq!(workers_for(8.0, 2.0, 24e6), 3);
+        assert_eq!(workers_for(8.0, 0.5, 100e6), 1);
+        assert_eq!(workers_for(2.0, 8.0, 24e6), 2);
+    }
 }

@@ -6,6 +6,7 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{ImageBitmap, ImageData};
 
+use super::file::Blob;
 use super::worker::{Bytes, describe};
 
 /// A picture that a canvas can draw.
@@ -28,5 +29,15 @@ impl Picture {
         let promise = make().map_err(|e| describe(&e))?;
         let bitmap = JsFuture::from(promise).await.map_err(|e| describe(&e))?;
         Ok(Self { bitmap: bitmap.unchecked_into(), width, height })
+    }
+
+    /// From a file that the page itself wrote; never for measuring.
+    pub async fn from_blob(blob: &Blob) -> Result<Self, String> {
+        let made = web_sys::window().ok_or(JsValue::from("no window"));
+        let promise = made.and_then(|window| window.create_image_bitmap_with_blob(blob.inner()));
+        let promise = promise.map_err(|e| describe(&e))?;
+        let bitmap = JsFuture::from(promise).await.map_err(|e| describe(&e))?.unchecked_into::<ImageBitmap>();
+        let (width, height) = (bitmap.width(), bitmap.height());
+        Ok(Self { bitmap, width, height })
     }
 }

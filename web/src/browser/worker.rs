@@ -1,6 +1,6 @@
 //! The page's end of a worker: it is started with the engine's compiled module and gets requests; it answers.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use js_sys::{Array, Object, Promise, Reflect, Uint8Array, WebAssembly};
@@ -36,21 +36,33 @@ pub struct Worker {
     inner: web_sys::Worker,
     _on_message: Closure<dyn FnMut(MessageEvent)>,
     _on_error: Closure<dyn FnMut(ErrorEvent)>,
+    /// Whether nobody has ended it yet.
+    wanted: Rc<Cell<bool>>,
 }
 
 impl Worker {
     /// Starts a worker that runs the engine's module.
     pub fn start(on_message: impl FnMut(Message) + 'static) -> Result<Self, String> {
-        let inner = spawn().map_err(|e| describe(&e))?;
+        let inner = start_script("worker.js").map_err(|e| describe(&e))?;
         let listener = Rc::new(RefCell::new(on_message));
-        let (for_errors, for_the_module) = (listener.clone(), listener.clone());
+        let (for_errors, for_the_module, for_its_end) = (listener.clone(), listener.clone(), listener.clone());
+        let wanted = Rc::new(Cell::new(true));
+        let still_wanted = wanted.clone();
         let on_message = Closure::new(move |event: MessageEvent| {
+            if let Some(life) = field(&event.data(), "held").as_string() {
+                let (listener, wanted) = (for_its_end.clone(), still_wanted.clone());
+                when_free(&life, move || {
+                    if wanted.get() {
+                        (listener.borrow_mut())(Message::Crashed("it ended without a word".into()));
+                    }
+                });
+            }
             if let Some(message) = read_message(&event.data()) {
                 (listener.borrow_mut())(message);
             }
         });
         let on_error = Closure::new(move |event: ErrorEvent| {
-            (for_errors.borrow_mut())(Message::Crashed(event.message()));
+            (for_errors.borrow_mut())(Message::Crashed(error_words(&event)));
         });
         inner.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
         inner.set_onerror(Some(on_error.as_ref().unchecked_ref()));
@@ -60,6 +72,7 @@ impl Worker {
                 Ok(module) => {
                     let start = Object::new();
                     set(&start, "module", &module);
+                    set(&start, "life", &format!("sightline worker {}", super::page::unique_name()).into());
                     worker.post_message(&start)
                 }
                 Err(error) => {
@@ -71,7 +84,7 @@ impl Worker {
                 (for_the_module.borrow_mut())(Message::Crashed(describe(&error)));
             }
         });
-        Ok(Self { inner, _on_message: on_message, _on_error: on_error })
+        Ok(Self { inner, _on_message: on_message, _on_error: on_error, wanted })
     }
 
     /// Sends a request with the files it works on; the worker reads them itself.
@@ -84,22 +97,39 @@ impl Worker {
 
     /// Ends it at once, whatever it is doing.
     pub fn terminate(&self) {
+        self.wanted.set(false);
         self.inner.set_onmessage(None);
         self.inner.set_onerror(None);
         self.inner.terminate();
     }
 }
 
-/// The single-file build has no worker.js beside it and leaves the address of its own in `sightlineWorker`.
-fn spawn() -> Result<web_sys::Worker, JsValue> {
-    match Reflect::get(&js_sys::global(), &"sightlineWorker".into())?.as_string() {
-        Some(url) => web_sys::Worker::new(&url),
-        None => {
-            let options = WorkerOptions::new();
-            options.set_type(WorkerType::Module);
-            web_sys::Worker::new_with_options("worker.js", &options)
-        }
+/// Calls `work` when a lock that another holds is free: its holder has ended.
+fn when_free(lock: &str, work: impl FnOnce() + 'static) {
+    let locks = field(&field(&js_sys::global(), "navigator"), "locks");
+    let Ok(request) = field(&locks, "request").dyn_into::<js_sys::Function>() else { return };
+    let _ = request.call2(&locks, &lock.into(), &Closure::once_into_js(work));
+}
+
+/// Where a file of the page lies: beside it, or inside it where all is one file, which leaves addresses in `sightlineFiles`.
+fn located(name: &str) -> String {
+    inside(name).unwrap_or_else(|| name.to_owned())
+}
+
+fn inside(name: &str) -> Option<String> {
+    let files = field(&js_sys::global(), "sightlineFiles");
+    if files.is_undefined() { None } else { field(&files, name).as_string() }
+}
+
+/// Starts a script of the page as a worker.
+pub(super) fn start_script(name: &str) -> Result<web_sys::Worker, JsValue> {
+    // A page from a disk may start no modules.
+    if let Some(address) = inside(name) {
+        return web_sys::Worker::new(&address);
     }
+    let options = WorkerOptions::new();
+    options.set_type(WorkerType::Module);
+    web_sys::Worker::new_with_options(name, &options)
 }
 
 /// The engine's module in dist/, beside its glue of the same name.
@@ -121,7 +151,8 @@ fn forget_engine() {
 }
 
 async fn compile() -> Result<JsValue, JsValue> {
-    let fetched = || web_sys::window().ok_or(JsValue::from("no window")).map(|window| window.fetch_with_str(MODULE));
+    let fetched =
+        || web_sys::window().ok_or(JsValue::from("no window")).map(|window| window.fetch_with_str(&located(MODULE)));
     match JsFuture::from(WebAssembly::compile_streaming(&fetched()?)).await {
         Ok(module) => Ok(module),
         // Hosts that do not know the type of wasm files: compiled from its bytes.
@@ -137,19 +168,28 @@ async fn compile() -> Result<JsValue, JsValue> {
 }
 
 fn read_message(data: &JsValue) -> Option<Message> {
-    let field = |name: &str| Reflect::get(data, &name.into()).ok();
-    if let Some(reason) = field("crashed").and_then(|v| v.as_string()) {
+    if let Some(reason) = field(data, "crashed").as_string() {
         return Some(Message::Crashed(reason));
     }
-    if field("ready").is_some_and(|ready| ready.is_truthy()) {
+    if field(data, "ready").is_truthy() {
         return Some(Message::Ready);
     }
-    let body = field("body")?.as_string()?;
-    let bytes = Array::from(&field("bytes")?).iter().map(|b| Bytes(b.unchecked_into())).collect();
+    let body = field(data, "body").as_string()?;
+    let bytes = Array::from(&field(data, "bytes")).iter().map(|b| Bytes(b.unchecked_into())).collect();
     Some(Message::Said(body, bytes))
 }
 
-fn set(object: &Object, name: &str, value: &JsValue) {
+/// Words of an error of a worker: there are none where its script could not be fetched.
+pub(super) fn error_words(event: &ErrorEvent) -> String {
+    field(event, "message").as_string().unwrap_or_default()
+}
+
+/// A field of an object; undefined where there is none.
+pub(super) fn field(object: &JsValue, name: &str) -> JsValue {
+    Reflect::get(object, &name.into()).unwrap_or_default()
+}
+
+pub(super) fn set(object: &Object, name: &str, value: &JsValue) {
     // Setting a field of a fresh plain object cannot fail.
     let _ = Reflect::set(object, &name.into(), value);
 }

@@ -176,6 +176,48 @@ declare! { desk {
     found_by_orientation: "unknown: found";
     not_a_number(typed): "\"{typed}\" is no number: type one such as -0.0034.";
 
+    // What this browser keeps
+    recent_projects: "Recent projects";
+    on_this_computer: "on this computer, as they were left";
+    project: "project";
+    column_photos: "photos";
+    column_points: "points";
+    column_changed: "changed";
+    open_now: "open";
+    without_name: "Project without a name";
+    go_on: "Go on";
+    go_on_with(name): "Go on with {name}";
+    more_with(name): "More for {name}";
+    rename_project: "Rename";
+    duplicate: "Duplicate";
+    download: "Download with photos";
+    delete_project: "Delete";
+    copy_of(name): "{name} (copy)";
+    deleted(name): "{name} was deleted.";
+    writing: "saving…";
+    not_written: "not saved: see below";
+    following: "reads along, open elsewhere";
+    copying_photos(n): "copying photos, {n} left";
+    open_elsewhere: "This project is open in another window. What is done there is seen here; to work here, take it over.";
+    take_over: "Take over";
+    reads_along: "This window only reads along: take the project over to change it.";
+    other_is_kept(name): "{name} is kept on this computer; the start page has it.";
+    held_elsewhere: "The project is open in another window: rename it there.";
+    keeps_nothing: "This browser keeps nothing here. Save the project before you close the page.";
+    storage_full: "The storage of this computer is full: the last changes are in this page only. Save the project as a file, or delete projects you no longer need.";
+    not_kept(detail): "The last changes could not be stored and are in this page only ({detail}). Save the project as a file.";
+    photos_not_copied(n, detail):
+        "{n} {n:photo is|photos are} not copied into the browser's storage ({detail}). They are needed again when the project is reopened, unless it is saved with photos.";
+    kept_unreadable(detail): "What is stored could not be read ({detail}). Nothing of it was deleted.";
+    kept_by_newer(version): "A newer version of Sightline stored this project (format {version}). Reload the page to get that version.";
+    storage_cleared(n): "The browser has cleared its storage: {n} {n:project is|projects are} gone from this list. Open them from their saved files.";
+    space_used(used, all): "{used} of {all} used";
+    lasts: "kept when space runs short";
+    may_be_cleared: "the browser may clear it when space runs short";
+    no_network: "No network. Everything on this page works without it.";
+    update_ready: "A new version of Sightline is here. Projects stay as they are.";
+    take_update: "Reload with it";
+
     // Identities
     identities: "Identities";
     identities_sentence(named, points, single):

@@ -170,6 +170,48 @@ translate! { Korean desk {
     found_by_orientation: "미상: 자동 추정";
     not_a_number(typed): "\"{typed}\"{typed:은|는} 수가 아닙니다. -0.0034와 같이 입력하십시오.";
 
+    // What this browser keeps
+    recent_projects: "최근 프로젝트";
+    on_this_computer: "이 컴퓨터에 마지막 상태로 보관";
+    project: "프로젝트";
+    column_photos: "사진";
+    column_points: "점";
+    column_changed: "변경";
+    open_now: "열려 있음";
+    without_name: "이름 없는 프로젝트";
+    go_on: "계속";
+    go_on_with(name): "계속: {name}";
+    more_with(name): "더 보기: {name}";
+    rename_project: "이름 바꾸기";
+    duplicate: "복제";
+    download: "사진과 함께 내려받기";
+    delete_project: "삭제";
+    copy_of(name): "{name} (사본)";
+    deleted(name): "{name}{name:을|를} 삭제했습니다.";
+    writing: "저장 중…";
+    not_written: "저장 안 됨: 아래 참고";
+    following: "다른 창에서 열림, 읽기만";
+    copying_photos(n): "사진 복사 중, {n}매 남음";
+    open_elsewhere: "이 프로젝트는 다른 창에서 열려 있습니다. 그 창의 작업이 여기에 보입니다. 여기서 작업하려면 넘겨받으십시오.";
+    take_over: "넘겨받기";
+    reads_along: "이 창은 읽기만 합니다. 고치려면 프로젝트를 넘겨받으십시오.";
+    other_is_kept(name): "{name}{name:은|는} 이 컴퓨터에 보관되어 있으며 시작 화면에 있습니다.";
+    held_elsewhere: "프로젝트가 다른 창에서 열려 있습니다. 그 창에서 이름을 바꾸십시오.";
+    keeps_nothing: "이 브라우저는 아무것도 보관하지 않습니다. 페이지를 닫기 전에 프로젝트를 저장하십시오.";
+    storage_full: "이 컴퓨터의 저장 공간이 가득 찼습니다. 마지막 변경은 이 페이지에만 있습니다. 프로젝트를 파일로 저장하거나 필요 없는 프로젝트를 삭제하십시오.";
+    not_kept(detail): "마지막 변경을 보관하지 못해 이 페이지에만 있습니다({detail}). 프로젝트를 파일로 저장하십시오.";
+    photos_not_copied(n, detail):
+        "사진 {n}매를 브라우저 저장소에 복사하지 못했습니다({detail}). 사진과 함께 저장하지 않으면 프로젝트를 다시 열 때 사진이 필요합니다.";
+    kept_unreadable(detail): "보관된 내용을 읽지 못했습니다({detail}). 삭제된 것은 없습니다.";
+    kept_by_newer(version): "더 새로운 Sightline에서 보관한 프로젝트입니다(형식 {version}). 페이지를 새로 고쳐 그 버전을 받으십시오.";
+    storage_cleared(n): "브라우저가 저장소를 비웠습니다. 프로젝트 {n}개가 목록에서 사라졌습니다. 저장한 파일에서 여십시오.";
+    space_used(used, all): "{all} 중 {used} 사용";
+    lasts: "공간이 부족해도 보관됨";
+    may_be_cleared: "공간이 부족하면 브라우저가 비울 수 있음";
+    no_network: "네트워크 없음. 이 페이지의 모든 기능은 그대로 작동합니다.";
+    update_ready: "Sightline의 새 버전이 준비되었습니다. 프로젝트는 그대로 남습니다.";
+    take_update: "새 버전으로 다시 읽기";
+
     // Identities
     identities: "점 식별";
     identities_sentence(named, points, single): "점 {points}개에 관측 {named}개. 한 사진에만 있는 점 {single}개.";

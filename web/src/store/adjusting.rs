@@ -24,10 +24,16 @@ impl Desk {
         self.iterations.set(Vec::new());
         self.adjust_failure.set(None);
         self.go(Step::Adjust);
-        let batch = self.start_job(JobKind::Adjusting, options.max_iterations, || {});
+        let most = options.max_iterations;
+        let batch = self.start_job(JobKind::Adjusting, most, || {});
         let task = Adjust { project: (*input).clone(), options };
         let on_outcome = move |outcome: pool::Outcome<Adjust>| match outcome {
-            pool::Outcome::Progress(Adjusting::Oriented(notes)) => self.notes.set(notes),
+            pool::Outcome::Progress(Adjusting::Oriented(notes)) => {
+                // Where a worker was lost, another begins again.
+                self.iterations.set(Vec::new());
+                self.count_job(batch, 0, most);
+                self.notes.set(notes);
+            }
             pool::Outcome::Progress(Adjusting::Iteration(iteration)) => {
                 self.iterations.update(|all: &mut Vec<Iteration>| all.push(iteration));
                 self.step_job(batch);

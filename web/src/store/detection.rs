@@ -6,7 +6,7 @@ use sightline_protocol::Detect;
 
 use super::document::Change;
 use super::pool::{Failure, Outcome};
-use super::{Desk, JobKind, Until};
+use super::{Desk, JobKind, PhotoFile, Until};
 use crate::edit::targets;
 use crate::i18n::{errors, text};
 
@@ -22,6 +22,8 @@ impl Desk {
             self.warn(|| text::no_photo_files().to_owned());
             return;
         }
+        let largest = self.files.with_untracked(|files| files.values().map(PhotoFile::pixels).fold(0.0, f64::max));
+        self.pool.with_value(|pool| pool.expect_pixels(largest));
         // One change for all photos; each photo's targets join it as they come.
         self.change(Change::TargetsDetected, |_| {});
         let batch = self.start_job(JobKind::Detecting, photos.len(), || {});

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use sightline::adjustment::{AdjustOptions, Adjustment};
 use sightline::detection::Detection;
 use sightline::matching::Doubtful;
@@ -76,8 +77,8 @@ impl Document {
     }
 }
 
-/// What a change did, for saying so.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// What a change did, for saying so; kept with the project, so its names stay.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Change {
     PhotosAdded(usize),
     PhotoRemoved(String),
@@ -110,41 +111,75 @@ pub enum Change {
     Opened,
 }
 
+/// A change and the state on its other side.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// Tells entries apart.
+    pub serial: u64,
+    pub change: Change,
+    /// None while it is still in the browser's storage.
+    pub state: Option<Document>,
+}
+
 /// States before and after the present one.
 #[derive(Clone, Debug, Default)]
 pub struct History {
-    past: Vec<(Change, Document)>,
-    future: Vec<(Change, Document)>,
+    pub past: Vec<Entry>,
+    pub future: Vec<Entry>,
+    serials: u64,
 }
 
 impl History {
+    /// Changes whose states are still in the browser's storage.
+    pub fn stored(past: Vec<Change>, future: Vec<Change>) -> Self {
+        let mut history = Self::default();
+        history.past = past.into_iter().map(|change| history.entry(change, None)).collect();
+        history.future = future.into_iter().map(|change| history.entry(change, None)).collect();
+        history
+    }
+
+    fn entry(&mut self, change: Change, state: Option<Document>) -> Entry {
+        self.serials += 1;
+        Entry { serial: self.serials, change, state }
+    }
+
+    /// Puts a state in its place that has come from the browser's storage.
+    pub fn fill(&mut self, serial: u64, state: Document) {
+        if let Some(entry) = self.past.iter_mut().chain(&mut self.future).find(|entry| entry.serial == serial) {
+            entry.state = Some(state);
+        }
+    }
+
     /// Remembers the state before a change.
     pub fn push(&mut self, change: Change, before: Document) {
-        self.past.push((change, before));
+        let entry = self.entry(change, Some(before));
+        self.past.push(entry);
         self.future.clear();
     }
 
     /// The state before the last change; `present` can be got back.
     pub fn undo(&mut self, present: Document) -> Option<Document> {
-        let (change, state) = self.past.pop()?;
-        self.future.push((change, present));
-        Some(state)
+        let entry = self.past.pop_if(|entry| entry.state.is_some())?;
+        let back = self.entry(entry.change, Some(present));
+        self.future.push(back);
+        entry.state
     }
 
     pub fn redo(&mut self, present: Document) -> Option<Document> {
-        let (change, state) = self.future.pop()?;
-        self.past.push((change, present));
-        Some(state)
+        let entry = self.future.pop_if(|entry| entry.state.is_some())?;
+        let back = self.entry(entry.change, Some(present));
+        self.past.push(back);
+        entry.state
     }
 
     /// What would be undone.
     pub fn last(&self) -> Option<&Change> {
-        self.past.last().map(|(change, _)| change)
+        self.past.last().filter(|entry| entry.state.is_some()).map(|entry| &entry.change)
     }
 
     /// What would be done again.
     pub fn next(&self) -> Option<&Change> {
-        self.future.last().map(|(change, _)| change)
+        self.future.last().filter(|entry| entry.state.is_some()).map(|entry| &entry.change)
     }
 
     /// What has changed since the present result was found, latest last.
@@ -157,8 +192,8 @@ impl History {
             .past
             .iter()
             .rev()
-            .take_while(|(_, state)| same(&state.result, &present.result))
-            .map(|(change, _)| change.clone())
+            .take_while(|entry| entry.state.as_ref().is_some_and(|state| same(&state.result, &present.result)))
+            .map(|entry| entry.change.clone())
             .collect();
         changes.reverse();
         changes

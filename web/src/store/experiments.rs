@@ -8,7 +8,7 @@ use sightline::experiments::{Experiment, ExperimentOptions, NAMES};
 use sightline::project::Project;
 use sightline_protocol::{ExportExperiment, RunExperiment};
 
-use super::document::{Change, Document};
+use super::document::Document;
 use super::plates::Plates;
 use super::pool::Outcome;
 use super::{Desk, JobKind, Selection, Step};
@@ -106,7 +106,7 @@ impl Desk {
         self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
     }
 
-    /// Puts the experiment's project on the desk; the one that was open can be got back by undoing.
+    /// Puts the experiment's project on the desk.
     pub fn open_experiment(self) {
         let name = self.experiments.shown.get_untracked();
         let Some(ran) = untrack(|| self.experiments.current(name)) else { return };
@@ -119,7 +119,7 @@ impl Desk {
     /// Opens a project of the engine's making.
     pub(super) fn put_project(self, project: Project) {
         let first = project.photos.first().map(|photo| photo.id.clone());
-        self.change(Change::Opened, |document| *document = Document { project: project.into(), ..Document::default() });
+        self.begin(Document { project: project.into(), ..Document::default() });
         self.is_pristine();
         self.iterations.set(Vec::new());
         self.forget_waiting();

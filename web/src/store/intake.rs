@@ -26,7 +26,7 @@ type Taken = Rc<RefCell<Vec<(usize, Result<PhotoFile, Problem>)>>>;
 impl Desk {
     /// Takes files wherever they were dropped.
     pub fn take(self, files: Vec<NamedFile>) {
-        if files.is_empty() {
+        if files.is_empty() || !self.may_change() {
             return;
         }
         if self.job.with_untracked(Option::is_some) {
@@ -65,6 +65,9 @@ impl Desk {
         files.sort_by(|a, b| natural(&a.name, &b.name));
         let taken = Taken::default();
         let keep = taken.clone();
+        // As many pixels as a JPEG has at most in so many bytes.
+        let largest = files.iter().map(|file| 3.0 * file.content.size()).fold(2e6, f64::max);
+        self.pool.with_value(|pool| pool.expect_pixels(largest));
         let batch = self.start_job(JobKind::Opening, files.len(), move || self.add_photos(&keep));
         for (place, file) in files.into_iter().enumerate() {
             let (taken, texts) = (taken.clone(), texts.clone());

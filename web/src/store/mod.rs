@@ -8,11 +8,14 @@ pub mod document;
 pub mod experiments;
 pub mod identity;
 pub mod intake;
+pub mod keeping;
+pub mod kept;
 pub mod pictures;
 pub mod plates;
 pub mod pool;
 pub mod sample;
 pub mod saving;
+pub mod shelf;
 pub mod texts;
 
 use std::collections::BTreeMap;
@@ -34,7 +37,9 @@ use control::Pasted;
 use document::{Change, Document, History};
 use experiments::Experiments;
 use identity::Marks;
+use keeping::{Keeper, Kept};
 use pool::{Batch, Pool};
+use shelf::Shelved;
 
 /// The steps of the path, and the page before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -236,6 +241,22 @@ pub struct Desk {
     pristine: RwSignal<Option<Document>>,
     /// When the document was saved last, and as what.
     pub saved: RwSignal<Option<(String, Document)>>,
+    /// How it stands with the document in the browser's storage.
+    pub kept: RwSignal<Kept>,
+    keeper: StoredValue<Keeper, LocalStorage>,
+    /// Photos whose copy is still to be made.
+    pub to_copy: RwSignal<usize>,
+    /// Bytes used and in all, where the browser says so.
+    pub space: RwSignal<Option<(f64, f64)>>,
+    /// Whether the browser keeps what is stored when space runs short.
+    pub persistent: RwSignal<bool>,
+    /// The projects on this computer, once they are read.
+    pub shelf: RwSignal<Option<Vec<Shelved>>, LocalStorage>,
+    /// Whether a new build of the page waits to be agreed to.
+    pub update: RwSignal<bool>,
+    pub offline: RwSignal<bool>,
+    /// The project that was deleted last, while it can be got back: its key and its name.
+    pub deleted: RwSignal<Option<(String, String)>>,
     pub job: RwSignal<Option<Job>, LocalStorage>,
     pub pool: StoredValue<Pool, LocalStorage>,
     pub experiments: Experiments,
@@ -273,6 +294,15 @@ impl Desk {
             asking: RwSignal::new_local(None),
             pristine: RwSignal::default(),
             saved: RwSignal::default(),
+            kept: RwSignal::default(),
+            keeper: StoredValue::new_local(Keeper::default()),
+            to_copy: RwSignal::default(),
+            space: RwSignal::default(),
+            persistent: RwSignal::default(),
+            shelf: RwSignal::new_local(None),
+            update: RwSignal::default(),
+            offline: RwSignal::new(page::is_offline()),
+            deleted: RwSignal::default(),
             job: RwSignal::new_local(None),
             pool: StoredValue::new_local(Pool::default()),
             experiments: Experiments::default(),
@@ -281,6 +311,9 @@ impl Desk {
 
     /// Changes the document so that it can be undone.
     pub fn change(self, change: Change, edit: impl FnOnce(&mut Document)) {
+        if !self.may_change() {
+            return;
+        }
         let before = self.document.get_untracked();
         self.history.update(|history| history.push(change, before));
         self.document.update(edit);
@@ -288,10 +321,15 @@ impl Desk {
 
     /// Goes on with the change before: the two are undone together.
     pub fn change_on(self, edit: impl FnOnce(&mut Document)) {
-        self.document.update(edit);
+        if self.may_change() {
+            self.document.update(edit);
+        }
     }
 
     pub fn undo(self) {
+        if !self.may_change() {
+            return;
+        }
         let present = self.document.get_untracked();
         if let Some(state) = self.history.try_update(|h| h.undo(present)).flatten() {
             self.document.set(state);
@@ -299,6 +337,9 @@ impl Desk {
     }
 
     pub fn redo(self) {
+        if !self.may_change() {
+            return;
+        }
         let present = self.document.get_untracked();
         if let Some(state) = self.history.try_update(|h| h.redo(present)).flatten() {
             self.document.set(state);

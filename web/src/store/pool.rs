@@ -46,6 +46,9 @@ struct Understood {
 /// Understands what is said to a task.
 type Listener = Rc<dyn Fn(Heard) -> Understood>;
 
+/// Of a photo whose size is not known yet.
+const USUAL_PIXELS: f64 = 24e6;
+
 /// Tasks that are cancelled together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Batch(usize);
@@ -55,6 +58,8 @@ struct Job {
     request: Request,
     files: Vec<Blob>,
     listener: Listener,
+    /// Whether a worker was lost with it already.
+    tried: bool,
 }
 
 struct Slot {
@@ -63,11 +68,20 @@ struct Slot {
     task: Option<Job>,
 }
 
-#[derive(Default)]
 struct Inner {
     queue: VecDeque<Job>,
     slots: BTreeMap<usize, Slot>,
     next: usize,
+    /// Of the largest photo.
+    pixels: f64,
+    /// Workers at once: fewer when one was lost, for memory is the likely reason.
+    most: usize,
+}
+
+impl Default for Inner {
+    fn default() -> Self {
+        Self { queue: VecDeque::new(), slots: BTreeMap::new(), next: 0, pixels: USUAL_PIXELS, most: usize::MAX }
+    }
 }
 
 /// Handle of the pool.
@@ -107,6 +121,11 @@ impl Pool {
         batch
     }
 
+    /// Takes note of the largest photo: the number of workers follows it.
+    pub fn expect_pixels(&self, pixels: f64) {
+        self.0.borrow_mut().pixels = pixels;
+    }
+
     /// Ends everything of a batch at once; nothing more is heard of it.
     pub fn cancel(&self, batch: Batch) {
         let ended = {
@@ -139,7 +158,8 @@ impl Pool {
                 continue;
             }
             let starting = inner.slots.values().filter(|slot| !slot.ready).count();
-            if inner.slots.len() >= page::worker_count() || starting >= inner.queue.len() {
+            let most = page::worker_count(inner.pixels).min(inner.most);
+            if inner.slots.len() >= most || starting >= inner.queue.len() {
                 break;
             }
             inner.next += 1;
@@ -186,10 +206,15 @@ impl Pool {
             }
             Message::Crashed(detail) => {
                 let Some(mut slot) = self.0.borrow_mut().slots.remove(&id) else { return };
-                let task = slot.task.take();
+                let mut task = slot.task.take();
                 // A worker that cannot even start would be started again and again.
                 let waiting = if slot.ready { None } else { self.0.borrow_mut().queue.pop_front() };
                 discard(vec![slot]);
+                if let Some(again) = task.take_if(|task| !task.tried) {
+                    let mut inner = self.0.borrow_mut();
+                    inner.most = (inner.slots.len() + 1).div_ceil(2);
+                    inner.queue.push_front(Job { tried: true, ..again });
+                }
                 for task in task.into_iter().chain(waiting) {
                     ((task.listener)(Heard::Lost(detail.clone())).tell)();
                 }
@@ -244,5 +269,5 @@ fn job<T: Task + Into<Request>>(
         let on_outcome = on_outcome.clone();
         Understood { ends, tell: Box::new(move || (on_outcome.borrow_mut())(outcome)) }
     };
-    Job { batch, request: task.into(), files, listener: Rc::new(listener) }
+    Job { batch, request: task.into(), files, listener: Rc::new(listener), tried: false }
 }

@@ -10,7 +10,7 @@ use sightline::detection::Detection;
 use sightline::project::Project;
 use sightline_protocol::{Opened, Sample, SamplePhoto, SamplePhotoMade};
 
-use super::document::{Change, Document};
+use super::document::Document;
 use super::intake::SMALL_SIDE;
 use super::pool::Outcome;
 use super::{Desk, JobKind, PhotoFile, Selection, Step};
@@ -23,7 +23,7 @@ use crate::i18n::text;
 type Made = Rc<RefCell<BTreeMap<String, (PhotoFile, Detection)>>>;
 
 impl Desk {
-    /// Opens the sample project and adjusts it; the project that was open can be got back by undoing.
+    /// Opens the sample project and adjusts it.
     pub fn open_sample(self) {
         self.over_unsaved(move || self.plan_sample());
     }
@@ -50,6 +50,8 @@ impl Desk {
         let made = Made::default();
         let (keep, kept) = (made.clone(), project.clone());
         let names = project.photos.iter().map(|photo| photo.file.clone()).collect::<Vec<_>>();
+        let pixels = project.cameras.iter().map(|c| f64::from(c.width) * f64::from(c.height)).fold(0.0, f64::max);
+        self.pool.with_value(|pool| pool.expect_pixels(pixels));
         let batch = self.start_job(JobKind::Sample, names.len(), move || self.put_sample(&kept, &keep));
         for name in names {
             let (made, project) = (made.clone(), project.clone());
@@ -94,7 +96,7 @@ impl Desk {
                 targets::take_detection(&mut document, &id, detection.clone());
             }
         }
-        self.change(Change::Opened, |d| *d = document);
+        self.begin(document);
         self.forget_waiting();
         self.files.set(files);
         self.selection.set(Selection { photo: first, ..Selection::default() });

@@ -8,7 +8,7 @@ use leptos::prelude::*;
 use sightline::detection::Detection;
 use sightline_protocol::{Content, Export, Pack, Unpack, Unpacked};
 
-use super::document::{self, Change, Document};
+use super::document::{self, Document};
 use super::pool::{Failure, Outcome};
 use super::{Asking, Desk, JobKind, Step, Until};
 use crate::browser::file::{self, Blob, NamedFile};
@@ -84,7 +84,8 @@ impl Desk {
 
     /// Does what puts another project in the place of this one; where something of it is not saved, it asks first.
     pub(super) fn over_unsaved(self, then: impl Fn() + 'static) {
-        if !untrack(|| self.unsaved_work()) {
+        // What is kept is not lost by opening another.
+        if self.keeps() || !untrack(|| self.unsaved_work()) {
             return then();
         }
         let then: Rc<dyn Fn()> = Rc::new(then);
@@ -147,9 +148,7 @@ impl Desk {
         });
         let detections = content.targets.into_iter().map(|(photo, d)| (photo, Arc::new(d))).collect::<BTreeMap<_, _>>();
         let first = project.photos.first().map(|p| p.id.clone());
-        self.change(Change::Opened, |document| {
-            *document = Document { project, detections: Arc::new(detections), options, result, ..Document::default() };
-        });
+        self.begin(Document { project, detections: Arc::new(detections), options, result, ..Document::default() });
         self.iterations.set(
             self.document
                 .with_untracked(|d| d.result.as_ref().map(|r| r.adjustment.iterations.clone()).unwrap_or_default()),
@@ -222,20 +221,26 @@ impl Desk {
 
     /// Whether something would be lost with the page.
     pub fn unsaved(self) -> bool {
+        if self.keeps() {
+            return self.unwritten();
+        }
         self.document.with(|d| !d.is_empty() && self.saved.with(|s| s.as_ref().is_none_or(|(_, saved)| !d.same(saved))))
     }
 
     pub fn rename_project(self, name: &str) {
-        let name = name.trim().to_owned();
-        // A name is no input of the adjustment: the result stays current, and belongs to the renamed project.
-        self.document.update(|d| {
-            let current = d.current().cloned();
-            d.project_mut().name = name;
-            if let Some(result) = current {
-                let input = d.project.clone();
-                d.result = Some(Arc::new(document::Outcome { input, ..(*result).clone() }));
-            }
-        });
+        if self.may_change() {
+            self.document.update(|d| rename(d, name.trim().to_owned()));
+        }
+    }
+}
+
+/// A name is no input of the adjustment: the result stays current, and belongs to the renamed project.
+pub(super) fn rename(document: &mut Document, name: String) {
+    let current = document.current().cloned();
+    document.project_mut().name = name;
+    if let Some(result) = current {
+        let input = document.project.clone();
+        document.result = Some(Arc::new(document::Outcome { input, ..(*result).clone() }));
     }
 }
 

@@ -15,6 +15,7 @@ pub mod photo_view;
 pub mod photos;
 pub mod picking;
 pub mod plots;
+pub mod projects;
 pub mod results;
 pub mod shell;
 pub mod start;

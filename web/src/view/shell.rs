@@ -5,6 +5,7 @@ use leptos::prelude::*;
 
 use super::changes::change_words;
 use super::icon::{Glyph, Icon};
+use super::projects::{StorageLine, StorageNotices, kept_words};
 use super::results::control_figure;
 use super::{adjust, control, experiments, identities, keys, photos, results, start, targets};
 use crate::browser::{event, file, page};
@@ -25,6 +26,12 @@ pub fn App() -> impl IntoView {
         page::set_title(&if name.is_empty() { "Sightline".to_owned() } else { format!("{name} – Sightline") });
     });
     Effect::new(move || desk.drop_stale_notice());
+    desk.start_keeping();
+    page::listen_to_network(move || desk.offline.set(page::is_offline()));
+    page::listen_to_start(move |told| match told {
+        page::Told::Update => desk.update.set(true),
+        page::Told::Files(files) => desk.take(files),
+    });
     event::listen_to_hash(move || desk.follow_hash());
     event::listen_to_keys(move |key| keys::handle(desk, &key));
     match untrack(|| from_hash(&page::hash())) {
@@ -69,12 +76,7 @@ fn Head() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let name = Memo::new(move |_| desk.document.with(|d| d.project.name.clone()));
     let empty = Memo::new(move |_| desk.document.with(Document::is_empty));
-    let state = move || match desk.saved.get() {
-        _ if empty.get() => text::no_project().to_owned(),
-        Some((clock, _)) if desk.unsaved() => text::changed_after(clock),
-        Some((clock, _)) => text::saved_at(clock),
-        None => text::not_saved().to_owned(),
-    };
+    let state = move || if empty.get() { text::no_project().to_owned() } else { kept_words(desk) };
     let theme = move || match desk.theme.get() {
         Theme::Light => text::theme_light(),
         Theme::Dark => text::theme_dark(),
@@ -310,6 +312,7 @@ fn NoticeBar() -> impl IntoView {
                 }
             })}
         </div>
+        <StorageNotices/>
         {move || desk.asking.get().map(|asking| view! { <Question asking/> })}
     }
 }
@@ -377,6 +380,7 @@ fn Foot() -> impl IntoView {
                 </Show>
             </div>
             <div class="read-out">{place}</div>
+            <StorageLine/>
             <div class="units">
                 {move || text::units(desk.document.with(|d| d.project.unit.clone()))}
             </div>

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 
 use super::icon::{Glyph, Icon};
 use super::photos::Problems;
+use super::projects::Projects;
 use super::shell::{Progress, choose_photos, choose_project};
 use crate::i18n::{experiments as words, text};
 use crate::store::Desk;
@@ -12,7 +13,7 @@ use crate::store::Desk;
 pub fn Start() -> impl IntoView {
     let desk = expect_context::<Desk>();
     view! {
-        <main class="start">
+        <main class="start" class:with-shelf=move || desk.shelf.with(|all| all.as_ref().is_some_and(|all| !all.is_empty()))>
             <div class="drop-zone">
                 <div class="invitation">
                     <Glyph icon=Icon::Drop size=40/>
@@ -43,6 +44,7 @@ pub fn Start() -> impl IntoView {
                     <Glyph icon=Icon::Arrow/>
                 </button>
             </div>
+            <Projects/>
         </main>
     }
 }

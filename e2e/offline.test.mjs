@@ -1,0 +1,119 @@
+// Without a network: the server stops, the page goes on; a new build comes whole and when it is agreed to; one file does it from a disk.
+import assert from 'node:assert/strict';
+import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createHash } from 'node:crypto';
+import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
+import { extname, join } from 'node:path';
+import { test } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+
+import { open } from './browser.mjs';
+import { adjust, detect, downloads, drop, go, idle, photos, rows, sample, scratch, unzipped } from './desk.mjs';
+
+const dist = fileURLToPath(new URL('../dist', import.meta.url));
+const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.png': 'image/png', '.webmanifest': 'application/manifest+json' };
+
+/** A static host without special headers, with the page on a path of its own. */
+async function host(folder) {
+  const server = createServer((request, response) => {
+    const name = decodeURIComponent(new URL(request.url, 'http://host').pathname).replace(/^\/some\/where\//, '') || 'index.html';
+    const file = join(folder, name);
+    if (name.startsWith('/') || !existsSync(file)) return response.writeHead(404).end();
+    response.writeHead(200, { 'Content-Type': TYPES[extname(file)] ?? 'application/octet-stream' }).end(readFileSync(file));
+  });
+  await new Promise((done) => server.listen(0, '127.0.0.1', done));
+  const stop = () => new Promise((done) => (server.close(done), server.closeAllConnections()));
+  return { address: `http://127.0.0.1:${server.address().port}/some/where/`, stop };
+}
+
+const ready = (page) => page.evaluate(async () => Boolean((await navigator.serviceWorker.ready).active));
+
+/** From photos dropped to tables handed over, with the photos of the sample; gives the sigma0 it ends with. */
+async function fromDropToExport(page) {
+  await sample(page);
+  const wanted = await page.textContent('[data-result=sigma0]');
+  const saved = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+  const files = Object.entries(unzipped(Object.values(saved)[0])).filter(([name]) => name.startsWith('photos/'));
+  assert.equal(files.length, 8);
+  await page.click('.mark');
+  await page.reload();
+  await photos(page, files.map(([name, bytes]) => scratch(name.slice(7), bytes)));
+  await detect(page, {});
+  assert.ok(Number((await page.textContent('[data-step=targets] .figure')).replace(/\D/g, '')) > 300);
+  // What control the sample has comes from its own tables.
+  await drop(page, [scratch(...Object.entries(saved)[0])]);
+  await page.waitForSelector('[data-result=sigma0]', { timeout: 60_000 });
+  await idle(page);
+  await adjust(page);
+  assert.equal(await page.textContent('[data-result=sigma0]'), wanted);
+  const tables = await downloads(page, 1, () => page.getByRole('button', { name: /tables|CSV/i }).first().click());
+  assert.ok(Object.values(tables).some((content) => rows(content).length > 0));
+}
+
+test('with the server stopped the page reloads and works from drop to export', { timeout: 600_000 }, async () => {
+  const { address, stop } = await host(dist);
+  const { page, errors, close } = await open({ address, width: 1366, height: 768 });
+  try {
+    assert.ok(await ready(page));
+    await stop();
+    await page.reload();
+    await page.waitForSelector('.sample');
+    await fromDropToExport(page);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('a new build comes whole, when it is agreed to, or not at all', { timeout: 300_000 }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), 'sightline-build-'));
+  cpSync(dist, folder, { recursive: true });
+  const { address, stop } = await host(folder);
+  const { page, close } = await open({ address });
+  const check = () => page.evaluate(async () => (await navigator.serviceWorker.getRegistration()).update().catch(() => {}));
+  const digest = (name) => createHash('sha256').update(readFileSync(join(folder, name))).digest('hex');
+  try {
+    assert.ok(await ready(page));
+    await page.reload();
+    await page.waitForSelector('.sample');
+    const script = readFileSync(join(folder, 'service.js'), 'utf8');
+    const [old, changed] = [digest('index.html'), readFileSync(join(folder, 'index.html'), 'utf8').replace('<title>Sightline', '<title>Sightline 2')];
+    const next = createHash('sha256').update(changed).digest('hex');
+    // The list of the new build is here, its page not yet.
+    writeFileSync(join(folder, 'service.js'), script.replace(old, next).replace(/const DIGEST = '../, "const DIGEST = '--"));
+    await check();
+    await page.waitForTimeout(2000);
+    assert.equal(await page.locator('.notice').count(), 0);
+    await page.reload();
+    await page.waitForSelector('.sample');
+    assert.ok(!(await page.content()).includes('<title>Sightline 2'));
+    // All of it.
+    writeFileSync(join(folder, 'index.html'), changed);
+    writeFileSync(join(folder, 'service.js'), script.replace(old, next).replace(/const DIGEST = '../, "const DIGEST = '++"));
+    await check();
+    await page.waitForSelector('.notice:has-text("new version")', { timeout: 30_000 });
+    const answered = await page.evaluate(async () => (await fetch('./index.html')).text());
+    assert.ok(!answered.includes('<title>Sightline 2'));
+    await Promise.all([page.waitForNavigation(), page.getByRole('button', { name: 'Reload with it' }).click()]);
+    await page.waitForSelector('.sample');
+    assert.ok((await page.evaluate(async () => (await fetch('./index.html')).text())).includes('<title>Sightline 2'));
+  } finally {
+    await close();
+    await stop();
+    rmSync(folder, { recursive: true, force: true });
+  }
+});
+
+test('one file does the same from a disk', { timeout: 600_000 }, async () => {
+  const address = pathToFileURL(join(dist, 'sightline.html')).href;
+  const { page, errors, close } = await open({ address, width: 1366, height: 768 });
+  try {
+    await page.waitForSelector('.sample');
+    await page.waitForFunction(() => document.querySelector('.foot .storage').textContent !== '');
+    await fromDropToExport(page);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});

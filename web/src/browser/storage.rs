@@ -1,0 +1,132 @@
+//! The page's end of the worker that keeps projects (`web/storage.js`): calls with texts, blobs and pictures beside them.
+
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use js_sys::{Array, Function, Object, Promise};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use sightline_protocol::{from_text, to_text};
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::JsFuture;
+use web_sys::{ErrorEvent, MessageEvent};
+
+use super::file::Blob;
+use super::picture::Picture;
+use super::worker::{describe, error_words, field, set, start_script};
+
+/// What goes along with a call or its answer.
+pub enum Extra {
+    Text(String),
+    Blob(Blob),
+    Picture(Picture),
+    /// What was asked for is not here.
+    Nothing,
+}
+
+/// Why a call gave nothing: the browser's name for it, and its words.
+#[derive(Clone, Debug)]
+pub struct Fault {
+    pub name: String,
+    pub detail: String,
+}
+
+type Waiting = Rc<RefCell<HashMap<u32, Function>>>;
+
+/// The worker that keeps projects.
+#[derive(Clone)]
+pub struct Storage {
+    worker: web_sys::Worker,
+    waiting: Waiting,
+    calls: Rc<Cell<u32>>,
+}
+
+impl Storage {
+    /// Starts it; `on_told` gets what it says without having been asked.
+    pub fn start(on_told: impl Fn(String) + 'static) -> Result<Self, String> {
+        let worker = start_script("storage.js").map_err(|e| describe(&e))?;
+        let waiting = Waiting::default();
+        let answers = waiting.clone();
+        let on_message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
+            let data = event.data();
+            if let Some(told) = field(&data, "told").as_string() {
+                return on_told(told);
+            }
+            let call = field(&data, "call").as_f64().unwrap_or_default() as u32;
+            let resolve = answers.borrow_mut().remove(&call);
+            if let Some(resolve) = resolve {
+                let _ = resolve.call1(&JsValue::UNDEFINED, &data);
+            }
+        });
+        let lost = waiting.clone();
+        let on_error = Closure::<dyn FnMut(ErrorEvent)>::new(move |event: ErrorEvent| {
+            for (_, resolve) in lost.take() {
+                let answer = Object::new();
+                set(&answer, "fault", &"Lost".into());
+                set(&answer, "text", &error_words(&event).into());
+                let _ = resolve.call1(&JsValue::UNDEFINED, &answer);
+            }
+        });
+        worker.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
+        worker.set_onerror(Some(on_error.as_ref().unchecked_ref()));
+        // It lives as long as the page.
+        on_message.forget();
+        on_error.forget();
+        Ok(Self { worker, waiting, calls: Rc::default() })
+    }
+
+    /// Calls it, and waits for the answer.
+    pub async fn call<A: DeserializeOwned>(
+        &self,
+        name: &str,
+        arguments: &impl Serialize,
+        extras: Vec<Extra>,
+    ) -> Result<(A, Vec<Extra>), Fault> {
+        let fault = |name: &str, detail: String| Fault { name: name.to_owned(), detail };
+        let call = self.calls.get();
+        self.calls.set(call + 1);
+        let answered = Promise::new(&mut |resolve, _| {
+            self.waiting.borrow_mut().insert(call, resolve);
+        });
+        let message = Object::new();
+        set(&message, "call", &call.into());
+        set(&message, "name", &name.into());
+        set(&message, "text", &to_text(arguments).into());
+        set(&message, "extras", &extras.iter().map(Extra::as_js).collect::<Array>());
+        self.worker.post_message(&message).map_err(|e| fault("Lost", describe(&e)))?;
+        let answer = JsFuture::from(answered).await.map_err(|e| fault("Lost", describe(&e)))?;
+        let text = field(&answer, "text").as_string().unwrap_or_default();
+        if let Some(name) = field(&answer, "fault").as_string() {
+            return Err(fault(&name, text));
+        }
+        let extras = Array::from(&field(&answer, "extras")).iter().map(Extra::from_js).collect();
+        Ok((from_text(&text).map_err(|detail| fault("DataError", detail))?, extras))
+    }
+}
+
+impl Extra {
+    fn as_js(&self) -> JsValue {
+        match self {
+            Self::Text(text) => text.into(),
+            Self::Blob(blob) => blob.as_js(),
+            Self::Picture(picture) => picture.bitmap.clone().into(),
+            Self::Nothing => JsValue::NULL,
+        }
+    }
+
+    fn from_js(value: JsValue) -> Self {
+        match value.dyn_into::<web_sys::Blob>() {
+            Ok(blob) => Self::Blob(Blob::of(blob)),
+            Err(value) => value.as_string().map_or(Self::Nothing, Self::Text),
+        }
+    }
+
+    pub fn text(self) -> Option<String> {
+        if let Self::Text(text) = self { Some(text) } else { None }
+    }
+
+    pub fn blob(self) -> Option<Blob> {
+        if let Self::Blob(blob) = self { Some(blob) } else { None }
+    }
+}

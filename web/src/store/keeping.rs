@@ -1,0 +1,640 @@
+//! Keeping the project: whatever changes goes to the browser's storage at once, photos after it.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
+use std::rc::Rc;
+
+use leptos::prelude::*;
+use leptos::task::spawn_local;
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+use sightline_protocol::to_text;
+
+use super::document::{Document, Entry, History};
+use super::kept::{Book, KeptFile, Part, State, replay};
+use super::{Desk, PhotoFile, Selection, Step, Until};
+use crate::browser::file::{Blob, NamedFile};
+use crate::browser::page;
+use crate::browser::picture::Picture;
+use crate::browser::storage::{Extra, Fault, Storage};
+use crate::i18n::text;
+
+/// Undoable states that are read ahead of being asked for.
+const AHEAD: usize = 20;
+
+/// How it stands with the project in the browser's storage.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Kept {
+    /// The storage has not answered yet.
+    #[default]
+    Starting,
+    /// This browser keeps nothing.
+    Nowhere,
+    /// Everything is written, the last of it at this time.
+    At(String),
+    /// Something is being written.
+    Writing,
+    /// It could not be written: the browser's name for why, and its words.
+    Failed(String, String),
+    /// Another window has the project; this one reads along.
+    Following,
+}
+
+/// What keeps the project.
+#[derive(Default)]
+pub struct Keeper {
+    storage: Option<Storage>,
+    /// Of the project that is open.
+    id: Option<String>,
+    book: Rc<RefCell<Book>>,
+    /// What is not written yet, in its order.
+    backlog: VecDeque<Append>,
+    sending: bool,
+    /// Photos that are kept, or that could not be.
+    photos: HashSet<String>,
+    copying: bool,
+    /// States of the history that are still in the storage, by their serials.
+    stored: HashMap<u64, State>,
+    reading: bool,
+}
+
+/// A project in the list.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Card {
+    pub name: String,
+    /// In milliseconds.
+    pub changed: f64,
+    pub photos: usize,
+    pub points: usize,
+    pub outcome: CardOutcome,
+    pub sigma0: Option<f64>,
+    pub step: String,
+}
+
+/// How far a project is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum CardOutcome {
+    None,
+    Passed,
+    Failed,
+    OutOfDate,
+}
+
+#[derive(Serialize)]
+struct Append {
+    id: String,
+    snapshot: bool,
+    note: String,
+    parts: Vec<(u64, String)>,
+    card: KeptCard,
+    #[serde(skip)]
+    texts: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct KeptCard {
+    #[serde(flatten)]
+    card: Card,
+    /// Of the photos, the one on the cover first.
+    keys: Vec<String>,
+}
+
+#[derive(Deserialize)]
+struct Opened {
+    notes: Vec<String>,
+    following: bool,
+    #[serde(rename = "nextPart")]
+    next_part: u64,
+}
+
+#[derive(Deserialize)]
+struct Copied {
+    missed: Vec<String>,
+    failure: Option<String>,
+}
+
+#[derive(Deserialize)]
+struct Started {
+    kind: String,
+}
+
+/// Of a call with nothing to say.
+#[derive(Serialize)]
+pub(super) struct Plain {}
+
+#[derive(Serialize)]
+struct Ids<'a> {
+    ids: &'a [u64],
+}
+
+#[derive(Serialize)]
+struct Keys<'a> {
+    keys: &'a [String],
+}
+
+/// A call that names a project.
+#[derive(Serialize)]
+pub(super) struct Of<'a> {
+    pub id: &'a str,
+}
+
+impl PhotoFile {
+    pub(super) fn pixels(&self) -> f64 {
+        f64::from(self.size[0]) * f64::from(self.size[1])
+    }
+
+    /// Names it in the storage, by what is in it.
+    fn key(&self) -> String {
+        format!("{:016x}-{}", self.digest, self.content.size())
+    }
+
+    fn kept(&self) -> KeptFile {
+        let Self { name, size, info, digest, .. } = self;
+        KeptFile { key: self.key(), name: name.clone(), size: *size, info: info.clone(), digest: *digest }
+    }
+}
+
+impl Desk {
+    /// Starts the storage, and keeps whatever changes from now on.
+    pub fn start_keeping(self) {
+        match Storage::start(move |told| self.hear_from_storage(&told)) {
+            Ok(storage) => spawn_local(async move {
+                match storage.call::<Started>("start", &Plain {}, Vec::new()).await {
+                    Ok((Started { kind }, _)) if kind != "none" => {
+                        self.keeper.update_value(|keeper| keeper.storage = Some(storage));
+                        self.kept.set(Kept::At(String::new()));
+                        self.keep_now();
+                        self.read_shelf();
+                    }
+                    _ => self.kept.set(Kept::Nowhere),
+                }
+            }),
+            Err(_) => self.kept.set(Kept::Nowhere),
+        }
+        Effect::new(move || {
+            self.document.track();
+            self.history.track();
+            self.files.track();
+            untrack(|| self.keep_now());
+        });
+    }
+
+    fn hear_from_storage(self, told: &str) {
+        let Some(id) = self.open_id() else { return };
+        match told {
+            "yielded" => self.kept.set(Kept::Following),
+            "changed" if self.follows() => spawn_local(async move {
+                self.read_again(&id).await;
+            }),
+            _ => {}
+        }
+    }
+
+    /// The project that is open, where the storage has it.
+    pub fn open_id(self) -> Option<String> {
+        self.keeper.with_value(|keeper| keeper.id.clone())
+    }
+
+    /// Whether another window has the project, and this one only reads along.
+    pub fn follows(self) -> bool {
+        self.kept.with_untracked(|kept| *kept == Kept::Following)
+    }
+
+    /// Whether everything that was done is in the storage or on its way there.
+    pub(super) fn keeps(self) -> bool {
+        self.kept.with_untracked(|kept| matches!(kept, Kept::At(_) | Kept::Writing | Kept::Following))
+    }
+
+    /// Refuses a change where another window has the project.
+    pub(super) fn may_change(self) -> bool {
+        if self.follows() {
+            self.say(true, Until::Sight, || text::reads_along().to_owned());
+            return false;
+        }
+        true
+    }
+
+    pub(super) fn storage(self) -> Option<Storage> {
+        self.keeper.with_value(|keeper| keeper.storage.clone())
+    }
+
+    /// Writes what has changed since the last time.
+    pub(super) fn keep_now(self) {
+        if self.storage().is_none() || self.follows() {
+            return;
+        }
+        let document = self.document.get_untracked();
+        if document.is_empty() {
+            return;
+        }
+        let files = self.files.with_untracked(|files| {
+            let of = |id: &String| document.project.photos.iter().any(|photo| photo.id == *id);
+            files
+                .iter()
+                .filter(|(id, _)| of(id))
+                .map(|(id, file)| (id.clone(), file.kept()))
+                .collect::<BTreeMap<_, _>>()
+        });
+        let step = self.step.get_untracked();
+        self.keeper.update_value(|keeper| {
+            let added = {
+                let mut book = keeper.book.borrow_mut();
+                let snapshot = book.is_new();
+                self.history.with_untracked(|h| book.note(&document, h, &files)).map(|added| (snapshot, added))
+            };
+            let Some((snapshot, (note, parts))) = added else { return };
+            if keeper.id.is_none() {
+                keeper.id = Some(page::unique_name());
+                spawn_local(async move {
+                    let persistent = page::ask_to_persist().await;
+                    self.persistent.set(persistent);
+                });
+            }
+            let id = keeper.id.clone().unwrap_or_default();
+            let (numbers, texts) = parts.into_iter().map(|Part { number, kind, text }| ((number, kind), text)).unzip();
+            let order = document.project.photos.iter();
+            let keys = order.filter_map(|photo| files.get(&photo.id)).map(|file| file.key.clone()).collect();
+            let card = KeptCard { card: card(&document, step), keys };
+            keeper.backlog.push_back(Append { id, snapshot, note: to_text(&note), parts: numbers, card, texts });
+        });
+        self.send_backlog();
+        self.copy_photos();
+        self.read_history();
+    }
+
+    fn send_backlog(self) {
+        let Some(storage) = self.storage() else { return };
+        if self.keeper.with_value(|keeper| keeper.sending || keeper.backlog.is_empty()) {
+            return;
+        }
+        self.keeper.update_value(|keeper| keeper.sending = true);
+        self.kept.set(Kept::Writing);
+        spawn_local(async move {
+            let mut outcome = Ok(());
+            while let Some(next) = self.keeper.try_update_value(|keeper| keeper.backlog.pop_front()).flatten() {
+                let extras = next.texts.iter().cloned().map(Extra::Text).collect();
+                if let Err(fault) = storage.call::<IgnoredAny>("append", &next, extras).await {
+                    self.keeper.update_value(|keeper| keeper.backlog.push_front(next));
+                    outcome = Err(fault);
+                    break;
+                }
+            }
+            self.keeper.update_value(|keeper| keeper.sending = false);
+            match outcome {
+                // Another window took the project over while this was on its way.
+                _ if self.follows() => self.keeper.update_value(|keeper| keeper.backlog.clear()),
+                Ok(()) => {
+                    self.kept.set(Kept::At(page::clock()));
+                    self.measure_space();
+                }
+                Err(Fault { name, detail }) => self.tell_unkept(name, detail),
+            }
+        });
+    }
+
+    /// What could not be written stays here, is tried again, and the person is told the way out.
+    fn tell_unkept(self, name: String, detail: String) {
+        let told = self.kept.with_untracked(|kept| matches!(kept, Kept::Failed(..)));
+        self.kept.set(Kept::Failed(name.clone(), detail.clone()));
+        if !told {
+            self.say(true, Until::NextWork, move || unkept_words(&name, &detail));
+        }
+        page::after(5000, move || self.send_backlog());
+    }
+
+    /// Waits until everything is written; false where something could not be.
+    async fn flushed(self) -> bool {
+        while self.keeper.with_value(|keeper| keeper.sending) {
+            page::pause(20).await;
+        }
+        self.keeper.with_value(|keeper| keeper.backlog.is_empty())
+    }
+
+    /// Whether something that was done is in this page alone.
+    pub(super) fn unwritten(self) -> bool {
+        self.keeper.with_value(|keeper| keeper.sending || !keeper.backlog.is_empty())
+    }
+
+    /// Copies photos that are not kept yet, one after the other; then works on the copies, which nobody can unplug.
+    fn copy_photos(self) {
+        let Some(storage) = self.storage() else { return };
+        if self.keeper.with_value(|keeper| keeper.copying) || self.next_to_copy().is_none() {
+            return;
+        }
+        self.keeper.update_value(|keeper| keeper.copying = true);
+        spawn_local(async move {
+            let (mut kept, mut missed, mut why) = (Vec::new(), 0, None);
+            while let Some((key, file)) = self.next_to_copy() {
+                self.to_copy.set(self.left_to_copy());
+                let extras = vec![Extra::Blob(file.content.clone()), Extra::Picture(file.small.clone())];
+                let asked = Keys { keys: std::slice::from_ref(&key) };
+                let (failed, failure) = match storage.call::<Copied>("keep", &asked, extras).await {
+                    Ok((Copied { missed, failure }, _)) => (!missed.is_empty(), failure),
+                    Err(fault) => (true, Some(fault.detail)),
+                };
+                missed += usize::from(failed);
+                why = why.or(failure);
+                self.keeper.update_value(|keeper| {
+                    keeper.photos.insert(key.clone());
+                });
+                if !failed {
+                    kept.push(key);
+                }
+            }
+            self.to_copy.set(0);
+            self.keeper.update_value(|keeper| keeper.copying = false);
+            if let Ok((_, copies)) = storage.call::<IgnoredAny>("photos", &Keys { keys: &kept }, Vec::new()).await {
+                let copies = copies.into_iter().step_by(2).map(Extra::blob);
+                let copies = kept.into_iter().zip(copies).filter_map(|(key, blob)| Some((key, blob?)));
+                let copies = copies.collect::<HashMap<String, Blob>>();
+                self.files.update(|files| {
+                    for file in files.values_mut() {
+                        if let Some(copy) = copies.get(&file.key()) {
+                            file.content = copy.clone();
+                        }
+                    }
+                });
+            }
+            if missed > 0 {
+                let why = why.unwrap_or_default();
+                self.say(true, Until::NextWork, move || text::photos_not_copied(missed, &why));
+            }
+            self.measure_space();
+        });
+    }
+
+    fn next_to_copy(self) -> Option<(String, PhotoFile)> {
+        self.files.with_untracked(|files| {
+            self.keeper.with_value(|keeper| {
+                let keyed = files.values().map(|file| (file.key(), file));
+                keyed.into_iter().find(|(key, _)| !keeper.photos.contains(key)).map(|(key, file)| (key, file.clone()))
+            })
+        })
+    }
+
+    fn left_to_copy(self) -> usize {
+        self.files.with_untracked(|files| {
+            self.keeper.with_value(|keeper| files.values().filter(|file| !keeper.photos.contains(&file.key())).count())
+        })
+    }
+
+    /// Puts another project in the place of this one, with a history of its own. Where nothing is kept the one before can be
+    /// got back by undoing.
+    pub(super) fn begin(self, document: Document) {
+        if !self.keeps() {
+            return self.change(super::document::Change::Opened, |d| *d = document);
+        }
+        self.keep_now();
+        let left = self.document.with_untracked(|d| (!d.is_empty()).then(|| d.project.name.clone()));
+        self.keeper.update_value(|keeper| {
+            keeper.id = None;
+            keeper.book = Rc::default();
+            keeper.stored.clear();
+        });
+        if self.follows() {
+            self.kept.set(Kept::At(page::clock()));
+        }
+        self.files.set(BTreeMap::new());
+        self.history.set(History::default());
+        self.document.set(document);
+        if let Some(name) = left.filter(|name| !name.is_empty()) {
+            self.say(false, Until::NextWork, move || text::other_is_kept(&name));
+        }
+    }
+
+    /// Opens a project of the list, as it was left.
+    pub fn open_kept(self, id: String, step: String) {
+        self.open_kept_then(id, step, |_| ());
+    }
+
+    pub(super) fn open_kept_then(self, id: String, step: String, then: fn(Self)) {
+        self.over_unsaved(move || {
+            self.keep_now();
+            let (id, step) = (id.clone(), step.clone());
+            spawn_local(async move {
+                if self.flushed().await && self.open_call("open", &id).await {
+                    let step = Step::ROW.into_iter().find(|s| s.name() == step).unwrap_or(Step::Photos);
+                    self.go(step);
+                    then(self);
+                }
+            });
+        });
+    }
+
+    /// Goes on in this window with what another one has.
+    pub fn take_over(self) {
+        let Some(id) = self.open_id() else { return };
+        spawn_local(async move {
+            self.open_call("take", &id).await;
+        });
+    }
+
+    async fn read_again(self, id: &str) {
+        self.open_call("open", id).await;
+    }
+
+    async fn open_call(self, call: &str, id: &str) -> bool {
+        let Some(storage) = self.storage() else { return false };
+        let restored = match storage.call::<Opened>(call, &Of { id }, Vec::new()).await {
+            Ok((opened, _)) => self.restore(&storage, id, opened).await,
+            Err(fault) => Err(fault),
+        };
+        match restored {
+            Ok(()) => true,
+            Err(fault) => {
+                self.say(true, Until::NextWork, move || match fault.name.as_str() {
+                    "VersionError" => text::kept_by_newer(&fault.detail),
+                    _ => text::kept_unreadable(format!("{}: {}", fault.name, fault.detail)),
+                });
+                false
+            }
+        }
+    }
+
+    async fn restore(self, storage: &Storage, id: &str, opened: Opened) -> Result<(), Fault> {
+        let mut replayed = replay(&opened.notes).map_err(data_fault)?;
+        let state = replayed.present.clone().ok_or_else(|| data_fault("no state".into()))?;
+        let changes = |stack: &[(super::document::Change, State)]| stack.iter().map(|(c, _)| c.clone()).collect();
+        let history = History::stored(changes(&replayed.past), changes(&replayed.future));
+        let book = Rc::new(RefCell::new(Book::of(&replayed, &history, opened.next_part)));
+        let mut document = read_document(storage, &book, &state).await?;
+        let files = read_files(storage, &book, replayed.files).await?;
+        if let Some(name) = replayed.name.take() {
+            super::saving::rename(&mut document, name);
+        }
+        let (mut here, mut without_picture) = (BTreeMap::new(), Vec::new());
+        for (photo, file) in files {
+            match file {
+                (file, Some(content), Some(small)) => {
+                    let KeptFile { name, size, info, digest, .. } = file;
+                    here.insert(photo, PhotoFile { name, content, size, info, small, digest });
+                }
+                (file, Some(content), None) => without_picture.push(NamedFile { name: file.name, content }),
+                (_, None, _) => {}
+            }
+        }
+        let same = self.open_id().as_deref() == Some(id);
+        let first = document.project.photos.first().map(|photo| photo.id.clone());
+        let entries = history.past.iter().chain(&history.future).map(|entry| entry.serial);
+        let states = replayed.past.into_iter().chain(replayed.future).map(|(_, state)| state);
+        let stored = entries.zip(states).collect();
+        self.keeper.update_value(|keeper| {
+            keeper.id = Some(id.to_owned());
+            keeper.book = book;
+            keeper.stored = stored;
+            keeper.backlog.clear();
+            keeper.photos.extend(here.values().map(PhotoFile::key));
+        });
+        self.kept.set(if opened.following { Kept::Following } else { Kept::At(page::clock()) });
+        self.history.set(history);
+        self.files.set(here);
+        self.iterations.set(document.result.as_ref().map(|r| r.adjustment.iterations.clone()).unwrap_or_default());
+        if !same {
+            self.forget_waiting();
+            self.selection.set(Selection { photo: first, ..Selection::default() });
+        }
+        self.document.set(document);
+        self.read_history();
+        if !without_picture.is_empty() {
+            self.take(without_picture);
+        }
+        Ok(())
+    }
+
+    /// Reads the states that may be undone or done again next.
+    fn read_history(self) {
+        let Some(storage) = self.storage() else { return };
+        let Some(serial) = self.next_to_read() else { return };
+        let begun = self.keeper.try_update_value(|keeper| {
+            if keeper.reading {
+                return None;
+            }
+            let state = keeper.stored.get(&serial).cloned()?;
+            keeper.reading = true;
+            Some((state, keeper.book.clone(), keeper.id.clone()))
+        });
+        let Some((state, book, id)) = begun.flatten() else { return };
+        spawn_local(async move {
+            let read = read_document(&storage, &book, &state).await;
+            self.keeper.update_value(|keeper| {
+                keeper.reading = false;
+                if keeper.id == id {
+                    keeper.stored.remove(&serial);
+                }
+            });
+            if let (true, Ok(document)) = (self.open_id() == id, read) {
+                self.history.update(|history| history.fill(serial, document));
+            }
+            self.read_history();
+        });
+    }
+
+    fn next_to_read(self) -> Option<u64> {
+        self.keeper.with_value(|keeper| {
+            if keeper.stored.is_empty() {
+                return None;
+            }
+            let next = |entries: &[Entry]| {
+                let ahead = entries.iter().rev().take(AHEAD);
+                ahead.filter(|e| e.state.is_none()).map(|e| e.serial).find(|serial| keeper.stored.contains_key(serial))
+            };
+            self.history.with_untracked(|history| next(&history.past).or_else(|| next(&history.future)))
+        })
+    }
+
+    /// Leaves no project open.
+    pub(super) fn put_away(self) {
+        self.keeper.update_value(|keeper| {
+            keeper.id = None;
+            keeper.book = Rc::default();
+            keeper.backlog.clear();
+            keeper.stored.clear();
+        });
+        self.forget_waiting();
+        self.files.set(BTreeMap::new());
+        self.history.set(History::default());
+        self.document.set(Document::default());
+        self.selection.set(Selection::default());
+    }
+
+    /// Asks the browser how much room there is.
+    pub(super) fn measure_space(self) {
+        spawn_local(async move { self.space.set(page::space().await) });
+    }
+}
+
+/// The sentence for what could not be written.
+pub fn unkept_words(name: &str, detail: &str) -> String {
+    if name == "QuotaExceededError" { text::storage_full().to_owned() } else { text::not_kept(detail) }
+}
+
+fn data_fault(detail: String) -> Fault {
+    Fault { name: "DataError".into(), detail }
+}
+
+type Texts = HashMap<u64, String>;
+
+async fn read_parts(storage: &Storage, numbers: Vec<u64>, into: &mut Texts) -> Result<(), Fault> {
+    if numbers.is_empty() {
+        return Ok(());
+    }
+    let (_, texts) = storage.call::<IgnoredAny>("parts", &Ids { ids: &numbers }, Vec::new()).await?;
+    into.extend(numbers.into_iter().zip(texts).filter_map(|(number, text)| Some((number, text.text()?))));
+    Ok(())
+}
+
+async fn read_document(storage: &Storage, book: &RefCell<Book>, state: &State) -> Result<Document, Fault> {
+    let mut texts = Texts::new();
+    let missing = book.borrow().missing(state);
+    read_parts(storage, missing, &mut texts).await?;
+    let missing = book.borrow().missing_of(state, &texts).map_err(data_fault)?;
+    read_parts(storage, missing, &mut texts).await?;
+    book.borrow_mut().document(state, &texts).map_err(data_fault)
+}
+
+type ReadFile = (KeptFile, Option<Blob>, Option<Picture>);
+
+async fn read_files(
+    storage: &Storage,
+    book: &RefCell<Book>,
+    number: Option<u64>,
+) -> Result<BTreeMap<String, ReadFile>, Fault> {
+    let Some(number) = number else { return Ok(BTreeMap::new()) };
+    let mut texts = Texts::new();
+    read_parts(storage, vec![number], &mut texts).await?;
+    let text = texts.remove(&number).unwrap_or_default();
+    let files = book.borrow_mut().files(number, &text).map_err(data_fault)?;
+    let keys = files.values().map(|file| file.key.clone()).collect::<Vec<_>>();
+    let (_, blobs) = storage.call::<IgnoredAny>("photos", &Keys { keys: &keys }, Vec::new()).await?;
+    let mut blobs = blobs.into_iter();
+    let mut all = BTreeMap::new();
+    for (photo, file) in files {
+        let (content, small) = (blobs.next().and_then(Extra::blob), blobs.next().and_then(Extra::blob));
+        let small = match small {
+            Some(small) => Picture::from_blob(&small).await.ok(),
+            None => None,
+        };
+        all.insert(photo, (file, content, small));
+    }
+    Ok(all)
+}
+
+fn card(document: &Document, step: Step) -> Card {
+    let current = document.current();
+    let passed = current.and_then(|r| r.adjustment.global_test.as_ref()).map(|test| test.passed);
+    let outcome = match passed {
+        _ if document.out_of_date() => CardOutcome::OutOfDate,
+        Some(true) => CardOutcome::Passed,
+        Some(false) => CardOutcome::Failed,
+        None => CardOutcome::None,
+    };
+    Card {
+        name: document.project.name.clone(),
+        changed: page::now(),
+        photos: document.project.photos.len(),
+        points: document.project.points.len(),
+        outcome,
+        sigma0: current.and_then(|r| r.adjustment.sigma0),
+        step: step.name().to_owned(),
+    }
+}

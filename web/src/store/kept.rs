@@ -1,0 +1,464 @@
+//! How a project is kept: its parts (texts by number, each written once) and a note of what has changed of its history and
+//! its present state. Notes, read in their order, give the history and the state back.
+
+use std::collections::{BTreeMap, HashMap};
+use std::sync::{Arc, Weak};
+
+use serde::{Deserialize, Serialize};
+use sightline::adjustment::{AdjustOptions, Adjustment};
+use sightline::detection::Detection;
+use sightline::exif::PhotoInfo;
+use sightline::matching::Doubtful;
+use sightline::project::{Parameter, Project};
+use sightline_protocol::{from_text, to_plain_text, to_text};
+
+use super::document::{Change, Document, History, Outcome};
+
+/// A document by the numbers of its parts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    pub project: u64,
+    /// Numbers of targets by photo are in this part.
+    pub detections: u64,
+    pub doubtful: u64,
+    pub result: Option<u64>,
+    pub options: AdjustOptions,
+    pub sigmas_of_held: Vec<(String, Parameter, f64)>,
+}
+
+/// How much of a stack stays, and what is put on it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Stack {
+    pub keep: usize,
+    pub add: Vec<(Change, State)>,
+}
+
+/// What has changed since the note before.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Note {
+    /// Another name, given from outside.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub past: Option<Stack>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub future: Option<Stack>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub present: Option<State>,
+    /// The part that has the photos' files.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub files: Option<u64>,
+}
+
+/// A photo's file, apart from what is in it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KeptFile {
+    /// By what is in it: it is kept once.
+    pub key: String,
+    pub name: String,
+    pub size: [u32; 2],
+    pub info: PhotoInfo,
+    pub digest: u64,
+}
+
+/// The part of a result.
+#[derive(Serialize, Deserialize)]
+struct KeptResult {
+    input: u64,
+    oriented: u64,
+    adjustment: Adjustment,
+}
+
+/// A part that is new.
+pub struct Part {
+    pub number: u64,
+    /// Parts of a kind are alike, and written as what changed since the last one.
+    pub kind: String,
+    pub text: String,
+}
+
+/// Parts that are known by their place in memory, which stays theirs while they are watched.
+struct Known<T> {
+    numbers: HashMap<usize, (Weak<T>, u64)>,
+    parts: HashMap<u64, Weak<T>>,
+}
+
+impl<T> Default for Known<T> {
+    fn default() -> Self {
+        Self { numbers: HashMap::new(), parts: HashMap::new() }
+    }
+}
+
+impl<T> Known<T> {
+    fn number(&self, part: &Arc<T>) -> Option<u64> {
+        self.numbers.get(&(Arc::as_ptr(part) as usize)).map(|(_, number)| *number)
+    }
+
+    fn part(&self, number: u64) -> Option<Arc<T>> {
+        self.parts.get(&number)?.upgrade()
+    }
+
+    fn learn(&mut self, part: &Arc<T>, number: u64) {
+        if self.numbers.len() > 1000 && self.numbers.len().is_multiple_of(1000) {
+            self.numbers.retain(|_, (part, _)| part.strong_count() > 0);
+            self.parts.retain(|_, part| part.strong_count() > 0);
+        }
+        self.numbers.insert(Arc::as_ptr(part) as usize, (Arc::downgrade(part), number));
+        self.parts.insert(number, Arc::downgrade(part));
+    }
+}
+
+/// Everything that the journal of a project has, and what has to be added to it.
+#[derive(Default)]
+pub struct Book {
+    next: u64,
+    projects: Known<Project>,
+    detections: Known<Detection>,
+    maps: Known<BTreeMap<String, Arc<Detection>>>,
+    doubtful: Known<Vec<Doubtful>>,
+    results: Known<Outcome>,
+    past: Vec<u64>,
+    future: Vec<u64>,
+    present: Option<State>,
+    files: Option<(BTreeMap<String, KeptFile>, u64)>,
+    new: Vec<Part>,
+}
+
+fn number<T>(known: &mut Known<T>, next: &mut u64, part: &Arc<T>) -> (u64, bool) {
+    if let Some(number) = known.number(part) {
+        return (number, false);
+    }
+    let number = *next;
+    *next += 1;
+    known.learn(part, number);
+    (number, true)
+}
+
+impl Book {
+    /// Whether nothing has been written of the project yet.
+    pub fn is_new(&self) -> bool {
+        self.present.is_none()
+    }
+
+    fn project(&mut self, part: &Arc<Project>, kind: &str) -> u64 {
+        let (number, new) = number(&mut self.projects, &mut self.next, part);
+        if new {
+            self.new.push(Part { number, kind: kind.to_owned(), text: to_plain_text(&**part) });
+        }
+        number
+    }
+
+    fn state(&mut self, document: &Document) -> State {
+        let project = self.project(&document.project, "project");
+        let (detections, new) = number(&mut self.maps, &mut self.next, &document.detections);
+        if new {
+            let mut numbers = BTreeMap::new();
+            for (photo, found) in &*document.detections {
+                let (number, new) = number(&mut self.detections, &mut self.next, found);
+                if new {
+                    let (kind, text) = (format!("targets {photo}"), to_plain_text(&**found));
+                    self.new.push(Part { number, kind, text });
+                }
+                numbers.insert(photo, number);
+            }
+            self.new.push(Part { number: detections, kind: "detections".into(), text: to_text(&numbers) });
+        }
+        let (doubtful, new) = number(&mut self.doubtful, &mut self.next, &document.doubtful);
+        if new {
+            self.new.push(Part { number: doubtful, kind: "doubtful".into(), text: to_text(&*document.doubtful) });
+        }
+        let result = document.result.as_ref().map(|result| self.result(result));
+        let sigmas = document.sigmas_of_held.iter();
+        let sigmas_of_held = sigmas.map(|((camera, parameter), sigma)| (camera.clone(), *parameter, *sigma)).collect();
+        State { project, detections, doubtful, result, options: document.options.clone(), sigmas_of_held }
+    }
+
+    fn result(&mut self, result: &Arc<Outcome>) -> u64 {
+        let (number, new) = number(&mut self.results, &mut self.next, result);
+        if new {
+            let input = self.project(&result.input, "project");
+            let oriented = self.project(&result.oriented, "oriented");
+            let text = to_text(&KeptResult { input, oriented, adjustment: result.adjustment.clone() });
+            self.new.push(Part { number, kind: "result".into(), text });
+        }
+        number
+    }
+
+    fn stack(&mut self, past: bool, entries: &[super::document::Entry]) -> Option<Stack> {
+        let before = if past { &self.past } else { &self.future };
+        let keep = before.iter().zip(entries).take_while(|(serial, entry)| **serial == entry.serial).count();
+        if keep == before.len() && keep == entries.len() {
+            return None;
+        }
+        // Of an entry that is still stored nothing is new, so all that is added is here.
+        let add = entries[keep..].iter().filter_map(|entry| {
+            let state = self.state(entry.state.as_ref()?);
+            Some((entry.change.clone(), state))
+        });
+        let stack = Stack { keep, add: add.collect() };
+        let serials = entries.iter().map(|entry| entry.serial).collect();
+        *(if past { &mut self.past } else { &mut self.future }) = serials;
+        Some(stack)
+    }
+
+    /// What has to be added to the journal; nothing where nothing has changed.
+    pub fn note(
+        &mut self,
+        document: &Document,
+        history: &History,
+        files: &BTreeMap<String, KeptFile>,
+    ) -> Option<(Note, Vec<Part>)> {
+        let past = self.stack(true, &history.past);
+        let future = self.stack(false, &history.future);
+        let state = self.state(document);
+        let present = (self.present.as_ref() != Some(&state)).then_some(state);
+        if present.is_some() {
+            self.present.clone_from(&present);
+        }
+        let mut note = Note { name: None, past, future, present, files: None };
+        if self.files.as_ref().is_none_or(|(known, _)| known != files) {
+            let number = self.next;
+            self.next += 1;
+            self.new.push(Part { number, kind: "files".into(), text: to_text(files) });
+            self.files = Some((files.clone(), number));
+            note.files = Some(number);
+        }
+        let changed = note.past.is_some() || note.future.is_some() || note.present.is_some() || note.files.is_some();
+        changed.then(|| (note, std::mem::take(&mut self.new)))
+    }
+}
+
+/// A project as its notes have it.
+#[derive(Debug, Default)]
+pub struct Replayed {
+    pub past: Vec<(Change, State)>,
+    pub future: Vec<(Change, State)>,
+    pub present: Option<State>,
+    pub files: Option<u64>,
+    /// A name that was given from outside since.
+    pub name: Option<String>,
+}
+
+/// Reads notes in their order.
+pub fn replay(notes: &[String]) -> Result<Replayed, String> {
+    let mut all = Replayed::default();
+    for note in notes {
+        let note = from_text::<Note>(note)?;
+        for (stack, change) in [(&mut all.past, note.past), (&mut all.future, note.future)] {
+            if let Some(Stack { keep, add }) = change {
+                stack.truncate(keep);
+                stack.extend(add);
+            }
+        }
+        if let Some(present) = note.present {
+            all.present = Some(present);
+            all.name = None;
+        }
+        all.name = note.name.or(all.name);
+        all.files = note.files.or(all.files);
+    }
+    Ok(all)
+}
+
+/// Parts that a document is made of, read from their texts.
+impl Book {
+    /// Of a project that was read: its history by the serials of its entries.
+    pub fn of(replayed: &Replayed, history: &History, next: u64) -> Self {
+        let serials = |entries: &[super::document::Entry]| entries.iter().map(|entry| entry.serial).collect();
+        Self {
+            next,
+            past: serials(&history.past),
+            future: serials(&history.future),
+            present: replayed.present.clone(),
+            ..Self::default()
+        }
+    }
+
+    /// The parts that a state names and that are not here.
+    pub fn missing(&self, state: &State) -> Vec<u64> {
+        let mut missing = Vec::new();
+        let mut want = |number: u64, here: bool| {
+            if !here {
+                missing.push(number);
+            }
+        };
+        want(state.project, self.projects.part(state.project).is_some());
+        want(state.detections, self.maps.part(state.detections).is_some());
+        want(state.doubtful, self.doubtful.part(state.doubtful).is_some());
+        if let Some(result) = state.result {
+            want(result, self.results.part(result).is_some());
+        }
+        missing
+    }
+
+    /// The parts that these parts name and that are not here.
+    pub fn missing_of(&self, state: &State, texts: &HashMap<u64, String>) -> Result<Vec<u64>, String> {
+        let mut missing = Vec::new();
+        if let Some(text) = texts.get(&state.detections) {
+            let numbers = from_text::<BTreeMap<String, u64>>(text)?;
+            missing.extend(numbers.into_values().filter(|number| self.detections.part(*number).is_none()));
+        }
+        if let Some(text) = state.result.and_then(|result| texts.get(&result)) {
+            let KeptResult { input, oriented, .. } = from_text(text)?;
+            missing.extend([input, oriented].into_iter().filter(|number| self.projects.part(*number).is_none()));
+        }
+        missing.sort_unstable();
+        missing.dedup();
+        Ok(missing)
+    }
+
+    /// A document from its parts.
+    pub fn document(&mut self, state: &State, texts: &HashMap<u64, String>) -> Result<Document, String> {
+        let project = read(&mut self.projects, state.project, texts, from_text)?;
+        let known = &mut self.detections;
+        let detections = read(&mut self.maps, state.detections, texts, |text| {
+            let numbers = from_text::<BTreeMap<String, u64>>(text)?;
+            numbers.into_iter().map(|(photo, number)| Ok((photo, read(known, number, texts, from_text)?))).collect()
+        })?;
+        let doubtful = read(&mut self.doubtful, state.doubtful, texts, from_text)?;
+        let projects = &mut self.projects;
+        let result = state.result.map(|number| {
+            read(&mut self.results, number, texts, |text| {
+                let KeptResult { input, oriented, adjustment } = from_text(text)?;
+                let input = read(projects, input, texts, from_text)?;
+                let oriented = read(projects, oriented, texts, from_text)?;
+                Ok(Outcome { input, oriented, adjustment })
+            })
+        });
+        Ok(Document {
+            project,
+            detections,
+            doubtful,
+            sigmas_of_held: state.sigmas_of_held.iter().map(|(c, p, s)| ((c.clone(), *p), *s)).collect(),
+            options: state.options.clone(),
+            result: result.transpose()?,
+        })
+    }
+
+    /// The photos' files, which are known from now on.
+    pub fn files(&mut self, number: u64, text: &str) -> Result<BTreeMap<String, KeptFile>, String> {
+        let files = from_text::<BTreeMap<String, KeptFile>>(text)?;
+        self.files = Some((files.clone(), number));
+        Ok(files)
+    }
+}
+
+fn read<T>(
+    known: &mut Known<T>,
+    number: u64,
+    texts: &HashMap<u64, String>,
+    parse: impl FnOnce(&str) -> Result<T, String>,
+) -> Result<Arc<T>, String> {
+    if let Some(part) = known.part(number) {
+        return Ok(part);
+    }
+    let text = texts.get(&number).ok_or_else(|| format!("part {number} is missing"))?;
+    let part = Arc::new(parse(text)?);
+    known.learn(&part, number);
+    Ok(part)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A journal as the storage has it.
+    #[derive(Default)]
+    struct Journal {
+        notes: Vec<String>,
+        texts: HashMap<u64, String>,
+    }
+
+    impl Journal {
+        fn add(&mut self, added: Option<(Note, Vec<Part>)>) {
+            let Some((note, parts)) = added else { return };
+            self.notes.push(to_text(&note));
+            self.texts.extend(parts.into_iter().map(|part| (part.number, part.text)));
+        }
+
+        fn read(&self) -> (Document, History, Book) {
+            let replayed = replay(&self.notes).unwrap();
+            let changes = |stack: &[(Change, State)]| stack.iter().map(|(change, _)| change.clone()).collect();
+            let mut history = History::stored(changes(&replayed.past), changes(&replayed.future));
+            let next = self.texts.keys().max().unwrap() + 1;
+            let mut book = Book::of(&replayed, &history, next);
+            let document = book.document(replayed.present.as_ref().unwrap(), &self.texts).unwrap();
+            let states = replayed.past.iter().chain(&replayed.future);
+            let serials = history.past.iter().chain(&history.future).map(|entry| entry.serial).collect::<Vec<_>>();
+            for ((_, state), serial) in states.zip(serials) {
+                history.fill(serial, book.document(state, &self.texts).unwrap());
+            }
+            (document, history, book)
+        }
+    }
+
+    fn renamed(document: &Document, name: &str) -> Document {
+        let mut document = document.clone();
+        document.project_mut().name = name.into();
+        document
+    }
+
+    #[test]
+    fn a_journal_gives_back_the_state_and_the_history_after_every_note() {
+        let (mut book, mut journal, mut history) = (Book::default(), Journal::default(), History::default());
+        let files = BTreeMap::new();
+        let mut document = renamed(&Document::default(), "0");
+        journal.add(book.note(&document, &history, &files));
+        for step in 1..40 {
+            match step % 7 {
+                4 | 6 => document = history.undo(document).unwrap(),
+                5 => document = history.redo(document).unwrap(),
+                _ => {
+                    history.push(Change::UnitSet, document.clone());
+                    document = renamed(&document, &step.to_string());
+                }
+            }
+            journal.add(book.note(&document, &history, &files));
+            let (read, past, _) = journal.read();
+            assert_eq!(read.project.name, document.project.name, "{step}");
+            let names = |history: &History| {
+                let name = |entry: &super::super::document::Entry| entry.state.clone().unwrap().project.name.clone();
+                let [past, future] = [&history.past, &history.future].map(|s| s.iter().map(name).collect::<Vec<_>>());
+                (past, future)
+            };
+            assert_eq!(names(&past), names(&history), "{step}");
+        }
+        assert!(book.note(&document, &history, &files).is_none());
+    }
+
+    #[test]
+    fn what_was_read_is_not_written_again() {
+        let (mut book, mut journal, mut history) = (Book::default(), Journal::default(), History::default());
+        let mut document = renamed(&Document::default(), "a");
+        let adjustment = from_text(
+            r#"{"termination":"converged","iterations":[],"observations_count":0,"unknowns":0,"constraints":0,
+                "redundancy":0,"sigma0":null,"global_test":null,"cameras":[],"photos":[],"points":[],"observations":[],
+                "check_points":[],"precision":null}"#,
+        );
+        let input = document.project.clone();
+        let outcome = Outcome { oriented: input.clone(), input, adjustment: adjustment.unwrap() };
+        history.push(Change::Adjusted, document.clone());
+        document.result = Some(Arc::new(outcome));
+        journal.add(book.note(&document, &history, &BTreeMap::new()));
+        let (read, past, mut book) = journal.read();
+        // The result still belongs to the project.
+        assert!(read.current().is_some());
+        book.files(9, "{}").unwrap();
+        assert!(book.note(&read, &past, &BTreeMap::new()).is_none());
+        let changed = renamed(&read, "b");
+        let (_, parts) = book.note(&changed, &past, &BTreeMap::new()).unwrap();
+        assert_eq!(parts.iter().map(|part| part.kind.as_str()).collect::<Vec<_>>(), ["project"]);
+    }
+
+    #[test]
+    fn a_name_given_from_outside_holds_until_the_next_state() {
+        let (mut book, mut journal) = (Book::default(), Journal::default());
+        let document = renamed(&Document::default(), "a");
+        journal.add(book.note(&document, &History::default(), &BTreeMap::new()));
+        journal.notes.push(r#"{"name":"b"}"#.into());
+        assert_eq!(replay(&journal.notes).unwrap().name.as_deref(), Some("b"));
+        journal.add(book.note(&renamed(&document, "c"), &History::default(), &BTreeMap::new()));
+        assert_eq!(replay(&journal.notes).unwrap().name, None);
+    }
+}

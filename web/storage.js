@@ -1,0 +1,574 @@
+// Keeps projects in the browser's own storage, crash-safe: a worker of its own, so that no edit waits for a disk.
+//
+// A project is a journal of frames, each with its length and checksum, whose first frame is a whole snapshot; a kill at any moment leaves
+// a prefix of whole frames, which is the state before or after an edit. What is in a frame: parts (texts by number, later ones as what
+// changed of an earlier one) and a note, which only the page understands. Photos are kept once, by what is in them.
+//
+// Where the origin has a private file system its files are used, else IndexedDB, else nothing, and the page is told.
+
+/** A part is written whole again after so many that only say what changed, or when those outgrow it: reading it stays short. */
+const CHAIN = 64;
+/** Bytes read or written of a photo at a time. */
+const PIECE = 4 << 20;
+/** What must stay free when a photo is copied: room for the journal. */
+const RESERVE = 32 << 20;
+/** Versions of the journal that are read here. */
+const VERSION = 1;
+
+const TABLE = Int32Array.from({ length: 256 }, (_, n) => {
+  for (let k = 0; k < 8; k++) n = n & 1 ? 0xedb88320 ^ (n >>> 1) : n >>> 1;
+  return n;
+});
+
+function checksum(bytes) {
+  let c = ~0;
+  for (let i = 0; i < bytes.length; i++) c = TABLE[(c ^ bytes[i]) & 255] ^ (c >>> 8);
+  return ~c >>> 0;
+}
+
+/** Items as a frame: length, checksum, JSON. */
+function framed(items) {
+  const body = new TextEncoder().encode(JSON.stringify(items));
+  const bytes = new Uint8Array(8 + body.length);
+  const head = new DataView(bytes.buffer);
+  head.setUint32(0, body.length);
+  head.setUint32(4, checksum(body));
+  bytes.set(body, 8);
+  return bytes;
+}
+
+/** The items of whole frames, and where they end: what follows was being written when everything stopped. */
+function unframed(bytes) {
+  const head = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const items = [];
+  let at = 0;
+  while (at + 8 <= bytes.length) {
+    const end = at + 8 + head.getUint32(at);
+    if (end > bytes.length) break;
+    const body = bytes.subarray(at + 8, end);
+    if (checksum(body) !== head.getUint32(at + 4)) break;
+    for (const item of JSON.parse(new TextDecoder().decode(body))) items.push(item);
+    at = end;
+  }
+  return { items, end: at };
+}
+
+const fault = (name, message) => Object.assign(new Error(message), { name });
+const absent = (error) => error.name === 'NotFoundError';
+
+/** Tries again while another holder of a file goes away: that of a killed page is there for a moment. */
+async function patiently(work) {
+  for (let attempt = 0; ; attempt++) {
+    try {
+      return await work();
+    } catch (error) {
+      if (error.name !== 'NoModificationAllowedError' || attempt === 60) throw error;
+      await new Promise((done) => setTimeout(done, 50));
+    }
+  }
+}
+
+/** The origin's private file system: projects/ID/journal-N and card-0 or card-1, photos/KEY, small/KEY. */
+async function fileSystem() {
+  const top = await (await navigator.storage.getDirectory()).getDirectoryHandle('sightline', { create: true });
+  const [projects, photos, small] = await Promise.all(['projects', 'photos', 'small'].map((name) => top.getDirectoryHandle(name, { create: true })));
+  const open = async (folder, name) => patiently(async () => (await folder.getFileHandle(name, { create: true })).createSyncAccessHandle());
+  // Files that can be read but not written at once are of no use: found out before anything depends on it.
+  (await open(top, 'probe')).close();
+
+  const whole = (handle, bytes, at = 0) => {
+    while (bytes.length > 0) {
+      const written = handle.write(bytes, { at });
+      if (written === 0) throw fault('QuotaExceededError', 'no room');
+      at += written;
+      bytes = bytes.subarray(written);
+    }
+  };
+  const write = async (folder, name, bytes) => {
+    const handle = await open(folder, name);
+    try {
+      handle.truncate(0);
+      whole(handle, bytes);
+      handle.flush();
+    } finally {
+      handle.close();
+    }
+  };
+  const names = async (folder) => {
+    const all = [];
+    for await (const name of folder.keys()) all.push(name);
+    return all;
+  };
+  const file = async (folder, name) => {
+    try {
+      return await (await folder.getFileHandle(name)).getFile();
+    } catch (error) {
+      if (absent(error)) return null;
+      throw error;
+    }
+  };
+  const bytes = async (folder, name) => {
+    const found = await file(folder, name);
+    return found ? new Uint8Array(await found.arrayBuffer()) : new Uint8Array();
+  };
+  const generations = async (folder) => (await names(folder)).filter((name) => name.startsWith('journal-')).map((name) => Number(name.slice(8))).sort((a, b) => b - a);
+  const drop = (folder, name) => folder.removeEntry(name, { recursive: true }).catch(() => {});
+
+  return {
+    kind: 'files',
+    projects: () => names(projects),
+    async size(id) {
+      const folder = await projects.getDirectoryHandle(id);
+      const sizes = (await names(folder)).map(async (name) => (await file(folder, name))?.size ?? 0);
+      return (await Promise.all(sizes)).reduce((sum, size) => sum + size, 0);
+    },
+    /** The newest journal whose snapshot is whole. */
+    async journal(id) {
+      const folder = await projects.getDirectoryHandle(id);
+      for (const generation of await generations(folder)) {
+        const content = await bytes(folder, `journal-${generation}`);
+        const { items, end } = unframed(content);
+        if (end > 0) return { generation, items, end, torn: content.length - end };
+      }
+      throw fault('NotFoundError', 'no journal');
+    },
+    async writer(id, generation, end) {
+      const handle = await open(await projects.getDirectoryHandle(id), `journal-${generation}`);
+      handle.truncate(end);
+      return {
+        append(frame) {
+          try {
+            whole(handle, frame, end);
+            handle.flush();
+            end += frame.length;
+          } catch (error) {
+            handle.truncate(end);
+            throw error;
+          }
+        },
+        close: () => handle.close(),
+        size: () => end,
+      };
+    },
+    /** A new journal that begins with a snapshot; those before it go when it is whole. */
+    async begin(id, generation, frame) {
+      const folder = await projects.getDirectoryHandle(id, { create: true });
+      await write(folder, `journal-${generation}`, frame);
+      for (const old of await generations(folder)) if (old < generation) await drop(folder, `journal-${old}`);
+    },
+    async card(id) {
+      const folder = await projects.getDirectoryHandle(id);
+      const both = await Promise.all(['card-0', 'card-1'].map((name) => bytes(folder, name)));
+      const cards = both.flatMap((content) => unframed(content).items).sort((a, b) => b.turn - a.turn);
+      return cards[0];
+    },
+    /** In turns: one of the two is always whole. */
+    async setCard(id, card) {
+      const folder = await projects.getDirectoryHandle(id, { create: true });
+      const turn = ((await this.card(id))?.turn ?? 0) + 1;
+      await write(folder, `card-${turn % 2}`, framed([{ ...card, turn }]));
+    },
+    remove: (id) => drop(projects, id),
+    photo: (key) => file(photos, key),
+    small: (key) => file(small, key),
+    photos: () => names(photos),
+    async putPhoto(key, blob) {
+      const handle = await open(photos, key);
+      try {
+        handle.truncate(0);
+        for (let at = 0; at < blob.size; at += PIECE) whole(handle, new Uint8Array(await blob.slice(at, at + PIECE).arrayBuffer()), at);
+        handle.flush();
+      } catch (error) {
+        handle.truncate(0);
+        throw error;
+      } finally {
+        handle.close();
+      }
+    },
+    putSmall: async (key, blob) => write(small, key, new Uint8Array(await blob.arrayBuffer())),
+    removePhoto: (key) => Promise.all([drop(photos, key), drop(small, key)]),
+  };
+}
+
+/** IndexedDB: the same journal, a frame a record. */
+async function database() {
+  if (!self.indexedDB) throw fault('NotSupportedError', 'no IndexedDB');
+  const settled = (request) =>
+    new Promise((done, failed) => {
+      request.onsuccess = () => done(request.result);
+      request.onerror = () => failed(request.error);
+    });
+  const opening = indexedDB.open('sightline', 1);
+  opening.onupgradeneeded = () => {
+    for (const name of ['frames', 'cards', 'photos', 'small']) opening.result.createObjectStore(name);
+  };
+  const base = await settled(opening);
+  const run = (stores, work) =>
+    new Promise((done, failed) => {
+      const transaction = base.transaction(stores, 'readwrite', { durability: 'strict' });
+      let result;
+      transaction.oncomplete = () => done(result);
+      transaction.onabort = transaction.onerror = () => failed(transaction.error ?? fault('AbortError', 'aborted'));
+      Promise.resolve(work(...[stores].flat().map((name) => transaction.objectStore(name)))).then((value) => (result = value), failed);
+    });
+  const range = (id, generation) => (generation === undefined ? IDBKeyRange.bound([id], [id, []]) : IDBKeyRange.bound([id, generation], [id, generation, []]));
+  return {
+    kind: 'database',
+    projects: () => run('cards', (cards) => settled(cards.getAllKeys())),
+    size: (id) => run('frames', async (frames) => (await settled(frames.getAll(range(id)))).reduce((sum, frame) => sum + frame.length, 0)),
+    async journal(id) {
+      const keys = await run('frames', (frames) => settled(frames.getAllKeys(range(id))));
+      if (keys.length === 0) throw fault('NotFoundError', 'no journal');
+      const generation = Math.max(...keys.map((key) => key[1]));
+      const frames = await run('frames', (store) => settled(store.getAll(range(id, generation))));
+      const items = [];
+      let whole = 0;
+      for (const frame of frames) {
+        const read = unframed(frame);
+        if (read.end === 0) break;
+        items.push(...read.items);
+        whole++;
+      }
+      return { generation, items, end: whole, torn: frames.length - whole };
+    },
+    async writer(id, generation, end) {
+      let size = 0;
+      return {
+        async append(frame) {
+          await run('frames', (frames) => settled(frames.put(frame, [id, generation, end])));
+          end++;
+          size += frame.length;
+        },
+        close() {},
+        size: () => size,
+      };
+    },
+    begin: (id, generation, frame) =>
+      run('frames', async (frames) => {
+        await settled(frames.delete(range(id)));
+        await settled(frames.put(frame, [id, generation, 0]));
+      }),
+    card: (id) => run('cards', (cards) => settled(cards.get(id))),
+    setCard: (id, card) => run('cards', (cards) => settled(cards.put(card, id))),
+    remove: (id) =>
+      run(['frames', 'cards'], async (frames, cards) => {
+        await settled(frames.delete(range(id)));
+        await settled(cards.delete(id));
+      }),
+    photo: async (key) => (await run('photos', (photos) => settled(photos.get(key)))) ?? null,
+    small: async (key) => (await run('small', (small) => settled(small.get(key)))) ?? null,
+    photos: () => run('photos', (photos) => settled(photos.getAllKeys())),
+    putPhoto: async (key, blob) => {
+      // Read first: a transaction does not wait for a file, and a blob that names one would not outlive it.
+      const content = new Blob([await blob.arrayBuffer()], { type: blob.type });
+      await run('photos', (photos) => settled(photos.put(content, key)));
+    },
+    putSmall: (key, blob) => run('small', (small) => settled(small.put(blob, key))),
+    removePhoto: (key) =>
+      run(['photos', 'small'], async (photos, small) => {
+        await settled(photos.delete(key));
+        await settled(small.delete(key));
+      }),
+  };
+}
+
+let backend;
+/** The project that is open: its parts as they were read, the last part of each kind, its writer unless another window has it. */
+let project = null;
+/** Sends the page what it did not ask for. */
+let tell = () => {};
+const windows = self.BroadcastChannel ? new BroadcastChannel('sightline') : null;
+
+async function start() {
+  for (const candidate of [fileSystem, database]) {
+    try {
+      backend = await candidate();
+      break;
+    } catch {
+      // The next one, or none.
+    }
+  }
+  if (!backend) return { kind: 'none' };
+  // Deleted in an earlier visit, when it could still be undone.
+  for (const id of await backend.projects()) if ((await cardOf(id))?.deleted) await purge({ id });
+  return { kind: backend.kind };
+}
+
+const cardOf = (id) => backend.card(id).catch(() => undefined);
+
+/** Holds a project for this window, or finds that another has it. */
+function hold(id, steal) {
+  if (!navigator.locks) return Promise.resolve(() => {});
+  return new Promise((done, failed) => {
+    const held = (lock) => {
+      if (!lock) return done(null);
+      return new Promise((release) => done(release));
+    };
+    navigator.locks.request(`sightline ${id}`, steal ? { steal } : { ifAvailable: true }, held).catch((error) => {
+      // Another window took it over.
+      if (project?.id === id && project.writer) yieldProject();
+      failed(error);
+    });
+  });
+}
+
+/** Another window goes on with the project; this one reads along. */
+function yieldProject() {
+  project.writer.close();
+  project.release?.();
+  project.writer = project.release = null;
+  tell('yielded');
+}
+
+windows?.addEventListener('message', ({ data }) => {
+  if (!project || data.id !== project.id) return;
+  if (data.word === 'changed' && !project.writer) tell('changed');
+  if (data.word === 'yield' && project.writer) {
+    queue = queue.then(() => {
+      if (project?.id === data.id && project.writer) yieldProject();
+      windows.postMessage({ id: data.id, word: 'yielded' });
+    });
+  }
+});
+
+async function close() {
+  if (!project) return;
+  project.writer?.close();
+  project.release?.();
+  project = null;
+}
+
+/** Parts and the last of each kind, out of a journal's items. */
+function gathered(items) {
+  const [{ version } = {}] = items;
+  if (version !== VERSION) throw fault('VersionError', String(version));
+  const parts = new Map();
+  const last = new Map();
+  const notes = [];
+  for (const { part, note } of items) {
+    if (part) {
+      parts.set(part.id, part);
+      last.set(part.kind, part);
+    }
+    if (note !== undefined) notes.push(note);
+  }
+  return { parts, last, notes };
+}
+
+/** A part's text, from the last whole one on. */
+function text(parts, id) {
+  const chain = [];
+  let part = parts.get(id);
+  while (part && part.base !== undefined) {
+    chain.push(part);
+    part = parts.get(part.base);
+  }
+  if (!part) throw fault('DataError', `part ${id} is missing`);
+  return chain.reduceRight((words, { from, to, words: put }) => words.slice(0, from) + put + words.slice(to), part.words);
+}
+
+async function open({ id }, _, taken) {
+  await close();
+  const release = taken ?? (await hold(id).catch(() => null));
+  const { generation, items, end } = await backend.journal(id);
+  const { parts, last, notes } = gathered(items);
+  const writer = release ? await backend.writer(id, generation, end) : null;
+  project = { id, generation, parts, writer, release, last: new Map() };
+  for (const [kind, part] of last) project.last.set(kind, { id: part.id, words: text(parts, part.id), chain: CHAIN });
+  return { reply: { notes, following: !writer, nextPart: Math.max(0, ...parts.keys()) + 1 } };
+}
+
+/** Goes on with a project that another window has: that one is asked first, and not asked any more when it does not answer. */
+async function take({ id }) {
+  await new Promise((done) => {
+    const answered = ({ data }) => data.id === id && data.word === 'yielded' && finish();
+    const finish = () => {
+      windows?.removeEventListener('message', answered);
+      clearTimeout(waiting);
+      done();
+    };
+    const waiting = setTimeout(finish, 2000);
+    windows?.addEventListener('message', answered);
+    windows?.postMessage({ id, word: 'yield' });
+  });
+  return open({ id }, [], (await hold(id)) ?? (await hold(id, true)));
+}
+
+/** A part, as what changed since the last of its kind where that is shorter. */
+function partOf(id, kind, words) {
+  const before = project.last.get(kind);
+  const remember = (chain, inserted) => project.last.set(kind, { id, words, chain, inserted });
+  if (before && before.chain < CHAIN) {
+    const most = Math.min(before.words.length, words.length);
+    let from = 0;
+    while (from < most && before.words.charCodeAt(from) === words.charCodeAt(from)) from++;
+    let tail = 0;
+    while (tail < most - from && before.words.charCodeAt(before.words.length - 1 - tail) === words.charCodeAt(words.length - 1 - tail)) tail++;
+    const put = words.slice(from, words.length - tail);
+    const inserted = (before.inserted ?? 0) + put.length;
+    if (inserted < words.length) {
+      remember(before.chain + 1, inserted);
+      return { part: { id, kind, base: before.id, from, to: before.words.length - tail, words: put } };
+    }
+  }
+  remember(0, 0);
+  return { part: { id, kind, words } };
+}
+
+/** What changed, at once and whole. The card is of the list of projects; it may be ahead of the journal, never behind a photo. */
+async function append({ id, note, parts, card, snapshot }, texts) {
+  if (snapshot && project?.id !== id) {
+    await close();
+    const release = await hold(id, false);
+    if (!release) throw fault('InvalidStateError', 'held');
+    project = { id, generation: 0, parts: new Map(), writer: null, release, last: new Map() };
+  }
+  if (project?.id !== id) throw fault('InvalidStateError', 'not open');
+  if (!project.writer && !snapshot) throw fault('InvalidStateError', 'following');
+  const before = new Map(project.last);
+  try {
+    const items = parts.map(([number, kind], i) => partOf(number, kind, texts[i]));
+    items.push({ note });
+    await backend.setCard(id, { ...(await cardOf(id)), ...card });
+    if (snapshot) {
+      const frame = framed([{ version: VERSION }, ...items]);
+      await backend.begin(id, 1, frame);
+      project.generation = 1;
+      project.writer = await backend.writer(id, 1, backend.kind === 'files' ? frame.length : 1);
+    } else {
+      await project.writer.append(framed(items));
+    }
+  } catch (error) {
+    // What was not written is no base of what comes next; it is sent again.
+    project.last = before;
+    throw error;
+  }
+  windows?.postMessage({ id, word: 'changed' });
+  return { size: project.writer.size() };
+}
+
+/** Texts of parts, of the project as it was opened. */
+const parts = ({ ids }) => ({ reply: {}, extras: ids.map((id) => text(project.parts, id)) });
+
+const sizeOfKey = (key) => Number(key.split('-')[1]);
+
+/** Copies photos that are not kept yet; gives those that are. */
+async function keep({ keys }, extras) {
+  const missed = [];
+  let failure = null;
+  for (const [i, key] of keys.entries()) {
+    const [blob, bitmap] = [extras[2 * i], extras[2 * i + 1]];
+    try {
+      if ((await backend.photo(key))?.size !== blob.size) {
+        const { quota, usage } = (await navigator.storage?.estimate?.().catch(() => null)) ?? {};
+        if (quota !== undefined && quota - usage < blob.size + RESERVE) throw fault('QuotaExceededError', 'no room');
+        await backend.putPhoto(key, blob);
+      }
+    } catch (error) {
+      missed.push(key);
+      failure ??= `${error.name}: ${error.message}`;
+    }
+    if (bitmap && !(await backend.small(key).catch(() => null))) await putSmall(key, bitmap).catch(() => {});
+    bitmap?.close?.();
+  }
+  return { missed, failure };
+}
+
+async function putSmall(key, bitmap) {
+  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+  canvas.getContext('2d').drawImage(bitmap, 0, 0);
+  await backend.putSmall(key, await canvas.convertToBlob({ type: 'image/jpeg', quality: 0.85 }));
+}
+
+/** Photos and their small pictures; nothing for what is not here or not whole. */
+async function photos({ keys }) {
+  const extras = [];
+  for (const key of keys) {
+    const blob = await backend.photo(key);
+    extras.push(blob?.size === sizeOfKey(key) ? blob : null, await backend.small(key));
+  }
+  return { reply: {}, extras };
+}
+
+async function list() {
+  const all = [];
+  const extras = [];
+  for (const id of await backend.projects()) {
+    const card = await cardOf(id);
+    if (!card || card.deleted) continue;
+    const own = await backend.size(id).catch(() => 0);
+    const bytes = own + [...new Set(card.keys)].reduce((sum, key) => sum + sizeOfKey(key), 0);
+    all.push({ id, bytes, card });
+  }
+  all.sort((a, b) => b.card.changed - a.card.changed);
+  for (const { card } of all) extras.push(card.keys[0] ? await backend.small(card.keys[0]) : null);
+  return { reply: all.map(({ id, bytes, card: { keys, ...card } }) => ({ id, bytes, ...card })), extras };
+}
+
+/** Gives a project that is not open another name. */
+async function rename({ id, name }) {
+  if (project?.id === id) throw fault('InvalidStateError', 'open');
+  const release = await hold(id);
+  if (!release) throw fault('InvalidStateError', 'held');
+  try {
+    const { generation, end } = await backend.journal(id);
+    const writer = await backend.writer(id, generation, end);
+    await writer.append(framed([{ note: JSON.stringify({ name }) }]));
+    writer.close();
+    await backend.setCard(id, { ...(await cardOf(id)), name });
+  } finally {
+    release();
+  }
+}
+
+async function duplicate({ id, copy, name, changed }) {
+  const { items } = await backend.journal(id);
+  await backend.setCard(copy, { ...(await cardOf(id)), name, changed });
+  await backend.begin(copy, 1, framed([...items, { note: JSON.stringify({ name }) }]));
+}
+
+/** Takes a project out of the list; it is gone when that cannot be undone any more. */
+async function remove({ id, deleted }) {
+  if (project?.id === id) await close();
+  await backend.setCard(id, { ...(await cardOf(id)), deleted });
+}
+
+/** Lets a deleted project go, with the photos that no other has. */
+async function purge({ id }) {
+  const card = await cardOf(id);
+  if (!card?.deleted) return;
+  await backend.remove(id);
+  const used = new Set();
+  for (const other of await backend.projects()) {
+    const { keys } = (await cardOf(other)) ?? {};
+    // A card that cannot be read might name any photo.
+    if (!keys) return;
+    keys.forEach((key) => used.add(key));
+  }
+  for (const key of card.keys ?? []) if (!used.has(key)) await backend.removePhoto(key);
+}
+
+const CALLS = { start, open, take, append, parts, keep, photos, list, rename, duplicate, remove, purge, close };
+/** Copying photos lasts: edits do not wait for it. */
+const ALONGSIDE = new Set(['keep', 'photos', 'list']);
+let queue = Promise.resolve();
+
+/** Answers calls of a page that sends and hears by way of a port. */
+function serve(port) {
+  tell = (word) => port.postMessage({ told: word });
+  port.onmessage = ({ data: { call, name, text: words, extras } }) => {
+    const work = async () => {
+      try {
+        const done = (await CALLS[name](JSON.parse(words), extras)) ?? {};
+        const { reply, extras: more = [] } = 'reply' in done ? done : { reply: done };
+        port.postMessage({ call, text: JSON.stringify(reply), extras: more });
+      } catch (error) {
+        port.postMessage({ call, fault: error.name, text: String(error.message ?? error), extras: [] });
+      }
+    };
+    if (ALONGSIDE.has(name)) work();
+    else queue = queue.then(work);
+  };
+}
+
+serve(self);

@@ -1,0 +1,125 @@
+//! The page as one file that opens from a disk or a USB stick: everything of dist/ inside one HTML, nothing fetched.
+
+use std::fs;
+use std::path::Path;
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use sha2::{Digest, Sha256};
+
+use crate::Outcome;
+use crate::build::write;
+use crate::page::{MODULE, WORKER};
+
+/// Name of the file in dist/.
+pub const NAME: &str = "sightline.html";
+
+/// Puts the parts into scripts that are data, gives them addresses, and starts the page.
+const OPENING: &str = "
+const bytes = (id) => {
+  const text = atob(document.getElementById(id).textContent);
+  const all = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) all[i] = text.charCodeAt(i);
+  return all;
+};
+const address = (id, type) => URL.createObjectURL(new Blob([bytes(id)], { type }));
+self.sightlineTold = [];
+self.sightlineFiles = {
+  'worker.js': address('worker', 'text/javascript'),
+  'storage.js': address('storage', 'text/javascript'),
+  'sightline-worker_bg.wasm': address('engine', 'application/wasm'),
+};
+";
+
+/// Writes the file out of an assembled dist/.
+pub fn write_to(dist: &Path) -> Outcome {
+    let text = |name: &str| fs::read_to_string(dist.join(name)).map_err(|error| format!("{name}: {error}"));
+    let coded = |name: &str| {
+        let bytes = fs::read(dist.join(name)).map_err(|error| format!("{name}: {error}"))?;
+        Ok::<_, String>(BASE64_STANDARD.encode(bytes))
+    };
+    let page = text("index.html")?;
+    let worker = {
+        let start = text("worker.js")?;
+        let import = format!("(await import(\"./{WORKER}.js\")).default");
+        if !start.contains(&import) {
+            return Err(format!("worker.js does not start by {import}"));
+        }
+        format!("{}\n{}", inlined(&text(&format!("{WORKER}.js"))?)?, start.replace(&import, "__wbg_init"))
+    };
+    let style = styles(&page)?.iter().map(|name| text(name)).collect::<Outcome<Vec<_>>>()?.concat();
+    let desk = inlined(&text(&format!("{MODULE}.js"))?)?;
+    let script = format!("{OPENING}{desk}\nawait __wbg_init({{ module_or_path: bytes('desk') }});\n");
+    if script.contains("</script") || style.contains("</style") {
+        return Err("a part of the page ends the element that it would be in".into());
+    }
+    let policy = format!(
+        "default-src 'none'; script-src '{}' 'wasm-unsafe-eval'; style-src '{}'; worker-src blob:; connect-src blob:; \
+         img-src blob: data:; base-uri 'none'; form-action 'none'",
+        digest(&script),
+        digest(&style)
+    );
+    let data = |id: &str, content: String| format!("<script type=\"text/plain\" id=\"{id}\">{content}</script>\n");
+    let html = [
+        "<!doctype html>\n<html lang=\"en\" data-theme=\"light\">\n<head>\n<meta charset=\"utf-8\">\n".into(),
+        format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n"),
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Sightline</title>\n".into(),
+        format!("<link rel=\"icon\" href=\"data:image/svg+xml;base64,{}\">\n", coded("icon.svg")?),
+        format!("<style>{style}</style>\n</head>\n<body>\n"),
+        "<noscript>Sightline needs JavaScript and WebAssembly.</noscript>\n".into(),
+        data("worker", BASE64_STANDARD.encode(worker)),
+        data("storage", coded("storage.js")?),
+        data("engine", coded(&format!("{WORKER}_bg.wasm"))?),
+        data("desk", coded(&format!("{MODULE}_bg.wasm"))?),
+        format!("<script type=\"module\">{script}</script>\n</body>\n</html>\n"),
+    ]
+    .concat();
+    write(&dist.join(NAME), html.as_bytes())?;
+    println!("dist/{NAME} is ready ({} kB)", html.len() / 1024);
+    Ok(())
+}
+
+fn digest(text: &str) -> String {
+    format!("sha256-{}", BASE64_STANDARD.encode(Sha256::digest(text.as_bytes())))
+}
+
+/// Names of the page's style sheets, in their order.
+fn styles(page: &str) -> Outcome<Vec<String>> {
+    let names: Vec<String> = page
+        .split("<link rel=\"stylesheet\" href=\"")
+        .skip(1)
+        .filter_map(|rest| rest.split_once('"').map(|(name, _)| name.to_owned()))
+        .collect();
+    if names.is_empty() { Err("index.html names no style sheet".into()) } else { Ok(names) }
+}
+
+/// The glue of a module as plain statements: what it exports stays under its own name.
+fn inlined(glue: &str) -> Outcome<String> {
+    if glue.lines().any(|line| line.starts_with("import ")) {
+        return Err("the glue of a module imports other files".into());
+    }
+    let lines = glue.lines().filter(|line| !line.starts_with("export {"));
+    let plain = lines.map(|line| line.strip_prefix("export ").unwrap_or(line)).collect::<Vec<_>>().join("\n");
+    // Known to modules only; it is asked for where nobody says where the wasm lies.
+    Ok(plain.replace("import.meta.url", "location.href"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn glue_becomes_plain_statements() {
+        let glue =
+            "export function work() {}\nconst a = import.meta.url;\nexport { initSync, __wbg_init as default };\n";
+        assert_eq!(inlined(glue).as_deref(), Ok("function work() {}\nconst a = location.href;"));
+        assert!(inlined("import x from './x.js';").is_err());
+    }
+
+    #[test]
+    fn style_sheets_are_found_in_their_order() {
+        let page = "<link rel=\"stylesheet\" href=\"a.css\">\n<link rel=\"stylesheet\" href=\"b.css\">";
+        assert_eq!(styles(page).expect("names"), ["a.css", "b.css"]);
+        assert!(styles("<p>").is_err());
+    }
+}
