@@ -2,8 +2,8 @@
 //!
 //! The rooms, each using only those before it: `linear` (tiles and small factors), `problem` (the numbered document, its
 //! values, what is known of it beforehand), `equations` (collinearity, Schur complement, ordering), `datum`, `statistics`
-//! (cofactors), `diagnosis` (rank defect, advice), `solve` (iteration, session), `gross_errors` (snooping, robust weights) and
-//! `report`.
+//! (cofactors), `diagnosis` (rank defect, advice), `solve` (iteration, session), `gross_errors` (snooping, robust weights),
+//! `variance_components` and `report`.
 
 mod datum;
 mod diagnosis;
@@ -14,6 +14,7 @@ mod problem;
 mod report;
 mod solve;
 mod statistics;
+mod variance_components;
 
 use crate::adjustment::{AdjustOptions, Adjustment, Advice, Iteration, Termination};
 use crate::error::Result;
@@ -21,7 +22,7 @@ use crate::project::{Project, Role};
 
 use diagnosis::advice;
 use problem::additional::LeftOut;
-use problem::{eccentric, unmodelled};
+use problem::{eccentric, far_points, unmodelled};
 use report::result::Solved;
 use solve::session::{Log, Session};
 
@@ -41,22 +42,29 @@ pub fn adjust(
     project.validate()?;
     let weighted = unmodelled::weighted(project, options.unmodelled)?;
     let sized = eccentric::sized(weighted, options.target_diameter)?;
-    let project = sized.as_ref();
+    let ready = far_points::brought_back(sized);
+    let project = ready.as_ref();
     let mut left_out = LeftOut::nothing(project);
     let mut log = Log { iterations: Vec::new(), on_iteration };
     let mut record = Vec::new();
     let mut settled = true;
     let mut session = Session::new(project, &left_out)?;
-    let mut termination = session.iterate(options, &mut log)?;
+    let searching = options.snooping || options.robust.is_some();
+    let mut termination =
+        if searching { session.robust_start(options, &mut log)? } else { session.iterate(options, &mut log)? };
     if options.snooping && termination == Termination::Converged {
         settled &= session.snoop(options, &mut log, &mut left_out, &mut record)?;
         if !left_out.is_empty() {
-            session = session.without(&left_out)?;
-            termination = session.iterate(options, &mut log)?;
+            session = session.without_found(&mut left_out, &mut record)?;
         }
+        termination = session.iterate(options, &mut log)?;
     }
     if let (Some(kind), Termination::Converged) = (options.robust, termination) {
         settled &= session.reweight(kind, options, &mut log, &mut record)?;
+    }
+    let mut components = (Vec::new(), true);
+    if let (Some(choice), None, Termination::Converged) = (&options.variance_components, options.robust, termination) {
+        components = variance_components::estimate(&mut session, choice, options, &mut log)?;
     }
     let solution = session.finish(options, termination == Termination::Converged)?;
     let mut adjustment = Solved::new(&session, options, &solution).adjustment();
@@ -67,6 +75,10 @@ pub fn adjust(
     if !settled {
         adjustment.advice.push(Advice::GrossErrorsUnsettled);
     }
+    if !components.1 {
+        adjustment.advice.push(Advice::VarianceComponentsUnsettled);
+    }
+    adjustment.variance_components = components.0;
     adjustment.gross_errors = record;
     adjustment.covariance = solution.covariance;
     Ok(adjustment)

@@ -55,11 +55,71 @@ pub enum Robust {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ResidualPlace {
-    /// At the corrected place, weighted with the measurement's own sigma (the practice of the field).
-    #[default]
+    /// At the corrected place, weighted with the measurement's own sigma, as if the correction stretched nothing: the form of
+    /// other programs, to compare with them. With strong distortion sigma0 is off by as much as the correction stretches.
     Corrected,
-    /// In the measurement, rigorously.
+    /// In the measurement, where the weights belong, through the correction and its derivative.
+    #[default]
     Measured,
+}
+
+/// What the scale of robust weights is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RobustScale {
+    /// Estimated from the standardised residuals, and never below the a priori standard errors.
+    #[default]
+    AtLeastPrior,
+    /// Estimated, wherever it falls.
+    Estimated,
+}
+
+/// How variance components are estimated.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct VarianceComponents {
+    /// Image coordinates camera by camera rather than all together.
+    pub per_camera: bool,
+    /// Whether image coordinates have a part that is not modelled, of one size for all of a group.
+    pub unmodelled: bool,
+}
+
+/// Observations whose variances have one factor.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum ObservationGroup {
+    /// Image coordinates.
+    Image {
+        /// Camera identifier; null for those of all cameras.
+        camera: Option<String>,
+    },
+    /// Control coordinates.
+    Control,
+    /// Observed projection centres.
+    Position,
+    /// Distances.
+    Distance,
+    /// Observed camera parameters.
+    Parameter,
+}
+
+/// An estimated variance component.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VarianceComponent {
+    /// Whose.
+    pub group: ObservationGroup,
+    /// Scalar observations in the group.
+    pub observations: usize,
+    /// Sum of their redundancy numbers.
+    pub redundancy: f64,
+    /// Factor on the group's a priori standard errors.
+    pub factor: f64,
+    /// Standard error of the factor; null where the group has too little redundancy to tell, and its factor is 1.
+    pub factor_sigma: Option<f64>,
+    /// Standard deviation of what is not modelled, pixels; null where it was not asked for.
+    pub unmodelled: Option<f64>,
+    /// Its standard error.
+    pub unmodelled_sigma: Option<f64>,
 }
 
 /// Options of the adjustment.
@@ -72,10 +132,15 @@ pub struct AdjustOptions {
     pub statistics: StatisticsChoice,
     /// Robust weights, if any.
     pub robust: Option<Robust>,
+    /// Their scale.
+    pub robust_scale: RobustScale,
     /// Whether gross errors are searched by data snooping.
     pub snooping: bool,
     /// Where residuals are taken.
     pub residuals: ResidualPlace,
+    /// Variance components to estimate, until sigma0 is 1; none: the standard errors are taken as they are. Not with robust
+    /// weights, which take the scale from the residuals themselves.
+    pub variance_components: Option<VarianceComponents>,
     /// Standard deviation of what is not modelled, added in quadrature to that of every image coordinate, pixels.
     pub unmodelled: f64,
     /// Diameter of the circular targets that state none of their own, in the project's unit, to free their images of the
@@ -91,8 +156,10 @@ impl Default for AdjustOptions {
             max_iterations: 50,
             statistics: StatisticsChoice::Full,
             robust: None,
+            robust_scale: RobustScale::AtLeastPrior,
             snooping: false,
-            residuals: ResidualPlace::Corrected,
+            residuals: ResidualPlace::Measured,
+            variance_components: None,
             unmodelled: 0.0,
             target_diameter: None,
             covariance_of: Vec::new(),
@@ -219,7 +286,7 @@ pub struct AdjustedObservation {
     /// External reliability of y.
     #[serde(default)]
     pub effect_y: Option<f64>,
-    /// Factor on the weight from robust weighting; null where it is 1.
+    /// Factor on the weight from robust weighting, the smaller of x and y; null where it is 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<f64>,
     /// Whether it took part.
@@ -297,8 +364,25 @@ pub enum Advice {
         /// Ends of each.
         distances: Vec<(String, String)>,
     },
+    /// A principal distance that the photos hardly determine: its standard error is more than a twentieth of it.
+    WeakPrincipalDistance {
+        /// Camera identifier.
+        camera: String,
+        /// Photo identifier, for cameras with an interior orientation per photo.
+        photo: Option<String>,
+        /// Name of the parameter.
+        parameter: String,
+        /// Its adjusted value.
+        value: f64,
+        /// Its standard error.
+        sigma: f64,
+        /// Largest angle between the viewing directions of its photos, radians.
+        convergence: f64,
+    },
     /// The robust weighting or the search for gross errors came to no end.
     GrossErrorsUnsettled,
+    /// The estimation of variance components came to no end.
+    VarianceComponentsUnsettled,
 }
 
 /// Precision of the whole object.
@@ -357,12 +441,28 @@ pub struct Adjustment {
     /// Record of the search for gross errors.
     #[serde(default)]
     pub gross_errors: Vec<GrossError>,
+    /// Eccentricity of every target with a diameter; empty without any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub eccentricity: Vec<PointEccentricity>,
+    /// Variance components; empty unless asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variance_components: Vec<VarianceComponent>,
     /// What the network is weak in.
     #[serde(default)]
     pub advice: Vec<Advice>,
     /// Covariance matrix of the points asked for, three rows each in their order; null when none were.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Covariance>,
+}
+
+/// What was done about the eccentricity of a circular target.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PointEccentricity {
+    /// Point identifier.
+    pub point: String,
+    /// Largest correction of its measurements, pixels; null where nothing was corrected, since neither the document nor the
+    /// surface around it tells how it is turned, or not for its neighbours.
+    pub correction_px: Option<f64>,
 }
 
 /// Covariance matrix of chosen points.

@@ -133,10 +133,17 @@ export interface AdjustOptions {
   statistics?: "none" | "precision" | "full";
   /** [null] */
   robust?: null | "huber" | "tukey";
+  /** Scale of robust weights: estimated and never below the a priori standard errors, or estimated wherever it falls ["at_least_prior"]. */
+  robust_scale?: "at_least_prior" | "estimated";
   /** [false] */
   snooping?: boolean;
-  /** ["corrected"] */
+  /**
+   * Where the brown model's residuals are taken: in the measurement, where the weights belong, or at the corrected place as other programs do, to compare
+   * with them ["measured"].
+   */
   residuals?: "corrected" | "measured";
+  /** Estimates the variances of image coordinates, control and the rest until sigma0 is 1; not with robust weights [null]. */
+  variance_components?: null | { per_camera?: boolean; unmodelled?: boolean };
   /** Standard deviation of what is not modelled, added in quadrature to that of every image coordinate, pixels [0]. */
   unmodelled?: number;
   /** Diameter of the circular targets that state none of their own, in the project's unit: frees them of their eccentricity [null]. */
@@ -239,7 +246,7 @@ export interface GrossError {
   point: string;
   /** What was observed; null for image coordinates. */
   given: Given | null;
-  action: "removed" | "restored" | "downweighted";
+  action: "removed" | "restored" | "downweighted" | "kept";
   statistic: number;
   limit: number;
   round: number;
@@ -255,7 +262,28 @@ export type Advice =
   | { kind: "narrow_intersection"; points: [string, number][] }
   | { kind: "behind_camera"; observations: [string, string][] }
   | { kind: "distance_unused"; distances: [string, string][] }
-  | { kind: "gross_errors_unsettled" };
+  | { kind: "weak_principal_distance"; camera: string; photo: string | null; parameter: string; value: number; sigma: number; convergence: number }
+  | { kind: "gross_errors_unsettled" }
+  | { kind: "variance_components_unsettled" };
+
+/** An estimated variance component. */
+export interface VarianceComponent {
+  /** Camera null: image coordinates of all cameras. */
+  group:
+    | { kind: "image"; camera: string | null }
+    | { kind: "control" }
+    | { kind: "position" }
+    | { kind: "distance" }
+    | { kind: "parameter" };
+  observations: number;
+  redundancy: number;
+  /** Factor on the a priori standard errors of the group, and its standard error; null where too little checks the group. */
+  factor: number;
+  factor_sigma: number | null;
+  /** Standard deviation of what is not modelled, pixels; null unless asked for. */
+  unmodelled: number | null;
+  unmodelled_sigma: number | null;
+}
 
 /** The result; no number in it is NaN or infinite. */
 export interface Adjustment {
@@ -292,6 +320,10 @@ export interface Adjustment {
   } | null;
   given: GivenObservation[];
   gross_errors: GrossError[];
+  /** Every target with a diameter: its largest correction in pixels, null where its normal is not known. There when a target has a diameter. */
+  eccentricity?: { point: string; correction_px: number | null }[];
+  /** There when asked for. */
+  variance_components?: VarianceComponent[];
   advice: Advice[];
   /** Of the points asked for, three rows each in their order. */
   covariance?: { points: string[]; matrix: number[][] };

@@ -1,5 +1,7 @@
-//! The search for gross errors: data snooping and robust weights.
+//! The search for gross errors: a robust start, data snooping and robust weights.
 
-pub mod robust;
-pub mod search;
+mod reweighting;
+mod robust;
+mod search;
 pub mod snooping;
+pub mod start;

@@ -2,6 +2,8 @@
 
 pub mod additional;
 pub mod eccentric;
+pub mod far_points;
 pub mod network;
 pub mod state;
+mod surface;
 pub mod unmodelled;

@@ -83,6 +83,8 @@ pub enum GrossErrorAction {
     Restored,
     /// Weighted down by less than half.
     Downweighted,
+    /// Found, and kept, since the network is not determined without it.
+    Kept,
 }
 
 /// One entry of the record that the search for gross errors leaves.

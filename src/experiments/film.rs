@@ -11,7 +11,7 @@ use super::kang;
 use super::outcome::{Assumption, Cell, Chart, Drawing, Experiment, Figure, Series, Table};
 use super::{ExperimentOptions, Progress, step};
 use crate::adjust::adjust;
-use crate::adjustment::AdjustOptions;
+use crate::adjustment::{AdjustOptions, ResidualPlace};
 use crate::error::Result;
 use crate::film::comparator::{Observed, Reading, Setup, Upwards, observations};
 use crate::film::distortion::{self, OddPolynomial};
@@ -204,7 +204,11 @@ fn solve(
     kind: &'static str,
     corrected: bool,
 ) -> Result<Outcome> {
-    let adjustment = adjust(project, &AdjustOptions::default(), &mut |_| true)?;
+    let adjustment = adjust(
+        project,
+        &AdjustOptions { residuals: ResidualPlace::Corrected, ..AdjustOptions::default() },
+        &mut |_| true,
+    )?;
     let ties = network.points.iter().filter(|p| p.role == Role::Tie);
     let off = ties.filter_map(|p| {
         let found = adjustment.points.iter().find(|q| q.id == p.id)?;

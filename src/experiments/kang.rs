@@ -16,7 +16,7 @@ mod pairwise;
 use super::outcome::{Assumption, Cell, Drawing, Experiment, Figure, Table};
 use super::{ExperimentOptions, Progress, step};
 use crate::adjust::adjust;
-use crate::adjustment::{AdjustOptions, StatisticsChoice};
+use crate::adjustment::{AdjustOptions, ResidualPlace, StatisticsChoice};
 use crate::error::{Error, Place, Result, Thing};
 use crate::network::{Network, Source, simulate};
 use crate::project::Role;
@@ -114,7 +114,8 @@ pub fn drawings(options: &ExperimentOptions) -> Result<Vec<Drawing>> {
 fn solve(case: Case, options: &ExperimentOptions) -> Result<Outcome> {
     let network = network(&case, options);
     let exact = simulate(&Network { observations: Source::Exact, ..network.clone() })?;
-    let choice = |statistics| AdjustOptions { statistics, ..AdjustOptions::default() };
+    let choice =
+        |statistics| AdjustOptions { statistics, residuals: ResidualPlace::Corrected, ..AdjustOptions::default() };
     let planned = adjust(&exact, &choice(StatisticsChoice::Precision), &mut |_| true)?;
     let q = planned.precision.as_ref().map_or([f64::NAN; 3], |p| p.mean_q);
     let project = simulate(&network)?;
@@ -139,7 +140,11 @@ fn monte_carlo(
     let mut network = network(&outcome.case, options);
     let ties: Vec<_> = network.points.iter().filter(|p| p.role == Role::Tie).cloned().collect();
     let mut squares = vec![[0.0; 3]; ties.len()];
-    let choice = AdjustOptions { statistics: StatisticsChoice::None, ..AdjustOptions::default() };
+    let choice = AdjustOptions {
+        statistics: StatisticsChoice::None,
+        residuals: ResidualPlace::Corrected,
+        ..AdjustOptions::default()
+    };
     for round in 0..rounds {
         report(round)?;
         network.seed = options.seed.wrapping_add(1000 + round as u64);

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use super::outcome::{Assumption, Cell, Chart, Drawing, Experiment, Figure, Series, Table};
 use super::{ExperimentOptions, Progress, step};
 use crate::adjust::adjust;
-use crate::adjustment::{AdjustOptions, Adjustment, StatisticsChoice};
+use crate::adjustment::{AdjustOptions, Adjustment, ResidualPlace, StatisticsChoice};
 use crate::camera::ideal_from_pixel;
 use crate::detection::{DetectOptions, Method};
 use crate::error::{Error, Result};
@@ -264,6 +264,7 @@ fn iterate(start: &Project) -> Result<(Way, Adjustment)> {
     let choice = |max_iterations| AdjustOptions {
         max_iterations,
         statistics: StatisticsChoice::None,
+        residuals: ResidualPlace::Corrected,
         ..AdjustOptions::default()
     };
     let mut way: Way = [0, 1].map(|k| start.photos[k].position.into_iter().collect());
@@ -271,7 +272,11 @@ fn iterate(start: &Project) -> Result<(Way, Adjustment)> {
         let adjustment = adjust(&bundle, &choice(iterations), &mut |_| true)?;
         (0..2).for_each(|k| way[k].push(adjustment.photos[k].position));
     }
-    let full = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
+    let full = AdjustOptions {
+        statistics: StatisticsChoice::Precision,
+        residuals: ResidualPlace::Corrected,
+        ..AdjustOptions::default()
+    };
     Ok((way, adjust(&bundle, &full, &mut |_| true)?))
 }
 

@@ -20,7 +20,7 @@ use nalgebra::Vector3;
 use super::outcome::{Assumption, Cell, Drawing, Experiment, Figure, Table};
 use super::{ExperimentOptions, Progress, step};
 use crate::adjust::adjust;
-use crate::adjustment::{AdjustOptions, StatisticsChoice};
+use crate::adjustment::{AdjustOptions, ResidualPlace, StatisticsChoice};
 use crate::detect::detect;
 use crate::detection::{DetectOptions, Method, PolarityChoice, Target};
 use crate::error::Result;
@@ -77,7 +77,11 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
     step(progress, steps - 2, steps)?;
     let mut project = project(&network, &exact, &measured, options);
     set_aside_undetermined(&mut project);
-    let choice = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
+    let choice = AdjustOptions {
+        statistics: StatisticsChoice::Precision,
+        residuals: ResidualPlace::Corrected,
+        ..AdjustOptions::default()
+    };
     let all = adjust(&project, &choice, &mut |_| true)?;
     step(progress, steps - 1, steps)?;
     let left_out = options.left_out.clone().unwrap_or_else(|| LEFT_OUT.map(str::to_owned).to_vec());

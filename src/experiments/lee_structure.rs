@@ -18,7 +18,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::outcome::{Assumption, Cell, Chart, Drawing, Experiment, Figure, Series, Table};
 use super::{ExperimentOptions, Progress, lee_calibration, step};
 use crate::adjust::adjust;
-use crate::adjustment::{AdjustOptions, StatisticsChoice};
+use crate::adjustment::{AdjustOptions, ResidualPlace, StatisticsChoice};
 use crate::error::{Error, Place, Result, Thing};
 use crate::network::{Network, NetworkPoint, Station, simulate};
 use crate::project::{Datum, DatumKind, Parameter, Project, Role, Sigma};
@@ -189,7 +189,11 @@ fn with_free_parameters(project: &Project) -> Project {
 }
 
 fn solve(project: &Project) -> Result<Outcome> {
-    let choice = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
+    let choice = AdjustOptions {
+        statistics: StatisticsChoice::Precision,
+        residuals: ResidualPlace::Corrected,
+        ..AdjustOptions::default()
+    };
     let adjustment = adjust(project, &choice, &mut |_| true)?;
     let sigma0 = adjustment.sigma0.unwrap_or(f64::NAN);
     let ties: Vec<_> = project.points.iter().filter(|p| p.role == Role::Tie).map(|p| &p.id).collect();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::block::{Block, principal_distance_px};
 use crate::adjust::{adjust, apply};
-use crate::adjustment::{AdjustOptions, StatisticsChoice, Termination};
+use crate::adjustment::{AdjustOptions, ResidualPlace, StatisticsChoice, Termination};
 use crate::initial::Pose;
 use crate::project::{Camera, Datum, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
 use crate::rotation;
@@ -55,7 +55,12 @@ pub(super) fn refine(block: &mut Block, freedom: Freedom) {
 
 fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
     let part = part(block, freedom)?;
-    let options = AdjustOptions { max_iterations: 30, statistics: StatisticsChoice::None, ..AdjustOptions::default() };
+    let options = AdjustOptions {
+        max_iterations: 30,
+        statistics: StatisticsChoice::None,
+        residuals: ResidualPlace::Corrected,
+        ..AdjustOptions::default()
+    };
     let adjustment = adjust(&part, &options, &mut |_| true).ok()?;
     if adjustment.termination == Termination::Diverged {
         return None;

@@ -2,7 +2,7 @@
 
 use crate::data;
 use sightline::adjust::adjust;
-use sightline::adjustment::{AdjustOptions, Adjustment};
+use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace};
 use sightline::exchange::{self, photomodeler};
 use sightline::orient::orient;
 use sightline::project::{DatumKind, Project, Role, Sigma};
@@ -11,7 +11,8 @@ use sightline::project::{DatumKind, Project, Role, Sigma};
 const OFFSET: [f64; 3] = [999_779.506_31, 112_260.591, 139.832_1];
 
 fn solve(project: &Project) -> Adjustment {
-    adjust(project, &AdjustOptions::default(), &mut |_| true).expect("solvable")
+    let options = AdjustOptions { residuals: ResidualPlace::Corrected, ..AdjustOptions::default() };
+    adjust(project, &options, &mut |_| true).expect("solvable")
 }
 
 /// An export with its control replaced by a list, everything in the list's own coordinates.

@@ -263,6 +263,8 @@ fn a_chain_of_photos_agrees_with_dense_least_squares() {
         let mut project = noisy(&exact(&Wanted { datum, ..wanted.clone() }, 50), &mut Noise::new(50, 3));
         let number = |id: &str| id[1..].parse::<f64>().expect("numbered");
         project.observations.retain(|o| (number(&o.photo) / 40.0 - number(&o.point) / 60.0).abs() < 0.15);
-        compare(&project, &AdjustOptions::default());
+        for residuals in [ResidualPlace::Corrected, ResidualPlace::Measured] {
+            compare(&project, &AdjustOptions { residuals, ..AdjustOptions::default() });
+        }
     }
 }

@@ -2,14 +2,15 @@
 
 use crate::data;
 use sightline::adjust::{adjust, apply};
-use sightline::adjustment::{AdjustOptions, Adjustment, Termination};
+use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, Termination};
 use sightline::error::{Defect, Error};
 use sightline::exchange::photomodeler;
 use sightline::project::{Camera, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
 pub const HEIGHT_MM: f64 = 5.43764;
 
 fn solve(project: &Project) -> Adjustment {
-    adjust(project, &AdjustOptions::default(), &mut |_| true).expect("solvable")
+    let options = AdjustOptions { residuals: ResidualPlace::Corrected, ..AdjustOptions::default() };
+    adjust(project, &options, &mut |_| true).expect("solvable")
 }
 
 /// The calibration project with the sheet's four control points fixed, free of what the published runs estimate.

@@ -8,7 +8,7 @@
 use crate::data;
 use crate::published::{DISTORTED, HEIGHT_MM, camcal};
 use sightline::adjust::adjust;
-use sightline::adjustment::{AdjustOptions, Adjustment, Termination};
+use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, Termination};
 use sightline::project::{Interior, Parameter, Project, Sigma};
 
 /// A printed number: value, half a unit of its last digit, standard deviation (0 where it is held).
@@ -106,7 +106,8 @@ fn agrees(what: &str, difference: f64, sigma: f64, known: Printed) {
 }
 
 fn solve(project: &Project) -> Adjustment {
-    adjust(project, &AdjustOptions::default(), &mut |_| true).expect("solvable")
+    let options = AdjustOptions { residuals: ResidualPlace::Corrected, ..AdjustOptions::default() };
+    adjust(project, &options, &mut |_| true).expect("solvable")
 }
 
 const NAMES: [&str; 8] = ["Camera", "px", "py", "K1", "K2", "K3", "P1", "P2"];

@@ -74,6 +74,7 @@ test('every field that the engine returns is declared, and every declared field 
     sightline.adjust(coarse, { robust: 'huber' }),
     ...[{ snooping: true }, { robust: 'huber' }].map((options) => sightline.adjust(measured, options)),
     sightline.adjust({ ...project, datum: { kind: 'control', points: null }, points: project.points.map((point, k) => (k % 2 ? point : { ...point, role: 'control', sigma: [0.01, null, 0.02] })) }),
+    sightline.adjust(project, { variance_components: { per_camera: true, unmodelled: true } }),
   ];
   assert.equal(adjustments[4].gross_errors[0].given.kind, 'distance');
   const literals = [

@@ -7,8 +7,13 @@ use crate::{Outcome, build, suites};
 /// A part: its name on the command line and how it runs.
 type Part = (&'static str, fn() -> Outcome);
 
-const PARTS: [Part; 4] =
-    [("detect", detect), ("border", || script("border")), ("growth", || script("growth")), ("field", suites::field)];
+const PARTS: [Part; 5] = [
+    ("detect", detect),
+    ("border", || script("border")),
+    ("growth", || script("growth")),
+    ("field", suites::field),
+    ("estimation", estimation),
+];
 
 /// `bench [part ...]`.
 pub fn command(names: &[String]) -> Outcome {
@@ -16,8 +21,10 @@ pub fn command(names: &[String]) -> Outcome {
         let known = PARTS.map(|(part, _)| part).join(", ");
         return Err(format!("there is no part {name}; the parts are {known}"));
     }
-    install::node()?;
-    build::pkg()?;
+    if names.is_empty() || names.iter().any(|name| name != "estimation") {
+        install::node()?;
+        build::pkg()?;
+    }
     for (name, part) in PARTS {
         if names.is_empty() || names.iter().any(|wanted| wanted == name) {
             println!("== {name}");
@@ -33,6 +40,11 @@ fn detect() -> Outcome {
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "detect", "--", &folder]))?;
     run(&mut program("node", &["benches/detect.mjs", &folder]))?;
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "photos"]))
+}
+
+/// Seeded networks adjusted natively against their truth.
+fn estimation() -> Outcome {
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "estimation"]))
 }
 
 fn script(name: &str) -> Outcome {

@@ -4,7 +4,7 @@ use crate::adjust::problem::additional::Key;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
 use crate::adjustment::{Adjustment, Advice};
-use crate::project::Project;
+use crate::project::{Parameter, Project};
 
 use super::structure::{photo_id, point_id};
 
@@ -15,9 +15,39 @@ const LOW_REDUNDANCY: f64 = 0.1;
 /// Rays that meet under less than this are told, in radians.
 const NARROW_INTERSECTION: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
+/// Principal distances whose standard errors are a larger part of them are told.
+const WEAK_DISTANCE: f64 = 0.05;
+
+/// Principal distances that the geometry leaves nearly open: parallel photos, or a plane seen from one side.
+fn weak_principal_distances(network: &Network, state: &State, adjustment: &Adjustment) -> Vec<Advice> {
+    let mut advice = Vec::new();
+    for (k, camera) in adjustment.cameras.iter().enumerate() {
+        for parameter in [Parameter::C, Parameter::F, Parameter::Fx, Parameter::Fy] {
+            let value = camera.camera.interior.get(parameter);
+            let (Some(value), Some(&sigma)) = (value, camera.sigma.get(&parameter)) else { continue };
+            if sigma <= WEAK_DISTANCE * value.abs() {
+                continue;
+            }
+            let own = network.photos.iter().zip(&state.poses).filter(|(photo, _)| photo.interior == k);
+            let axes: Vec<[f64; 3]> = own.map(|(_, pose)| pose.m[2]).collect();
+            let pairs = axes.iter().enumerate().flat_map(|(n, a)| axes[..n].iter().map(move |b| cosine(a, b)));
+            advice.push(Advice::WeakPrincipalDistance {
+                camera: camera.camera.id.clone(),
+                photo: camera.photo.clone(),
+                parameter: parameter.name().to_owned(),
+                value,
+                sigma,
+                convergence: pairs.fold(1.0, f64::min).clamp(-1.0, 1.0).acos(),
+            });
+            break;
+        }
+    }
+    advice
+}
+
 /// What a solved network is weak in.
 pub fn advice(project: &Project, network: &Network, state: &State, adjustment: &Adjustment) -> Vec<Advice> {
-    let mut advice = Vec::new();
+    let mut advice = weak_principal_distances(network, state, adjustment);
     for camera in &adjustment.cameras {
         let correlation = &camera.correlation;
         for (i, row) in correlation.matrix.iter().enumerate() {

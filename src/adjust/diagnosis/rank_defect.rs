@@ -64,6 +64,10 @@ pub fn rank_defect(
     } else if tied.len() > 1 {
         vec![not_tied(project, network, &tied)]
     } else {
+        // Where no vector shows which, all photos are in it together.
+        let nameless = points.is_empty() && photos.is_empty();
+        let all = || (0..network.photos.len()).map(|k| photo_id(project, network, k)).collect();
+        let photos = if nameless { all() } else { photos };
         vec![Defect::Combination { points, photos, parameters: Vec::new() }]
     };
     Error::RankDefect { defects }

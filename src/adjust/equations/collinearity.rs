@@ -131,7 +131,7 @@ impl<const N: usize> Seen<'_, N> {
         by_unknown: impl Fn(&[f64; PARAMETERS], &mut [f64; N]),
     ) -> usize {
         for side in 0..2 {
-            let w = self.ray.weight[side] * self.factor[side];
+            let w = self.ray.sqrt_weight[side] * self.factor[side];
             let [a, b, c] = linear.by_point[side].map(|d| d * w);
             row.e[side] = linear.residual[side] * w;
             let m = &self.pose.m;

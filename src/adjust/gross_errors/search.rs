@@ -1,30 +1,64 @@
-//! The search for gross errors: data snooping ([`super::snooping`]) and robust weights ([`super::robust`]) over observations
-//! of every kind, and the record that it leaves.
+//! The search for gross errors by data snooping ([`super::snooping`]) over observations of every kind, and the record that it
+//! leaves.
+//!
+//! It begins at a robust start ([`super::start`]): what stands out there goes at once, the largest first, and from there on one
+//! observation a round goes or comes back. Nothing is taken out that the network cannot do without: such an observation is
+//! kept and named.
 
 use crate::adjust::equations::collinearity::Weighting;
 use crate::adjust::equations::right_hand_side;
-use crate::adjust::problem::additional::{self, LeftOut, Observed};
+use crate::adjust::problem::additional::LeftOut;
 use crate::adjust::problem::network::Network;
+use crate::adjust::problem::state::State;
 use crate::adjust::solve::session::{Log, Session, unsound};
-use crate::adjustment::{AdjustOptions, Given, GrossError, GrossErrorAction, Robust, StatisticsChoice, Termination};
+use crate::adjust::statistics::cofactors::Cofactors;
+use crate::adjustment::{AdjustOptions, Given, GrossError, GrossErrorAction, StatisticsChoice, Termination};
 use crate::error::Result;
+use crate::statistics::distribution::critical_tau;
 
-use super::robust::{factor, prediction, reweight, scale};
+use super::robust::{predicting, prediction, scale};
 use super::snooping::{Decision, Item, TESTABLE, Tests, VANISHING, consequences, decide, items};
 
 /// Rounds of a search for gross errors.
 const MOST_ROUNDS: usize = 500;
-/// Robust weights that change less are settled.
-const SETTLED: f64 = 1e-6;
+/// What has hardly any weight and still fixes more than this part of its own adjusted value is needed.
+const NEEDED: f64 = 0.5;
+/// More than this part of all observations is not taken out at once: then it is not single observations that are wrong.
+const MOST_AT_ONCE: f64 = 0.3;
+
+/// Where the search stands.
+struct Search {
+    items: Vec<Item>,
+    /// Reciprocal standard errors of additional observations, 1 for rays.
+    own: Vec<f64>,
+    out: Vec<bool>,
+    /// Not to be taken out any more.
+    settled: Vec<bool>,
+    restored: Vec<usize>,
+    /// Redundancy with everything in.
+    all: usize,
+    round: usize,
+}
+
+impl Search {
+    fn redundancy(&self) -> usize {
+        let lost = |(item, _): (&Item, _)| if matches!(item, Item::Ray(_)) { 2 } else { 1 };
+        self.all.saturating_sub(self.items.iter().zip(&self.out).filter(|(_, out)| **out).map(lost).sum())
+    }
+}
 
 impl Session<'_> {
-    fn residuals(&self, options: &AdjustOptions) -> Result<Vec<[f64; 2]>> {
+    /// Weighted residuals of the image coordinates, without robust factors.
+    ///
+    /// # Errors
+    /// [`crate::Error::Invalid`] where a point has no image.
+    pub fn residuals(&self, options: &AdjustOptions) -> Result<Vec<[f64; 2]>> {
         let weighting = Weighting { place: options.residuals, robust: &[], shift: &self.shift };
         right_hand_side::weighted_residuals(&self.network, &self.state, weighting).ok_or_else(unsound)
     }
 
     /// An entry of the record; the caller completes what led to it.
-    fn gross_error(&self, item: Item, action: GrossErrorAction, round: usize) -> GrossError {
+    pub fn gross_error(&self, item: Item, action: GrossErrorAction, round: usize) -> GrossError {
         let (photo, point, given) = match item {
             Item::Ray(ray) => {
                 let observation = &self.project.observations[self.network.rays[ray].row];
@@ -43,11 +77,11 @@ impl Session<'_> {
         GrossError { photo, point, given, action, statistic: 0.0, limit: 0.0, round, consequence: false }
     }
 
-    /// Data snooping from a converged state. Adds what is taken out to `left_out` and returns whether the search came to an
-    /// end.
+    /// Data snooping from a robust start. Adds what is taken out to `left_out` and returns whether the search came to an
+    /// end. The session keeps the values and gives every observation its own weight again.
     ///
     /// # Errors
-    /// As [`Self::iterate`].
+    /// [`crate::Error::RankDefect`] of the network as it is, with every observation in.
     pub fn snoop(
         &mut self,
         options: &AdjustOptions,
@@ -55,167 +89,292 @@ impl Session<'_> {
         left_out: &mut LeftOut,
         record: &mut Vec<GrossError>,
     ) -> Result<bool> {
-        let full = AdjustOptions { statistics: StatisticsChoice::Full, covariance_of: Vec::new(), ..options.clone() };
         let items = items(&self.network);
-        let weight = |item: &Item, network: &Network| match item {
+        // The start's factors are in the weights of additional observations.
+        let mut factors = self.given_factors.iter();
+        let own = items.iter().map(|item| match item {
             Item::Ray(_) => 1.0,
-            Item::Given(observed) => observed.weight(network),
-        };
-        let weights: Vec<f64> = items.iter().map(|item| weight(item, &self.network)).collect();
+            Item::Given(observed) => observed.sqrt_weight(&self.network) / factors.next().unwrap_or(&1.0),
+        });
+        let own: Vec<f64> = own.collect();
         let n = items.len();
-        let (mut out, mut settled, mut restored) = (vec![false; n], vec![false; n], vec![0; n]);
-        let all = self.redundancy;
-        self.weights = vec![[1.0; 2]; self.network.rays.len()];
-        let mut ended = false;
-        for round in 1..=MOST_ROUNDS {
-            let solution = self.finish(&full, false)?;
-            let Some(cofactors) = &solution.cofactors else { break };
-            let sigma0 = (solution.cost / self.redundancy.max(1) as f64).sqrt();
-            let residuals = self.residuals(options)?;
-            let tests: Vec<Tests> = (items.iter().zip(&weights))
-                .map(|(item, weight)| match item {
-                    Item::Ray(ray) => [0, 1].map(|s| Some((residuals[*ray][s], cofactors.rays[*ray][s]))),
-                    Item::Given(observed) => {
-                        let e = observed.residual(&self.network, &self.state) * weight;
-                        [Some((e, observed.cofactor(&self.network, cofactors))), None]
-                    }
-                })
-                .collect();
-            match decide(&tests, &out, &settled, self.redundancy, sigma0) {
-                Decision::Done => {
-                    ended = true;
-                    break;
-                }
-                Decision::Remove { item, statistic, limit } => {
-                    let Some(together) = consequences(&self.network, &items, &out, item) else {
-                        settled[item] = true;
-                        continue;
-                    };
-                    for at in together {
-                        out[at] = true;
-                        self.weigh(items[at], weights[at], VANISHING);
-                        let entry = self.gross_error(items[at], GrossErrorAction::Removed, round);
-                        record.push(GrossError { statistic, limit, consequence: at != item, ..entry });
-                    }
-                }
-                Decision::Restore { item, statistic, limit } => {
-                    out[item] = false;
-                    restored[item] += 1;
-                    // What comes back a second time stays.
-                    settled[item] = restored[item] > 1;
-                    self.weigh(items[item], weights[item], 1.0);
-                    let entry = self.gross_error(items[item], GrossErrorAction::Restored, round);
-                    record.push(GrossError { statistic, limit, ..entry });
-                }
-            }
-            let lost = |(item, _): (&Item, _)| if matches!(item, Item::Ray(_)) { 2 } else { 1 };
-            self.redundancy = all.saturating_sub(items.iter().zip(&out).filter(|(_, o)| **o).map(lost).sum());
-            if self.iterate(options, log)? != Termination::Converged {
-                break;
-            }
+        let mut search = Search {
+            items,
+            own,
+            out: vec![false; n],
+            settled: vec![false; n],
+            restored: vec![0; n],
+            all: self.redundancy,
+            round: 1,
+        };
+        let first = self.stand_out(options, &mut search)?;
+        let mut ended = self.take_out_at_once(options, log, &mut search, first, record)?;
+        if ended {
+            ended = self.one_at_a_time(options, log, &mut search, record)?;
         }
-        self.redundancy = all;
-        for (item, _) in items.iter().zip(&out).filter(|(_, out)| **out) {
+        self.redundancy = search.all;
+        for (item, _) in search.items.iter().zip(&search.out).filter(|(_, out)| **out) {
             match item {
                 Item::Ray(ray) => left_out.observations[self.network.rays[*ray].row] = true,
                 Item::Given(observed) => left_out.given.push(observed.key(&self.network)),
             }
         }
-        (items.iter().zip(&weights)).for_each(|(item, weight)| self.weigh(*item, *weight, 1.0));
+        let back: Vec<(Item, f64)> = search.items.iter().copied().zip(search.own.iter().copied()).collect();
+        back.into_iter().for_each(|(item, own)| self.weigh(item, own, 1.0));
         self.weights = Vec::new();
+        self.given_factors = Vec::new();
         Ok(ended)
     }
 
-    /// Sets the factor on the square root of an observation's own weight.
-    fn weigh(&mut self, item: Item, weight: f64, factor: f64) {
-        match item {
-            Item::Ray(ray) => self.weights[ray] = [factor; 2],
-            Item::Given(observed) => observed.set_weight(&mut self.network, weight * factor),
+    /// What stands out of the robust start, largest statistic first: the error with which all others predict it.
+    fn stand_out(&mut self, options: &AdjustOptions, search: &mut Search) -> Result<Vec<(usize, f64, f64)>> {
+        let Some(limit) = critical_tau(search.all) else { return Ok(Vec::new()) };
+        let weights = self.weights.clone();
+        let solution = self.finish(&full(options), false)?;
+        let Some(cofactors) = &solution.cofactors else { return Ok(Vec::new()) };
+        let residuals = self.residuals(options)?;
+        let mut given = 0;
+        let statistics: Vec<f64> = (search.items.iter().zip(&search.own))
+            .map(|(item, own)| {
+                let one = |e: f64, c: f64, factor: f64| {
+                    let p = factor * factor;
+                    prediction(e, p, predicting(c, p), TESTABLE).map_or(0.0, f64::abs)
+                };
+                match item {
+                    Item::Ray(ray) => {
+                        let factor = |s: usize| weights.get(*ray).map_or(1.0, |w| w[s]);
+                        let side = |s: usize| one(residuals[*ray][s], cofactors.rays[*ray][s], factor(s));
+                        side(0).max(side(1))
+                    }
+                    Item::Given(observed) => {
+                        let factor = self.given_factors.get(given).copied().unwrap_or(1.0);
+                        given += 1;
+                        let e = observed.residual(&self.network, &self.state) * own;
+                        one(e, observed.cofactor(&self.network, cofactors), factor)
+                    }
+                }
+            })
+            .collect();
+        // Of a ray the larger of two: the scale is that of single coordinates.
+        let coordinates: Vec<f64> = (residuals.iter().zip(&cofactors.rays).enumerate())
+            .flat_map(|(ray, (e, c))| {
+                let p = weights.get(ray).map_or([1.0; 2], |w| w.map(|w| w * w));
+                [0, 1].map(|s| prediction(e[s], p[s], predicting(c[s], p[s]), TESTABLE))
+            })
+            .flatten()
+            .collect();
+        let s = scale(&coordinates);
+        let mut found: Vec<(usize, f64, f64)> = (statistics.iter().enumerate())
+            .map(|(item, t)| (item, t / s, limit))
+            .filter(|(_, t, _)| *t > limit && t.is_finite())
+            .collect();
+        found.sort_by(|a, b| b.1.total_cmp(&a.1));
+        if found.len() as f64 > MOST_AT_ONCE * search.items.len() as f64 {
+            found.clear();
         }
+        Ok(found)
     }
 
-    /// Robust weights from a converged state; returns whether they settled.
-    ///
-    /// # Errors
-    /// As [`Self::iterate`].
-    pub fn reweight(
+    /// Takes the first ones out and gives all others their own weight; where that leads to no solution nothing is out.
+    /// Returns false where not even that does.
+    fn take_out_at_once(
         &mut self,
-        kind: Robust,
         options: &AdjustOptions,
         log: &mut Log<'_>,
+        search: &mut Search,
+        first: Vec<(usize, f64, f64)>,
         record: &mut Vec<GrossError>,
     ) -> Result<bool> {
+        let start = self.state.clone();
         self.weights = vec![[1.0; 2]; self.network.rays.len()];
-        let given = additional::all(&self.network);
-        let weights: Vec<f64> = given.iter().map(|observed| observed.weight(&self.network)).collect();
-        self.given_factors = vec![1.0; given.len()];
-        let mut settled = false;
-        let stages: &[Robust] = if kind == Robust::Tukey { &[Robust::Huber, Robust::Tukey] } else { &[Robust::Huber] };
-        let mut round = 0;
-        'stages: for stage in stages {
-            settled = false;
-            let predicted = self.predictability(options, &given)?;
-            for _ in 0..60 {
-                round += 1;
-                let residuals = self.residuals(options)?;
-                let change = reweight(*stage, &residuals, &mut self.weights);
-                if change.max(self.reweight_given(*stage, &given, &weights, &predicted, scale(&residuals))) < SETTLED {
-                    settled = true;
-                    break;
+        self.given_factors = Vec::new();
+        for item in 0..search.items.len() {
+            self.weigh(search.items[item], search.own[item], 1.0);
+        }
+        for (item, statistic, limit) in first {
+            if !search.out[item] {
+                self.take_out(search, item, (statistic, limit), record);
+            }
+        }
+        self.redundancy = search.redundancy();
+        let none = !search.out.contains(&true);
+        match self.iterate(options, log) {
+            Ok(Termination::Converged) => return Ok(true),
+            Ok(Termination::Stopped) => return Ok(false),
+            result if none => return result.map(|_| false),
+            _ => {}
+        }
+        for item in 0..search.items.len() {
+            search.out[item] = false;
+            self.weigh(search.items[item], search.own[item], 1.0);
+        }
+        record.clear();
+        self.state = start;
+        self.redundancy = search.all;
+        Ok(self.iterate(options, log)? == Termination::Converged)
+    }
+
+    /// Takes an item out with what goes with it; false where a photo would keep too little.
+    fn take_out(
+        &mut self,
+        search: &mut Search,
+        item: usize,
+        (statistic, limit): (f64, f64),
+        record: &mut Vec<GrossError>,
+    ) -> bool {
+        let Some(together) = consequences(&self.network, &search.items, &search.out, item) else {
+            self.keep(search, item, (statistic, limit), record);
+            return false;
+        };
+        for at in together {
+            search.out[at] = true;
+            self.weigh(search.items[at], search.own[at], VANISHING);
+            let entry = self.gross_error(search.items[at], GrossErrorAction::Removed, search.round);
+            record.push(GrossError { statistic, limit, consequence: at != item, ..entry });
+        }
+        true
+    }
+
+    /// Names an item that the network cannot do without.
+    fn keep(&mut self, search: &mut Search, item: usize, (statistic, limit): (f64, f64), record: &mut Vec<GrossError>) {
+        search.settled[item] = true;
+        search.out[item] = false;
+        self.weigh(search.items[item], search.own[item], 1.0);
+        let entry = self.gross_error(search.items[item], GrossErrorAction::Kept, search.round);
+        record.push(GrossError { statistic, limit, ..entry });
+    }
+
+    /// Rounds of one decision each; returns whether they came to an end.
+    fn one_at_a_time(
+        &mut self,
+        options: &AdjustOptions,
+        log: &mut Log<'_>,
+        search: &mut Search,
+        record: &mut Vec<GrossError>,
+    ) -> Result<bool> {
+        for round in 1..=MOST_ROUNDS {
+            search.round = round;
+            let solution = self.finish(&full(options), false)?;
+            let Some(cofactors) = &solution.cofactors else { return Ok(false) };
+            let sigma0 = (solution.cost / self.redundancy.max(1) as f64).sqrt();
+            let tests = self.tests(options, search, cofactors)?;
+            let needed = (0..tests.len()).filter(|k| search.out[*k] && !lost_with_its_point(&self.network, search, *k));
+            let needed = needed.filter(|k| tests[*k].iter().flatten().any(|(_, c)| *c > NEEDED)).min_by(|a, b| {
+                let size = |k: usize| tests[k].iter().flatten().map(|(e, _)| e.abs()).fold(0.0, f64::max);
+                size(*a).total_cmp(&size(*b))
+            });
+            let before: (State, Vec<bool>, usize) = (self.state.clone(), search.out.clone(), record.len());
+            let mut changed = None;
+            if let Some(item) = needed {
+                self.keep(search, item, (0.0, 0.0), record);
+            } else {
+                match decide(&tests, &search.out, &search.settled, self.redundancy, sigma0) {
+                    Decision::Done => return Ok(true),
+                    Decision::Remove { item, statistic, limit } => {
+                        if !self.take_out(search, item, (statistic, limit), record) {
+                            continue;
+                        }
+                        changed = Some((item, statistic, limit));
+                    }
+                    Decision::Restore { item, statistic, limit } => {
+                        search.out[item] = false;
+                        search.restored[item] += 1;
+                        // What comes back a second time stays.
+                        search.settled[item] = search.restored[item] > 1;
+                        self.weigh(search.items[item], search.own[item], 1.0);
+                        let entry = self.gross_error(search.items[item], GrossErrorAction::Restored, round);
+                        record.push(GrossError { statistic, limit, ..entry });
+                    }
                 }
-                if self.iterate(options, log)? != Termination::Converged {
-                    settled = false;
-                    break 'stages;
+            }
+            self.redundancy = search.redundancy();
+            match (self.iterate(options, log), changed) {
+                (Ok(Termination::Converged), _) => {}
+                (Ok(Termination::Stopped), _) | (_, None) => return Ok(false),
+                (_, Some((item, statistic, limit))) => {
+                    // Without it there is no solution: it is kept.
+                    let (state, out, entries) = before;
+                    (self.state, search.out) = (state, out);
+                    record.truncate(entries);
+                    for at in 0..search.items.len() {
+                        self.weigh(search.items[at], search.own[at], if search.out[at] { VANISHING } else { 1.0 });
+                    }
+                    self.keep(search, item, (statistic, limit), record);
+                    self.redundancy = search.redundancy();
                 }
             }
         }
-        let of_rays = self.weights.iter().enumerate().map(|(ray, w)| (Item::Ray(ray), w[0].min(w[1])));
-        let of_given = given.iter().zip(&self.given_factors).map(|(observed, w)| (Item::Given(*observed), *w));
-        for (item, factor) in of_rays.chain(of_given).map(|(item, w)| (item, w * w)).filter(|(_, f)| *f < 0.5) {
-            let entry = self.gross_error(item, GrossErrorAction::Downweighted, round);
-            record.push(GrossError { statistic: factor, limit: 0.5, ..entry });
-        }
-        Ok(settled)
+        Ok(false)
     }
 
-    /// Per given observation the cofactor by which the others predict it, in units of its own variance (infinite where they
-    /// do not), and the mean redundancy number of the image coordinates.
-    fn predictability(&mut self, options: &AdjustOptions, given: &[Observed]) -> Result<(Vec<f64>, f64)> {
-        if given.is_empty() {
-            return Ok((Vec::new(), 1.0));
-        }
-        let full = AdjustOptions { statistics: StatisticsChoice::Full, covariance_of: Vec::new(), ..options.clone() };
-        let solution = self.finish(&full, false)?;
-        let Some(cofactors) = &solution.cofactors else { return Ok((vec![f64::INFINITY; given.len()], 1.0)) };
-        let of = |(observed, factor): (&Observed, &f64)| {
-            let c = observed.cofactor(&self.network, cofactors);
-            if c < 1.0 { c.max(0.0) / (factor * factor * (1.0 - c)) } else { f64::INFINITY }
+    fn tests(&self, options: &AdjustOptions, search: &Search, cofactors: &Cofactors) -> Result<Vec<Tests>> {
+        let residuals = self.residuals(options)?;
+        let one = |(item, own): (&Item, &f64)| match item {
+            Item::Ray(ray) => [0, 1].map(|s| Some((residuals[*ray][s], cofactors.rays[*ray][s]))),
+            Item::Given(observed) => {
+                let e = observed.residual(&self.network, &self.state) * own;
+                [Some((e, observed.cofactor(&self.network, cofactors))), None]
+            }
         };
-        let image: f64 = cofactors.rays.iter().flatten().map(|c| 1.0 - c).sum();
-        let mean = image / (2 * cofactors.rays.len()).max(1) as f64;
-        Ok((given.iter().zip(&self.given_factors).map(of).collect(), mean.clamp(TESTABLE, 1.0)))
+        Ok(search.items.iter().zip(&search.own).map(one).collect())
     }
 
-    /// Factors of the given observations from the errors with which the others predict them; their largest change.
-    /// `scale` is that of the image residuals, whose mean redundancy number makes it one of standardised residuals.
-    fn reweight_given(
-        &mut self,
-        kind: Robust,
-        given: &[Observed],
-        weights: &[f64],
-        (predicted, mean): &(Vec<f64>, f64),
-        scale: f64,
-    ) -> f64 {
-        let mut change = 0.0_f64;
-        for (k, observed) in given.iter().enumerate() {
-            let e = observed.residual(&self.network, &self.state) * weights[k];
-            let Some(t) = prediction(e, self.given_factors[k].powi(2), predicted[k], TESTABLE) else { continue };
-            // Never quite 0, so that it stays an observation with a residual.
-            let new = factor(kind, t / (scale / mean.sqrt())).sqrt().max(VANISHING);
-            change = change.max((new - self.given_factors[k]).abs());
-            self.given_factors[k] = new;
-            observed.set_weight(&mut self.network, weights[k] * new);
+    /// Sets the factor on the square root of an observation's own weight.
+    fn weigh(&mut self, item: Item, own: f64, factor: f64) {
+        match item {
+            Item::Ray(ray) => self.weights[ray] = [factor; 2],
+            Item::Given(observed) => observed.set_sqrt_weight(&mut self.network, own * factor),
         }
-        change
     }
+
+    /// The session without what the search took out. What the numbering of the rest does not allow comes back, last taken
+    /// first, and is named.
+    ///
+    /// # Errors
+    /// As [`Session::new`], with everything in.
+    pub fn without_found(&self, left_out: &mut LeftOut, record: &mut Vec<GrossError>) -> Result<Self> {
+        loop {
+            match self.without(left_out) {
+                Ok(session) => return Ok(session),
+                Err(error) if left_out.is_empty() => return Err(error),
+                Err(_) => {
+                    let back = match left_out.given.pop() {
+                        Some(key) => {
+                            let mut items = items(&self.network).into_iter();
+                            items.find(|item| matches!(item, Item::Given(o) if o.key(&self.network) == key))
+                        }
+                        None => {
+                            // The least of those that went last.
+                            let out = |k: &usize| left_out.observations[self.network.rays[*k].row];
+                            let place = |k: &usize| {
+                                let o = &self.project.observations[self.network.rays[*k].row];
+                                record.iter().rposition(|g| g.photo == o.photo && g.point == o.point)
+                            };
+                            let last = (0..self.network.rays.len()).filter(out).max_by_key(place);
+                            last.map(|ray| {
+                                left_out.observations[self.network.rays[ray].row] = false;
+                                Item::Ray(ray)
+                            })
+                        }
+                    };
+                    if let Some(item) = back {
+                        let round = record.last().map_or(1, |g| g.round);
+                        record.push(self.gross_error(item, GrossErrorAction::Kept, round));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Whether all rays of the item's point are out: the point is gone, and nothing needs them.
+fn lost_with_its_point(network: &Network, search: &Search, item: usize) -> bool {
+    let Item::Ray(ray) = search.items[item] else { return false };
+    // Rays are numbered as in the network.
+    let point = network.points.iter().find(|p| p.rays.contains(&ray));
+    point.is_some_and(|p| p.rays.clone().all(|ray| search.out[ray]))
+}
+
+fn full(options: &AdjustOptions) -> AdjustOptions {
+    AdjustOptions { statistics: StatisticsChoice::Full, covariance_of: Vec::new(), ..options.clone() }
 }

@@ -11,7 +11,10 @@ use crate::adjust::problem::network::Network;
 use crate::statistics::distribution::critical_tau;
 
 /// Square root of the weight of what is taken out.
-pub const VANISHING: f64 = 1e-6;
+pub const VANISHING: f64 = 1e-4;
+
+/// An observation taken out whose weighted cofactor is larger all the same is the only one that determines its place.
+const UNPREDICTED: f64 = 0.01;
 
 /// Redundancy numbers below this leave nothing to test.
 pub const TESTABLE: f64 = 1e-3;
@@ -71,6 +74,10 @@ pub fn decide(tests: &[Tests], removed: &[bool], settled: &[bool], redundancy: u
             tests.iter().flatten().filter_map(|test| one(*test)).fold(0.0, f64::max)
         };
         if removed[item] {
+            // What nothing else predicts agrees with itself: that says nothing, and it stays out.
+            if tests.iter().flatten().any(|(_, q)| *q > UNPREDICTED) {
+                continue;
+            }
             let predicted = largest(&|q| Some(1.0 + q / (VANISHING * VANISHING)));
             // A little below the limit, so that nothing goes in and out forever.
             if predicted < 0.95 * best.1 {

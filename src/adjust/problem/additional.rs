@@ -76,22 +76,22 @@ pub fn all(network: &Network) -> Vec<Observed> {
 
 impl Observed {
     /// Reciprocal standard error.
-    pub fn weight(self, network: &Network) -> f64 {
+    pub fn sqrt_weight(self, network: &Network) -> f64 {
         match self {
             Self::Control(k, a) => network.points[k].prior[a].1,
             Self::Position(k, a) => network.photos[k].prior[a].1,
-            Self::Distance(k) => network.bars[k].weight,
+            Self::Distance(k) => network.bars[k].sqrt_weight,
             Self::Parameter(k, n) => network.interiors[k].estimated[n].prior.1,
         }
     }
 
     /// Changes the reciprocal standard error.
-    pub fn set_weight(self, network: &mut Network, weight: f64) {
+    pub fn set_sqrt_weight(self, network: &mut Network, sqrt_weight: f64) {
         match self {
-            Self::Control(k, a) => network.points[k].prior[a].1 = weight,
-            Self::Position(k, a) => network.photos[k].prior[a].1 = weight,
-            Self::Distance(k) => network.bars[k].weight = weight,
-            Self::Parameter(k, n) => network.interiors[k].estimated[n].prior.1 = weight,
+            Self::Control(k, a) => network.points[k].prior[a].1 = sqrt_weight,
+            Self::Position(k, a) => network.photos[k].prior[a].1 = sqrt_weight,
+            Self::Distance(k) => network.bars[k].sqrt_weight = sqrt_weight,
+            Self::Parameter(k, n) => network.interiors[k].estimated[n].prior.1 = sqrt_weight,
         }
     }
 
@@ -100,7 +100,7 @@ impl Observed {
         match self {
             Self::Control(k, a) => state.points[k][a] - network.points[k].prior[a].0,
             Self::Position(k, a) => state.poses[k].centre[a] - network.photos[k].prior[a].0,
-            Self::Distance(k) => distance_row(network, state, &network.bars[k]).0 / network.bars[k].weight,
+            Self::Distance(k) => distance_row(network, state, &network.bars[k]).0 / network.bars[k].sqrt_weight,
             Self::Parameter(k, n) => {
                 let estimated = &network.interiors[k].estimated[n];
                 state.interiors[k].get(estimated.parameter).unwrap_or_default() - estimated.prior.0
@@ -155,9 +155,9 @@ pub fn distance_row(network: &Network, state: &State, bar: &Bar) -> (f64, [f64; 
     let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
     let mut rows = [0.0; 6];
     for k in 0..3 {
-        let slope = d[k] * inverse * bar.weight;
+        let slope = d[k] * inverse * bar.sqrt_weight;
         rows[k] = if network.points[bar.from].fixed[k] { 0.0 } else { -slope };
         rows[3 + k] = if network.points[bar.to].fixed[k] { 0.0 } else { slope };
     }
-    ((length - bar.length) * bar.weight, rows)
+    ((length - bar.length) * bar.sqrt_weight, rows)
 }

@@ -1,36 +1,34 @@
 //! Eccentricity of circular targets: how far the centre of the ellipse that was measured lies from the image of the
 //! circle's centre ([`crate::eccentricity`]), for targets whose diameter the document gives.
 //!
-//! The circle's normal is given with the point, or is that of the surface it lies on: the plane through the point and its
-//! nearest neighbours. The corrections depend so weakly on the unknowns that they are held during an iteration and
-//! computed again after it.
-//!
-//! A plane through n points that lie off it by the rms deviation s (n - 3 degrees of freedom), with rms extents a and b along
-//! its axes, has a normal that is uncertain by
-//!
-//! ```text
-//! σ² = s²/n · (1/a² + 1/b²)
-//! ```
+//! The circle's normal is given with the point, or is that of the surface it lies on ([`super::surface`]). The corrections
+//! depend so weakly on the unknowns that they are held during an iteration and computed again after it.
 //!
 //! An eccentricity is e = E sin 2α with the angle α between ray and normal, E = c r²/(2Z²) at distance Z; an error of the
 //! normal by σ changes it by up to 2Eσ. A surface is believed where that is at most a tenth of E, σ ≤ 1/20: what it leaves
-//! is then small beside what it takes away, and points scattered in space, with s as large as a and b, are far from it. Else
-//! nothing is corrected.
+//! is then small beside what it takes away, and points scattered in space are far from it.
+//!
+//! Corrections of some points and not of their neighbours bend the object, which is worse than none: points that are each other's
+//! neighbours are one group, and all of it is corrected or nothing. A group counts as a surface where nine tenths of its normals
+//! are believed and the others, at its rim, leave at most half of E.
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::Vector3;
 use std::borrow::Cow;
 
+use crate::adjustment::PointEccentricity;
 use crate::eccentricity::{Circle, pixels};
 use crate::error::{Error, Place, Reason, Result};
 use crate::project::{Interior, Project};
 
 use super::network::Network;
 use super::state::State;
+use super::surface::Surface;
 
-/// Neighbours that span the surface.
-const NEIGHBOURS: usize = 6;
 /// Part of the largest eccentricity that the uncertainty of a surface's normal may leave, see above.
 const LEFT: f64 = 0.1;
+/// The same at the rim of a surface, and the share of a group whose normals are to be believed.
+const LEFT_AT_THE_RIM: f64 = 0.5;
+const BELIEVED: f64 = 0.9;
 
 /// The project with this diameter for every target that states none.
 ///
@@ -72,10 +70,9 @@ pub fn shifts(project: &Project, network: &Network, state: &State) -> Vec<[f64; 
         })
         .collect();
     let mut shifts = vec![[0.0; 2]; network.rays.len()];
-    let sorted = Sorted::new(&state.points);
+    let normals = normals(project, network, state);
     for (k, block) in network.points.iter().enumerate() {
-        let given = project.points[block.index].normal.and_then(|n| Vector3::from(n).try_normalize(0.0));
-        let Some(normal) = diameter(k).and_then(|_| given.or_else(|| sorted.normal(k))) else { continue };
+        let Some(normal) = normals[k] else { continue };
         let diameter = diameter(k).unwrap_or_default() / network.frame.scale;
         for ray in block.rays.clone() {
             let photo = network.rays[ray].photo;
@@ -99,75 +96,79 @@ pub fn shifts(project: &Project, network: &Network, state: &State) -> Vec<[f64; 
 /// Largest difference between two sets of corrections, in a priori standard errors.
 pub fn difference(network: &Network, a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     let of = |shifts: &[[f64; 2]], k: usize, side: usize| shifts.get(k).map_or(0.0, |s| s[side]);
-    let one = |k: usize, side: usize| ((of(a, k, side) - of(b, k, side)) * network.rays[k].weight[side]).abs();
+    let one = |k: usize, side: usize| ((of(a, k, side) - of(b, k, side)) * network.rays[k].sqrt_weight[side]).abs();
     (0..network.rays.len()).flat_map(|k| [one(k, 0), one(k, 1)]).fold(0.0, f64::max)
 }
 
-/// Points in the order of their first coordinate, for finding neighbours.
-struct Sorted<'a> {
-    points: &'a [[f64; 3]],
-    order: Vec<usize>,
-    place: Vec<usize>,
+/// Normals of the points with a diameter: given, or that of the surface where their group shows one.
+fn normals(project: &Project, network: &Network, state: &State) -> Vec<Option<Vector3<f64>>> {
+    let surface = Surface::new(&state.points);
+    let mut normals = vec![None; network.points.len()];
+    let mut open = vec![false; network.points.len()];
+    for (k, block) in network.points.iter().enumerate() {
+        let point = &project.points[block.index];
+        if point.diameter.is_some_and(|d| d > 0.0) {
+            normals[k] = point.normal.and_then(|n| Vector3::from(n).try_normalize(0.0));
+            open[k] = normals[k].is_none();
+        }
+    }
+    for group in groups(&surface, &open) {
+        let found: Vec<Option<(Vector3<f64>, f64)>> = group.iter().map(|k| surface.normal(*k)).collect();
+        let within = |left: f64| found.iter().flatten().filter(|(_, sigma)| 2.0 * sigma <= left).count();
+        if within(LEFT) as f64 >= BELIEVED * group.len() as f64 && within(LEFT_AT_THE_RIM) == group.len() {
+            group.iter().zip(found).for_each(|(k, found)| normals[*k] = found.map(|(normal, _)| normal));
+        }
+    }
+    normals
 }
 
-impl<'a> Sorted<'a> {
-    fn new(points: &'a [[f64; 3]]) -> Self {
-        let mut order: Vec<usize> = (0..points.len()).collect();
-        order.sort_by(|a, b| points[*a][0].total_cmp(&points[*b][0]));
-        let mut place = vec![0; points.len()];
-        order.iter().enumerate().for_each(|(at, k)| place[*k] = at);
-        Self { points, order, place }
-    }
-
-    /// The nearest points, nearest first.
-    fn neighbours(&self, k: usize) -> Vec<usize> {
-        let x = self.points[k];
-        let mut found: Vec<(f64, usize)> = Vec::with_capacity(NEIGHBOURS + 1);
-        let mut visit = |other: usize| {
-            let y = self.points[other];
-            let along = (y[0] - x[0]).powi(2);
-            if found.len() == NEIGHBOURS && along > found[NEIGHBOURS - 1].0 {
-                return false;
-            }
-            let squared = along + (y[1] - x[1]).powi(2) + (y[2] - x[2]).powi(2);
-            let at = found.partition_point(|(d, _)| *d < squared);
-            found.insert(at, (squared, other));
-            found.truncate(NEIGHBOURS);
-            true
-        };
-        // Outwards on either side, until the first coordinate alone is farther than what was found.
-        let (before, after) = self.order.split_at(self.place[k]);
-        let _ = before.iter().rev().all(|other| visit(*other));
-        let _ = after[1..].iter().all(|other| visit(*other));
-        found.into_iter().map(|(_, other)| other).collect()
-    }
-
-    /// Normal of the surface at a point; none where its neighbours do not show it well enough.
-    fn normal(&self, k: usize) -> Option<Vector3<f64>> {
-        self.plane(k).filter(|(_, sigma)| 2.0 * sigma <= LEFT).map(|(normal, _)| normal)
-    }
-
-    /// Normal of the plane through a point and its neighbours, and its standard error in radians.
-    fn plane(&self, k: usize) -> Option<(Vector3<f64>, f64)> {
-        let mut around = self.neighbours(k);
-        around.push(k);
-        if around.len() < 4 {
-            return None;
+/// Points without a normal of their own that are joined by chains of neighbours.
+fn groups(surface: &Surface<'_>, open: &[bool]) -> Vec<Vec<usize>> {
+    let mut joined = vec![Vec::new(); open.len()];
+    for k in (0..open.len()).filter(|k| open[*k]) {
+        for other in surface.nearest(k).into_iter().filter(|other| open[*other]) {
+            joined[k].push(other);
+            joined[other].push(k);
         }
-        let at = |k: usize| Vector3::from(self.points[k]);
-        let mean = around.iter().map(|k| at(*k)).sum::<Vector3<f64>>() / around.len() as f64;
-        let centred = DMatrix::from_fn(3, around.len(), |a, n| at(around[n])[a] - mean[a]);
-        let eigen = nalgebra::SymmetricEigen::try_new(&centred * centred.transpose(), 1e-15, 200)?;
-        let mut order = [0, 1, 2];
-        order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-        // Sums of squares along the axes: n a², n b², (n - 3) s².
-        let [most, middle, least] = order.map(|a| eigen.eigenvalues[a].max(0.0));
-        // Rounding alone leaves this of a plane.
-        let least = least.max(1e-24 * most) / (around.len() - 3) as f64;
-        let normal = eigen.eigenvectors.column(order[2]);
-        let squared = least / middle + least / most;
-        Some((Vector3::new(normal[0], normal[1], normal[2]), squared.sqrt())).filter(|(_, sigma)| sigma.is_finite())
     }
+    let mut seen = vec![false; open.len()];
+    let mut groups = Vec::new();
+    for start in (0..open.len()).filter(|k| open[*k]) {
+        if std::mem::replace(&mut seen[start], true) {
+            continue;
+        }
+        let (mut group, mut next) = (vec![start], 0);
+        while let Some(&k) = group.get(next) {
+            next += 1;
+            for &other in &joined[k] {
+                if !std::mem::replace(&mut seen[other], true) {
+                    group.push(other);
+                }
+            }
+        }
+        groups.push(group);
+    }
+    groups
+}
+
+/// What was done about the eccentricity of every point with a diameter: the largest correction of its rays, none where its normal
+/// is not known.
+pub fn told(project: &Project, network: &Network, shift: &[[f64; 2]]) -> Vec<PointEccentricity> {
+    let mut told = Vec::new();
+    for block in &network.points {
+        let point = &project.points[block.index];
+        if point.diameter.is_none_or(|d| d <= 0.0) {
+            continue;
+        }
+        let length = |ray: usize| {
+            let camera = &project.cameras[network.interiors[network.photos[network.rays[ray].photo].interior].camera];
+            let pitch = if matches!(camera.interior, Interior::Brown { .. }) { camera.pitch() } else { [1.0; 2] };
+            shift.get(ray).map_or(0.0, |s| (s[0] / pitch[0]).hypot(s[1] / pitch[1]))
+        };
+        let largest = block.rays.clone().map(length).fold(0.0, f64::max);
+        told.push(PointEccentricity { point: point.id.clone(), correction_px: (largest > 0.0).then_some(largest) });
+    }
+    told
 }
 
 #[cfg(test)]
@@ -351,7 +352,7 @@ mod tests {
             for _ in 0..4000 {
                 let place = |k: u32| [along * f64::from(k % 4), across * f64::from(k * 3 % 7)];
                 let points: Vec<[f64; 3]> = (0..7).map(place).map(|[x, y]| [x, y, off * noise.normal()]).collect();
-                let (normal, sigma) = Sorted::new(&points).plane(3).expect("seven points");
+                let (normal, sigma) = Surface::new(&points).plane(3).expect("seven points");
                 squares += normal.x * normal.x + normal.y * normal.y;
                 stated += sigma * sigma;
             }
@@ -362,23 +363,47 @@ mod tests {
         // A cloud without a surface is hardly ever taken for one.
         let believed = (0..2000).filter(|_| {
             let points: Vec<[f64; 3]> = (0..7).map(|_| [(); 3].map(|()| noise.normal())).collect();
-            Sorted::new(&points).normal(3).is_some()
+            Surface::new(&points).plane(3).is_some_and(|(_, sigma)| 2.0 * sigma <= LEFT)
         });
         let believed = believed.count();
         assert!(believed < 10, "{believed} of 2000");
+    }
+
+    /// Points of a half sphere, rim included: every normal is that of the sphere, and all of them are believed.
+    #[test]
+    fn a_dome_shows_its_normals_to_the_rim() {
+        for count in [60, 600] {
+            let points: Vec<[f64; 3]> = (0..count)
+                .map(|k| {
+                    let z = (f64::from(k) + 0.5) / f64::from(count);
+                    let (sin, cos) = (2.399_963_23 * f64::from(k)).sin_cos();
+                    let radius = (1.0 - z * z).sqrt();
+                    [radius * cos, radius * sin, z]
+                })
+                .collect();
+            let surface = Surface::new(&points);
+            let found: Vec<(Vector3<f64>, f64)> =
+                (0..points.len()).map(|k| surface.normal(k).expect("a surface")).collect();
+            let off = |k: usize| found[k].0.dot(&Vector3::from(points[k])).abs().min(1.0).acos();
+            let worst = (0..points.len()).map(off).fold(0.0, f64::max);
+            assert!(worst < if count == 60 { 0.12 } else { 0.02 }, "{count}: {worst}");
+            let believed = found.iter().filter(|(_, sigma)| 2.0 * sigma <= LEFT).count();
+            assert!(believed as f64 >= BELIEVED * points.len() as f64, "{believed} of {count}");
+            assert!(found.iter().all(|(_, sigma)| 2.0 * sigma <= LEFT_AT_THE_RIM), "{count}");
+        }
     }
 
     #[test]
     fn a_normal_comes_from_a_flat_neighbourhood_only() {
         let flat: Vec<[f64; 3]> =
             (0..9).map(|k| [f64::from(k % 3), f64::from(k / 3), 0.5 * f64::from(k % 3)]).collect();
-        let normal = Sorted::new(&flat).normal(4).expect("flat");
+        let normal = Surface::new(&flat).plane(4).expect("flat").0;
         assert!((normal.dot(&Vector3::new(-0.5, 0.0, 1.0).normalize()).abs() - 1.0).abs() < 1e-12);
         let mut bent = flat.clone();
         bent[0][2] += 1.0;
         bent[1][2] -= 0.6;
-        assert_eq!(Sorted::new(&bent).normal(4), None);
+        assert!(Surface::new(&bent).plane(4).is_none_or(|(_, sigma)| 2.0 * sigma > LEFT));
         let line: Vec<[f64; 3]> = (0..9).map(|k| [f64::from(k), 2.0 * f64::from(k), 0.0]).collect();
-        assert_eq!(Sorted::new(&line).normal(4), None);
+        assert!(Surface::new(&line).normal(4).is_none_or(|(_, sigma)| 2.0 * sigma > LEFT));
     }
 }

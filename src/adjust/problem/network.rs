@@ -18,7 +18,7 @@ pub struct Ray {
     /// In the units of the camera's residuals.
     pub measured: [f64; 2],
     /// Reciprocal standard errors in those units.
-    pub weight: [f64; 2],
+    pub sqrt_weight: [f64; 2],
     /// Place in the document's observations.
     pub row: usize,
 }
@@ -90,7 +90,7 @@ pub struct Bar {
     /// Length in the frame of the adjustment.
     pub length: f64,
     /// Reciprocal standard error.
-    pub weight: f64,
+    pub sqrt_weight: f64,
 }
 
 /// The network.
@@ -247,7 +247,7 @@ impl Network {
                 network.rays.push(Ray {
                     photo: place_of_photo[photo],
                     measured: camera::measurement_from_pixel(camera, [o.u, o.v]),
-                    weight: [1.0 / (sigma[0] * unit[0]), 1.0 / (sigma[1] * unit[1])],
+                    sqrt_weight: [1.0 / (sigma[0] * unit[0]), 1.0 / (sigma[1] * unit[1])],
                     row,
                 });
             }
@@ -260,8 +260,8 @@ impl Network {
             if from != usize::MAX && to != usize::MAX && used(Key::Distance(index)) {
                 network.points[from].kept = true;
                 network.points[to].kept = true;
-                let (length, weight) = (d.length / frame.scale, frame.scale / d.sigma);
-                network.bars.push(Bar { index, from, to, length, weight });
+                let (length, sqrt_weight) = (d.length / frame.scale, frame.scale / d.sigma);
+                network.bars.push(Bar { index, from, to, length, sqrt_weight });
             }
         }
         network.datum_points = project.datum.points.as_ref().map(|ids| {

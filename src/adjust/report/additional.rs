@@ -1,6 +1,6 @@
 //! Observations of other kinds than image coordinates in the result: residuals, reliability, and what was taken out.
 
-use crate::adjust::gross_errors::snooping::VANISHING;
+use crate::adjust::gross_errors::start::LEAST;
 use crate::adjust::problem::additional::{self, Key, Observed};
 use crate::adjust::problem::network::InteriorBlock;
 use crate::adjustment::GivenObservation;
@@ -14,7 +14,7 @@ impl Solved<'_> {
         let full = self.cofactors.filter(|c| !c.rays.is_empty());
         let one = |(k, observed): (usize, Observed)| {
             let unit = observed.unit(self.network);
-            let weight = observed.weight(self.network);
+            let weight = observed.sqrt_weight(self.network);
             let factor = self.given_factors.get(k).copied().unwrap_or(1.0);
             let residual = observed.residual(self.network, self.state);
             let mut given = GivenObservation {
@@ -30,7 +30,7 @@ impl Solved<'_> {
             let Some(cofactors) = full else { return given };
             let mut test =
                 Reliability::new(residual * weight, observed.cofactor(self.network, cofactors), unit / weight);
-            if factor <= VANISHING {
+            if factor <= LEAST {
                 // An observation without weight is not tested.
                 test = Reliability { redundancy: test.redundancy, ..Reliability::default() };
             }

@@ -3,9 +3,11 @@
 use nalgebra::{Matrix3, Matrix6};
 
 use crate::adjust::equations::collinearity::Weighting;
+use crate::adjust::gross_errors::start::LEAST;
+use crate::adjust::problem::eccentric;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::{Frame, State};
-use crate::adjust::solve::session::{Session, Solution};
+use crate::adjust::solve::session::{RobustVariance, Session, Solution};
 use crate::adjust::statistics::cofactors::Cofactors;
 use crate::adjustment::{
     AdjustOptions, AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Adjustment, CheckPoint,
@@ -37,6 +39,8 @@ pub struct Solved<'a> {
     pub constraints: usize,
     /// n - u + d.
     pub redundancy: usize,
+    /// What stands for the variance factor after robust estimation.
+    pub robust: Option<RobustVariance>,
 }
 
 /// Derivative of the turn by omega, phi, kappa: t = -(Mκ Mφ e1, Mκ e2, e3)·(dω, dφ, dκ).
@@ -78,14 +82,19 @@ impl<'a> Solved<'a> {
             cost: solution.cost,
             constraints: session.datum.as_ref().map_or(0, |d| d.defect),
             redundancy: session.redundancy,
+            robust: session.robust,
         }
     }
 }
 
 impl Solved<'_> {
-    /// σ0², or 1 where nothing determines it.
+    /// Factor from cofactors to covariances: σ0², or 1 where nothing determines it.
     fn variance_factor(&self) -> f64 {
-        if self.redundancy > 0 { self.cost / self.redundancy as f64 } else { 1.0 }
+        match self.robust {
+            Some(robust) => robust.variance,
+            None if self.redundancy > 0 => self.cost / self.redundancy as f64,
+            None => 1.0,
+        }
     }
 
     /// Origin and unit of the coordinates inside.
@@ -97,10 +106,11 @@ impl Solved<'_> {
     pub fn adjustment(&self) -> Adjustment {
         let redundancy = self.redundancy;
         let tested = redundancy > 0;
+        let statistic = self.robust.map_or(self.cost, |robust| robust.sigma0.powi(2) * redundancy as f64);
         let test = tested.then(|| {
             let lower = chi_squared_quantile(GLOBAL_ALPHA / 2.0, redundancy);
             let upper = chi_squared_quantile(1.0 - GLOBAL_ALPHA / 2.0, redundancy);
-            GlobalTest { statistic: self.cost, lower, upper, passed: (lower..=upper).contains(&self.cost) }
+            GlobalTest { statistic, lower, upper, passed: (lower..=upper).contains(&statistic) }
         });
         let points = self.points();
         let observations = self.observations();
@@ -110,7 +120,7 @@ impl Solved<'_> {
             unknowns: self.network.unknowns(),
             constraints: self.constraints,
             redundancy,
-            sigma0: tested.then(|| (self.cost / redundancy as f64).sqrt()),
+            sigma0: tested.then(|| (statistic / redundancy as f64).sqrt()),
             global_test: test,
             cameras: self.cameras(),
             photos: self.photos(&observations),
@@ -120,6 +130,7 @@ impl Solved<'_> {
             check_statistics: check_statistics(&check_points),
             check_points,
             given: self.given(),
+            eccentricity: eccentric::told(self.project, self.network, self.weighting.shift),
             ..Adjustment::default()
         }
     }
@@ -273,15 +284,15 @@ impl Solved<'_> {
             let Some(network_ray) = self.network.rays.get(ray) else { return adjusted };
             adjusted.enabled = true;
             let robust = self.weighting.robust.get(ray);
-            adjusted.weight = robust.map(|w| w[0] * w[0]).filter(|w| *w < 1.0);
+            adjusted.weight = robust.map(|w| w[0].min(w[1]).powi(2)).filter(|w| *w < 1.0);
             if let Some(cofactors) = self.cofactors.filter(|c| !c.rays.is_empty()) {
                 let side = |s: usize| {
-                    let weight = network_ray.weight[s] * robust.map_or(1.0, |w| w[s]);
-                    // An observation without weight checks nothing and is not in the sums.
-                    if weight == 0.0 {
-                        return (Reliability { redundancy: 1.0, ..Reliability::default() }, None);
+                    let weight = network_ray.sqrt_weight[s] * robust.map_or(1.0, |w| w[s]);
+                    let mut test = Reliability::new(linear.residual[s] * weight, cofactors.rays[ray][s], 1.0 / weight);
+                    if robust.is_some_and(|w| w[s] <= LEAST) {
+                        // What has lost its weight is not tested.
+                        test = Reliability { redundancy: test.redundancy, ..Reliability::default() };
                     }
-                    let test = Reliability::new(linear.residual[s] * weight, cofactors.rays[ray][s], 1.0 / weight);
                     (test, test.mdb.map(|mdb| mdb * weight * cofactors.influence[ray][s] * scale))
                 };
                 let ((x, effect_x), (y, effect_y)) = (side(0), side(1));

@@ -57,6 +57,17 @@ pub struct Session<'a> {
     pub given_factors: Vec<f64>,
     /// Eccentricity corrections, per ray; empty for none.
     pub shift: Vec<[f64; 2]>,
+    /// What stands for the variance factor after robust estimation.
+    pub robust: Option<RobustVariance>,
+}
+
+/// Variances after robust estimation, where weighted squares over redundancy mean neither.
+#[derive(Clone, Copy, Debug)]
+pub struct RobustVariance {
+    /// Consistent estimate of the standard deviation of unit weight.
+    pub sigma0: f64,
+    /// Factor from the cofactors of the equations with weights to covariances.
+    pub variance: f64,
 }
 
 /// What is known at the end.
@@ -99,6 +110,7 @@ impl<'a> Session<'a> {
             weights: Vec::new(),
             given_factors: Vec::new(),
             shift: Vec::new(),
+            robust: None,
         };
         match n.checked_sub(u) {
             Some(redundancy) => session.redundancy = redundancy,
@@ -209,7 +221,11 @@ impl<'a> Session<'a> {
         let (network, layout, state) = (&self.network, &self.layout, &self.state);
         let cofactors = cofactors(&self.normal, network, layout, state, weighting, self.datum.as_ref(), full);
         let cofactors = Some(cofactors.ok_or_else(unsound)?);
-        let variance = if self.redundancy > 0 { cost / self.redundancy as f64 } else { 1.0 };
+        let variance = match self.robust {
+            Some(robust) => robust.variance,
+            None if self.redundancy > 0 => cost / self.redundancy as f64,
+            None => 1.0,
+        };
         let covariance = if options.covariance_of.is_empty() {
             None
         } else {

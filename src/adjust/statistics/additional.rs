@@ -8,7 +8,7 @@ use super::cofactors::Cofactors;
 impl Observed {
     /// Cofactor of the weighted adjusted observation, 1 - r.
     pub fn cofactor(self, network: &Network, cofactors: &Cofactors) -> f64 {
-        let squared = self.weight(network).powi(2);
+        let squared = self.sqrt_weight(network).powi(2);
         match self {
             Self::Control(k, a) => cofactors.given_points[k][a] * squared,
             Self::Position(k, a) => cofactors.photos[k][(3 + a, 3 + a)] * squared,
@@ -22,7 +22,7 @@ impl Observed {
     /// Shift, by a unit of weighted observation error, of the point that it moves most, and that point. None where it
     /// acts on no point.
     pub fn influence(self, network: &Network, cofactors: &Cofactors) -> Option<(f64, usize)> {
-        let weight = self.weight(network);
+        let weight = self.sqrt_weight(network);
         let influence = &cofactors.given_influence;
         let (shift, point) = match self {
             Self::Control(k, a) => {

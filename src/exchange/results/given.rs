@@ -84,6 +84,7 @@ pub fn record(adjustment: &Adjustment) -> Table {
             GrossErrorAction::Removed => "removed",
             GrossErrorAction::Restored => "restored",
             GrossErrorAction::Downweighted => "downweighted",
+            GrossErrorAction::Kept => "kept",
         };
         let mut names = names(entry.given.as_ref());
         if entry.given.is_none() {

@@ -14,7 +14,7 @@ use nalgebra::Vector3;
 
 use super::networks::{Case, DISTANCES, network, single};
 use crate::adjust::adjust;
-use crate::adjustment::{AdjustOptions, StatisticsChoice};
+use crate::adjustment::{AdjustOptions, ResidualPlace, StatisticsChoice};
 use crate::camera::ideal_from_pixel;
 use crate::error::Result;
 use crate::experiments::outcome::Tick;
@@ -154,7 +154,11 @@ fn models_of(first: &[[f64; 2]], second: &[[f64; 2]]) -> Option<[Model; 2]> {
 }
 
 fn bundle(network: &Network, project: &Project) -> Result<[f64; 3]> {
-    let choice = AdjustOptions { statistics: StatisticsChoice::None, ..AdjustOptions::default() };
+    let choice = AdjustOptions {
+        statistics: StatisticsChoice::None,
+        residuals: ResidualPlace::Corrected,
+        ..AdjustOptions::default()
+    };
     let adjustment = adjust(project, &choice, &mut |_| true)?;
     let found = |k: usize| adjustment.points.iter().find(|p| p.id == network.points[k].id).map(|p| p.xyz.into());
     Ok(errors(network, found))

@@ -494,6 +494,14 @@ declare! { desk {
     gross_removed: "taken out";
     gross_restored: "taken back";
     gross_downweighted: "weighted down";
+    gross_kept: "kept: nothing else determines what it does";
+    weak_distance(camera, parameter): "The photos hardly determine {parameter} of {camera}";
+    weak_distance_parallel: "They look the same way: hold it or give it a σ, or take photos that converge.";
+    weak_distance_body: "Hold it or give it a σ, or add photos that converge and points at different depths.";
+    components: "Estimate the standard errors";
+    components_why: "One factor for image coordinates, control, distances and the rest, each from its own residuals, until sigma0 is 1.";
+    components_unsettled: "The variance components came to no end";
+    components_unsettled_body: "Too few observations of one kind, or gross errors among them: take those out first.";
     gross_round: "round";
     gross_action: "action";
     gross_statistic: "τ or weight";

@@ -477,6 +477,14 @@ translate! { Korean desk {
     gross_removed: "제거";
     gross_restored: "복원";
     gross_downweighted: "가중값 감소";
+    gross_kept: "유지: 이 관측 없이는 망이 결정되지 않음";
+    weak_distance(camera, parameter): "사진이 {camera}의 {parameter} 값을 거의 결정하지 못합니다";
+    weak_distance_parallel: "촬영 방향이 서로 나란합니다. 값을 고정하거나 σ를 주거나, 수렴 촬영을 추가하십시오.";
+    weak_distance_body: "값을 고정하거나 σ를 주거나, 수렴 촬영과 깊이가 다른 점을 추가하십시오.";
+    components: "표준오차 추정(분산 성분)";
+    components_why: "사진좌표, 기준점, 거리 등 종류마다 잔차에서 배율 하나씩을 추정하여 σ₀를 1로 맞춥니다.";
+    components_unsettled: "분산 성분 추정이 수렴하지 않았습니다";
+    components_unsettled_body: "한 종류의 관측이 너무 적거나 과대오차가 있습니다. 과대오차부터 제거하십시오.";
     gross_round: "회차";
     gross_action: "처리";
     gross_statistic: "τ 또는 가중값";

@@ -1,7 +1,7 @@
 //! Step 5: what is estimated from what, the iterations as they come, and what the network lacks.
 
 use leptos::prelude::*;
-use sightline::adjustment::Termination;
+use sightline::adjustment::{ObservationGroup, Termination, VarianceComponent, VarianceComponents};
 use sightline::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
 
 use super::advice::Advice;
@@ -258,6 +258,46 @@ fn FromWhat() -> impl IntoView {
                 <tr><td class="left"><b>{text::distances}</b></td><td class="large">{move || format::count(counts.get().3)}</td></tr>
             </tbody>
         </table>
+        <label class="tick" title=text::components_why>
+            <input type="checkbox" name="variance-components" prop:checked=move || desk.document.with(|d| d.options.variance_components.is_some())
+                on:change=move |e| {
+                    let wanted = event::checked(&e).then(|| VarianceComponents { per_camera: false, unmodelled: false });
+                    desk.set_options(|options| options.variance_components = wanted);
+                }/>
+            <span>{text::components}</span>
+        </label>
+        <Components/>
+    }
+}
+
+/// The estimated variance components of the result, one a line.
+#[component]
+fn Components() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let found = Memo::new(move |_| {
+        desk.document.with(|d| d.current().map(|r| r.adjustment.variance_components.clone()).unwrap_or_default())
+    });
+    let line = |component: VarianceComponent| {
+        let name = match &component.group {
+            ObservationGroup::Image { camera: Some(camera) } => format!("{} {camera}", text::image_coordinates()),
+            ObservationGroup::Image { camera: None } => text::image_coordinates().to_owned(),
+            ObservationGroup::Control => text::control_coordinates().to_owned(),
+            ObservationGroup::Position => text::projection_centre().to_owned(),
+            ObservationGroup::Distance => text::distances().to_owned(),
+            ObservationGroup::Parameter => text::camera_parameter().to_owned(),
+        };
+        let factor = match component.factor_sigma {
+            Some(sigma) => format!("× {} ± {}", format::fixed(component.factor, 3), format::fixed(sigma, 3)),
+            None => "× 1".to_owned(),
+        };
+        view! { <tr><td class="left">{name}</td><td class="large">{factor}</td></tr> }
+    };
+    view! {
+        <Show when=move || found.with(|list| !list.is_empty())>
+            <table class="table words variance-components" aria-label=text::components>
+                <tbody>{move || found.get().into_iter().map(line).collect_view()}</tbody>
+            </table>
+        </Show>
     }
 }
 

@@ -298,6 +298,22 @@ fn network_item(advice: &sightline::adjustment::Advice) -> Item {
             let target = Target::Step(Step::Identities);
             (text::unsettled().to_owned(), text::unsettled_body().to_owned(), String::new(), target)
         }
+        Advice::WeakPrincipalDistance { camera, parameter, value, sigma, convergence, .. } => (
+            text::weak_distance(camera, parameter),
+            if convergence.to_degrees() < 20.0 {
+                text::weak_distance_parallel().to_owned()
+            } else {
+                text::weak_distance_body().to_owned()
+            },
+            format!("{} ± {}", format::fixed(*value, 2), format::fixed(*sigma, 2)),
+            Target::None,
+        ),
+        Advice::VarianceComponentsUnsettled => (
+            text::components_unsettled().to_owned(),
+            text::components_unsettled_body().to_owned(),
+            String::new(),
+            Target::None,
+        ),
     };
     Item { warning: true, title, body, evidence, target }
 }

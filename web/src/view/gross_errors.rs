@@ -91,6 +91,7 @@ pub fn GrossErrorRecord() -> impl IntoView {
         GrossErrorAction::Removed => text::gross_removed(),
         GrossErrorAction::Restored => text::gross_restored(),
         GrossErrorAction::Downweighted => text::gross_downweighted(),
+        GrossErrorAction::Kept => text::gross_kept(),
     };
     view! {
         <Show when=move || record.with(|r| !r.is_empty())>

@@ -15,7 +15,7 @@ struct Order {
     children: &'static [&'static str],
 }
 
-const ORDERS: [Order; 2] = [
+const ORDERS: [Order; 3] = [
     Order {
         parent: &[],
         children: &[
@@ -48,6 +48,13 @@ const ORDERS: [Order; 2] = [
         ],
     },
     Order {
+        parent: &["detect"],
+        children: &[
+            "code", "median", "normal", "picture", "ellipse", "edges", "centroid", "rendered", "search", "measure",
+            "click",
+        ],
+    },
+    Order {
         parent: &["adjust"],
         children: &[
             "linear",
@@ -58,6 +65,7 @@ const ORDERS: [Order; 2] = [
             "diagnosis",
             "solve",
             "gross_errors",
+            "variance_components",
             "report",
         ],
     },
