@@ -21,6 +21,7 @@ use crate::error::Result;
 use crate::project::{Project, Role};
 
 use diagnosis::advice;
+use diagnosis::judgement::judgement;
 use problem::additional::LeftOut;
 use problem::{eccentric, far_points, unmodelled};
 use report::result::Solved;
@@ -40,6 +41,7 @@ pub fn adjust(
     on_iteration: &mut dyn FnMut(&Iteration) -> bool,
 ) -> Result<Adjustment> {
     project.validate()?;
+    let document = project;
     let weighted = unmodelled::weighted(project, options.unmodelled)?;
     let sized = eccentric::sized(weighted, options.target_diameter)?;
     let ready = far_points::brought_back(sized);
@@ -71,7 +73,8 @@ pub fn adjust(
     adjustment.options = options.clone();
     adjustment.termination = termination;
     adjustment.iterations = log.iterations;
-    adjustment.advice = advice::advice(project, &session.network, &session.state, &adjustment);
+    adjustment.advice = judgement(&adjustment, unmodelled::estimate(document, &adjustment));
+    adjustment.advice.extend(advice::advice(project, &session.network, &session.state, &adjustment));
     if !settled {
         adjustment.advice.push(Advice::GrossErrorsUnsettled);
     }

@@ -3,14 +3,17 @@
 //! Sigmas and covariances include σ0²; lengths are in the project's unit, angles in radians, residuals in photo units
 //! (brown model) or pixels (opencv model). No number is NaN or infinite.
 
+mod camera;
+pub(crate) mod criteria;
 mod given;
-
-use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::project::{Camera, Parameter};
+use crate::project::{Camera, Interior, Parameter};
 
+pub use camera::AdjustedCamera;
+pub use criteria::Criteria;
+pub(crate) use criteria::is_distortion;
 pub use given::{Given, GivenObservation, GrossError, GrossErrorAction};
 
 /// How the iteration ended.
@@ -200,19 +203,26 @@ pub struct Correlation {
     pub matrix: Vec<Vec<f64>>,
 }
 
-/// An adjusted camera.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AdjustedCamera {
-    /// The camera with its adjusted parameters.
-    #[serde(flatten)]
-    pub camera: Camera,
-    /// The photo whose own interior orientation this is, for cameras with one per photo.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub photo: Option<String>,
-    /// Standard errors of the estimated parameters.
-    pub sigma: BTreeMap<Parameter, f64>,
-    /// Correlations of the estimated parameters.
-    pub correlation: Correlation,
+/// In what residuals and the parameters of a camera are told.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum PhotoUnit {
+    /// Millimetres: the brown model with a pixel pitch.
+    #[serde(rename = "mm")]
+    Millimetre,
+    /// Pixels.
+    #[default]
+    #[serde(rename = "px")]
+    Pixel,
+}
+
+impl PhotoUnit {
+    /// Unit of a camera's residuals, and width and height of a pixel in it.
+    pub fn of(camera: &Camera) -> (Self, [f64; 2]) {
+        match (&camera.interior, camera.pixel_pitch) {
+            (Interior::Brown { .. }, Some(pitch)) => (Self::Millimetre, pitch),
+            _ => (Self::Pixel, [1.0; 2]),
+        }
+    }
 }
 
 /// An adjusted photo.
@@ -232,12 +242,22 @@ pub struct AdjustedPhoto {
     pub rms_x: f64,
     /// Rms of the residuals in y, photo units.
     pub rms_y: f64,
+    /// Unit of its residuals.
+    #[serde(default)]
+    pub unit: PhotoUnit,
+    /// Width and height of a pixel in that unit; residuals divided by them are pixels.
+    #[serde(default = "one_by_one")]
+    pub pixel: [f64; 2],
     /// Number of points measured in it that took part.
     pub points: usize,
     /// Correlations of X, Y, Z, omega, phi, kappa and the camera's estimated parameters; null without statistics or where
     /// the angles are undefined.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub correlation: Option<Correlation>,
+}
+
+fn one_by_one() -> [f64; 2] {
+    [1.0; 2]
 }
 
 /// An adjusted point.
@@ -264,10 +284,11 @@ pub struct AdjustedObservation {
     pub photo: String,
     /// Point identifier.
     pub point: String,
-    /// Residual in x.
-    pub vx: f64,
+    /// Residual in x. Of an observation that took no part: what it says beside the adjusted values; null where photo or point are
+    /// not adjusted, or the point has no image there.
+    pub vx: Option<f64>,
     /// Residual in y.
-    pub vy: f64,
+    pub vy: Option<f64>,
     /// Redundancy number of x.
     pub rx: Option<f64>,
     /// Redundancy number of y.
@@ -317,6 +338,9 @@ pub struct CheckStatistics {
     pub standard_deviation: Option<[f64; 3]>,
     /// Root mean square.
     pub rms: [f64; 3],
+    /// Root mean square of the differences on all axes together.
+    #[serde(default)]
+    pub rms_all: f64,
 }
 
 /// What a solvable network is weak in, as data; the desk says it in its user's language.
@@ -383,6 +407,53 @@ pub enum Advice {
     GrossErrorsUnsettled,
     /// The estimation of variance components came to no end.
     VarianceComponentsUnsettled,
+    /// The residuals are larger than the standard errors of the image coordinates say: σ0 is beyond [`Criteria::sigma0`] and
+    /// its test failed.
+    SigmasTooSmall {
+        /// Standard deviation of unit weight.
+        sigma0: f64,
+        /// Standard deviation of what is not modelled with which they would agree, pixels; null where it cannot be told.
+        unmodelled: Option<f64>,
+    },
+    /// σ0 fails its test although `unmodelled` was given: it came from weights that are no longer in use.
+    UnmodelledAgain {
+        /// Standard deviation of unit weight.
+        sigma0: f64,
+        /// The value to take instead, pixels.
+        unmodelled: f64,
+    },
+    /// A parameter of distortion that is not told from 0 ([`Criteria::significance`]).
+    Insignificant {
+        /// Camera identifier.
+        camera: String,
+        /// Photo identifier, for cameras with an interior orientation per photo.
+        #[serde(default)]
+        photo: Option<String>,
+        /// Which parameter.
+        parameter: Parameter,
+        /// Its size in standard errors.
+        ratio: f64,
+        /// The parameter it is most correlated with; null where it is estimated alone.
+        #[serde(default)]
+        with: Option<Parameter>,
+        /// Their correlation.
+        #[serde(default)]
+        correlation: Option<f64>,
+    },
+    /// Observations whose |w| exceeds the critical value ([`Criteria::w`]).
+    Suspected {
+        /// How many there are.
+        count: usize,
+        /// Photo, point and w of the image observations with the largest, at most [`Self::SUSPECTS`] of them.
+        observations: Vec<(String, String, f64)>,
+        /// Observations of other kinds, with w.
+        given: Vec<(Given, f64)>,
+    },
+}
+
+impl Advice {
+    /// Most image observations that a suspicion names.
+    pub const SUSPECTS: usize = 20;
 }
 
 /// Precision of the whole object.
@@ -392,7 +463,7 @@ pub struct Precision {
     pub rms_sigma: [f64; 3],
     /// Mean of the tie points' geometric standard errors √q per axis.
     pub mean_q: [f64; 3],
-    /// Largest dimension of the object.
+    /// Largest distance between two points.
     pub largest_dimension: f64,
     /// Largest dimension over mean sigma, the N of 1 : N; null where sigma is 0.
     pub relative: Option<f64>,
@@ -420,6 +491,12 @@ pub struct Adjustment {
     pub sigma0: Option<f64>,
     /// χ² test of sigma0; null where the redundancy is 0.
     pub global_test: Option<GlobalTest>,
+    /// Rms of the residuals of all image coordinates that took part, pixels; null where there are none.
+    #[serde(default)]
+    pub rms_px: Option<f64>,
+    /// By what observations, parameters and the network are judged.
+    #[serde(default)]
+    pub criteria: Criteria,
     /// Cameras.
     pub cameras: Vec<AdjustedCamera>,
     /// Enabled photos.

@@ -164,6 +164,10 @@ export interface AdjustedCameraResult {
   photo?: string;
   /** Standard errors of the estimated parameters. */
   sigma: Partial<Record<Parameter, number>>;
+  /** The a priori ones of the document's camera; absent where there are none. */
+  sigma_a_priori?: Partial<Record<Parameter, number>>;
+  /** Size of each estimated parameter of distortion in standard errors. */
+  significance: Partial<Record<Parameter, number>>;
   correlation: Correlation;
 }
 
@@ -179,6 +183,10 @@ export interface AdjustedPhoto {
   /** Photo units. */
   rms_x: number;
   rms_y: number;
+  /** Unit of the photo's residuals. */
+  unit: "mm" | "px";
+  /** Width and height of a pixel in that unit: residuals divided by them are pixels. */
+  pixel: [number, number];
   points: number;
   /** Of X, Y, Z, omega, phi, kappa and the camera's estimated parameters. */
   correlation?: Correlation;
@@ -196,9 +204,12 @@ export interface AdjustedPoint {
 export interface AdjustedObservation {
   photo: string;
   point: string;
-  /** Residuals in photo units (brown) or pixels (opencv). */
-  vx: number;
-  vy: number;
+  /**
+   * Residuals in the photo's unit. Of an observation that took no part: what it says beside the adjusted values; null where photo or
+   * point are not adjusted.
+   */
+  vx: number | null;
+  vy: number | null;
   /** Redundancy numbers. */
   rx: number | null;
   ry: number | null;
@@ -218,7 +229,8 @@ export interface AdjustedObservation {
 
 /** An observation of another kind than image coordinates. */
 export type GivenObservation = {
-  residual: number;
+  /** Null where what was observed is not adjusted. */
+  residual: number | null;
   sigma: number;
   reliability: { redundancy: number; w: number | null; mdb: number | null } | null;
   /** External reliability: how far a bias of that size, undetected, moves the point that it moves most, in the project's unit. */
@@ -264,7 +276,24 @@ export type Advice =
   | { kind: "distance_unused"; distances: [string, string][] }
   | { kind: "weak_principal_distance"; camera: string; photo: string | null; parameter: string; value: number; sigma: number; convergence: number }
   | { kind: "gross_errors_unsettled" }
-  | { kind: "variance_components_unsettled" };
+  | { kind: "variance_components_unsettled" }
+  /** The global test failed with a sigma0 beyond its limit; `unmodelled` would make the residuals agree, pixels. */
+  | { kind: "sigmas_too_small"; sigma0: number; unmodelled: number | null }
+  /** The test fails although `unmodelled` was given: this value instead. */
+  | { kind: "unmodelled_again"; sigma0: number; unmodelled: number }
+  /** A parameter of distortion that is not told from 0, and the one it is most correlated with. */
+  | {
+      kind: "insignificant";
+      camera: string;
+      photo: string | null;
+      parameter: Parameter;
+      ratio: number;
+      with: Parameter | null;
+      correlation: number | null;
+    }
+  /** Observations whose |w| exceeds the critical value: image observations with the largest (at most 20), others. */
+  | { kind: "suspected"; count: number; observations: [string, string, number][]; given: [Given, number][] };
+
 
 /** An estimated variance component. */
 export interface VarianceComponent {
@@ -285,6 +314,34 @@ export interface VarianceComponent {
   unmodelled_sigma: number | null;
 }
 
+/** By what observations, parameters and the network are judged. */
+export interface Criteria {
+  /** Two-sided error probability of the tests on single observations. */
+  alpha: number;
+  /** Power with which a minimal detectable bias is found. */
+  power: number;
+  /** Two-sided error probability of the global test. */
+  global_alpha: number;
+  /** Critical value of Baarda's |w|. */
+  w: number;
+  /** Critical value of Pope's |tau|; null with a redundancy below 2. */
+  tau: number | null;
+  /** Non-centrality of minimal detectable biases. */
+  noncentrality: number;
+  /** Observations with a smaller redundancy number are checked by nothing. */
+  unchecked: number;
+  /** Observations with a smaller redundancy number are hardly checked. */
+  low_redundancy: number;
+  /** Parameters with a larger |correlation| are hardly told apart. */
+  high_correlation: number;
+  /** Rays that meet under a smaller angle determine no depth, radians. */
+  narrow_intersection: number;
+  /** Parameters of distortion below so many of their standard errors are not told from 0. */
+  significance: number;
+  /** A sigma0 beyond this, with the global test failed: the standard errors are too small. */
+  sigma0: number;
+}
+
 /** The result; no number in it is NaN or infinite. */
 export interface Adjustment {
   /** What was asked for. */
@@ -298,6 +355,9 @@ export interface Adjustment {
   /** Null where the redundancy is 0. */
   sigma0: number | null;
   global_test: { statistic: number; lower: number; upper: number; passed: boolean } | null;
+  /** Rms of the residuals of all image coordinates that took part, pixels. */
+  rms_px: number | null;
+  criteria: Criteria;
   cameras: AdjustedCamera[];
   photos: AdjustedPhoto[];
   points: AdjustedPoint[];
@@ -307,6 +367,7 @@ export interface Adjustment {
   precision: {
     rms_sigma: [number, number, number];
     mean_q: [number, number, number];
+    /** Largest distance between two points. */
     largest_dimension: number;
     relative: number | null;
   } | null;
@@ -317,6 +378,8 @@ export interface Adjustment {
     mean: [number, number, number];
     standard_deviation: [number, number, number] | null;
     rms: [number, number, number];
+    /** Of all axes together. */
+    rms_all: number;
   } | null;
   given: GivenObservation[];
   gross_errors: GrossError[];

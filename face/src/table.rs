@@ -147,9 +147,8 @@ pub fn add_adjusted_observations(adjustment: &Object, observations: &[AdjustedOb
         enabled,
     } in observations
     {
-        numbers.extend([*vx, *vy]);
         numbers.extend(
-            [rx, ry, wx, wy, mdb_x, mdb_y, effect_x, effect_y, weight].map(|number| number.unwrap_or(f64::NAN)),
+            [vx, vy, rx, ry, wx, wy, mdb_x, mdb_y, effect_x, effect_y, weight].map(|number| number.unwrap_or(f64::NAN)),
         );
         places.extend([
             last_photo.number(&mut names, photo),

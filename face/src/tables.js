@@ -183,8 +183,8 @@ function adjustedObservations(numbers, places, names) {
     const observation = {
       photo: names[places[p]],
       point: names[places[p + 1]],
-      vx: numbers[n],
-      vy: numbers[n + 1],
+      vx: orNull(numbers[n]),
+      vy: orNull(numbers[n + 1]),
       rx: orNull(numbers[n + 2]),
       ry: orNull(numbers[n + 3]),
       wx: orNull(numbers[n + 4]),

@@ -1,4 +1,5 @@
 //! The result, read from a solved network.
 
 pub mod additional;
+mod extent;
 pub mod result;

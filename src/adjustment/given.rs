@@ -11,8 +11,8 @@ pub struct GivenObservation {
     /// What was observed.
     #[serde(flatten)]
     pub what: Given,
-    /// Residual, adjusted minus given, in the observation's own unit.
-    pub residual: f64,
+    /// Residual, adjusted minus given, in the observation's own unit; null where what was observed is not adjusted.
+    pub residual: Option<f64>,
     /// A priori standard error.
     pub sigma: f64,
     /// Redundancy number, w and minimal detectable bias; null without full statistics.

@@ -151,10 +151,7 @@ fn photos_room(file: u64) -> u64 {
 
 /// A document as JSON. Numbers keep every bit.
 pub fn json(value: &impl Serialize) -> Result<Vec<u8>> {
-    // By way of a value, which has each name once: a flattened camera and its adjusted sigma share one.
-    let failed = |error: serde_json::Error| invalid(Reason::CannotWriteJson { message: error.to_string() });
-    let value = serde_json::to_value(value).map_err(failed)?;
-    serde_json::to_vec(&value).map_err(failed)
+    serde_json::to_vec(value).map_err(|error| invalid(Reason::CannotWriteJson { message: error.to_string() }))
 }
 
 fn parse<T: DeserializeOwned>(bytes: &[u8]) -> Result<T> {

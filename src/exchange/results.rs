@@ -231,8 +231,8 @@ fn observations(project: &Project, adjustment: Option<&Adjustment>) -> Table {
         row.extend([observation.u, observation.v, su, sv].map(|number| value(Some(number))));
         row.extend(match found {
             Some(a) => [
-                value(Some(a.vx * sx)),
-                value(Some(a.vy * sy)),
+                value(a.vx.map(|v| v * sx)),
+                value(a.vy.map(|v| v * sy)),
                 value(a.rx),
                 value(a.ry),
                 value(a.wx),
@@ -300,6 +300,7 @@ mod tests {
                 camera,
                 photo: None,
                 sigma: [(Parameter::C, 0.125)].into(),
+                significance: Default::default(),
                 correlation: Correlation::default(),
             }],
             photos: vec![AdjustedPhoto {
@@ -318,8 +319,8 @@ mod tests {
             observations: vec![AdjustedObservation {
                 photo: "1".into(),
                 point: "7".into(),
-                vx: 0.01,
-                vy: 0.04,
+                vx: Some(0.01),
+                vy: Some(0.04),
                 rx: Some(0.5),
                 enabled: true,
                 ..Default::default()

@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::distribution::noncentrality;
 
-/// Redundancy numbers below this are 0 as far as the numbers can tell: nothing checks the observation.
-pub const UNCHECKED: f64 = 1e-9;
+/// Redundancy numbers below this are 0 as far as the numbers can tell: nothing checks the observation, and its residual is
+/// rounding. An error would have to be 4000 standard errors large to be found.
+pub const UNCHECKED: f64 = 1e-6;
 
 /// Reliability of one observation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -4,7 +4,8 @@
 use crate::networks::{Uniform, Wanted, brown, exact, noisy, opencv};
 use crate::tree::{damage, is_finite};
 use sightline::adjust::{adjust, apply};
-use sightline::adjustment::{AdjustOptions, ResidualPlace, Robust};
+use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, Robust};
+use sightline::exchange::package::{self, Package};
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project};
 
@@ -26,7 +27,14 @@ fn adjusted(project: &Project, options: &AdjustOptions, round: usize) -> bool {
     match outcome {
         Ok(adjustment) => {
             assert!(is_finite(&format!("{adjustment:?}")), "round {round}");
-            assert!(is_finite(&format!("{:?}", apply(project, &adjustment))), "round {round}");
+            let applied = apply(project, &adjustment);
+            assert!(is_finite(&format!("{applied:?}")), "round {round}");
+            // What is written is read again, every bit of it.
+            let json = package::json(&adjustment).expect("a result without infinity");
+            assert_eq!(serde_json::from_slice::<Adjustment>(&json).expect("a result"), adjustment, "round {round}");
+            let content = Package { project: applied, adjustment: Some(adjustment), ..Package::default() };
+            let file = package::write(&content).expect("a file");
+            assert_eq!(package::read(&file).expect("a project"), content, "round {round}");
             true
         }
         Err(error) => {

@@ -3,17 +3,11 @@
 use crate::adjust::problem::additional::Key;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
+use crate::adjustment::criteria::{HIGH_CORRELATION, LOW_REDUNDANCY, NARROW_INTERSECTION};
 use crate::adjustment::{Adjustment, Advice};
 use crate::project::{Parameter, Project};
 
 use super::structure::{photo_id, point_id};
-
-/// Correlations beyond this are told.
-const HIGH_CORRELATION: f64 = 0.95;
-/// Redundancy numbers below this are told.
-const LOW_REDUNDANCY: f64 = 0.1;
-/// Rays that meet under less than this are told, in radians.
-const NARROW_INTERSECTION: f64 = 5.0 * std::f64::consts::PI / 180.0;
 
 /// Principal distances whose standard errors are a larger part of them are told.
 const WEAK_DISTANCE: f64 = 0.05;

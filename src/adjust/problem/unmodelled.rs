@@ -48,7 +48,7 @@ pub fn estimate(project: &Project, adjustment: &Adjustment) -> Option<f64> {
     for (row, observation) in adjustment.observations.iter().zip(&project.observations).filter(|(row, _)| row.enabled) {
         let [px, py] = *pitches.get(row.photo.as_str())?;
         let [su, sv] = observation.sigma.both();
-        squares += (row.vx / px).powi(2) + (row.vy / py).powi(2);
+        squares += (row.vx? / px).powi(2) + (row.vy? / py).powi(2);
         redundancy += row.rx? + row.ry?;
         own += su * su + sv * sv;
         count += 2.0;

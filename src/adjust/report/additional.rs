@@ -6,7 +6,8 @@ use crate::adjust::problem::network::InteriorBlock;
 use crate::adjustment::GivenObservation;
 use crate::statistics::reliability::Reliability;
 
-use super::result::{Solved, distance};
+use super::extent::distance;
+use super::result::Solved;
 
 impl Solved<'_> {
     /// All given observations; those that were taken out come last.
@@ -19,7 +20,7 @@ impl Solved<'_> {
             let residual = observed.residual(self.network, self.state);
             let mut given = GivenObservation {
                 what: observed.key(self.network).named(self.project),
-                residual: residual * unit,
+                residual: Some(residual * unit),
                 sigma: unit / (weight / factor),
                 reliability: None,
                 effect: None,
@@ -78,7 +79,7 @@ impl Solved<'_> {
         };
         GivenObservation {
             what: key.named(self.project),
-            residual: residual.unwrap_or_default(),
+            residual,
             sigma: sigma.unwrap_or_default(),
             reliability: None,
             effect: None,

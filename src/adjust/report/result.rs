@@ -11,13 +11,15 @@ use crate::adjust::solve::session::{RobustVariance, Session, Solution};
 use crate::adjust::statistics::cofactors::Cofactors;
 use crate::adjustment::{
     AdjustOptions, AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Adjustment, CheckPoint,
-    CheckStatistics, Correlation, GlobalTest, Precision,
+    CheckStatistics, Correlation, Criteria, GlobalTest, PhotoUnit, Precision, is_distortion,
 };
 use crate::camera;
 use crate::project::{Camera, Project, Role};
 use crate::rotation;
 use crate::statistics::distribution::{GLOBAL_ALPHA, chi_squared_quantile};
 use crate::statistics::reliability::Reliability;
+
+use super::extent::largest_distance;
 
 /// What a result is made of.
 pub struct Solved<'a> {
@@ -115,6 +117,7 @@ impl Solved<'_> {
         let points = self.points();
         let observations = self.observations();
         let check_points = self.check_points();
+        let photos = self.photos(&observations);
         Adjustment {
             observations_count: self.network.observations_count(),
             unknowns: self.network.unknowns(),
@@ -122,8 +125,10 @@ impl Solved<'_> {
             redundancy,
             sigma0: tested.then(|| (statistic / redundancy as f64).sqrt()),
             global_test: test,
+            rms_px: rms_px(&photos),
+            criteria: Criteria::of(redundancy),
             cameras: self.cameras(),
-            photos: self.photos(&observations),
+            photos,
             precision: self.precision(&points),
             points,
             observations,
@@ -150,6 +155,7 @@ impl Solved<'_> {
                     camera: self.adjusted_camera(k),
                     photo: block.photo.map(|p| self.project.photos[self.network.photos[p].index].id.clone()),
                     sigma: Default::default(),
+                    significance: Default::default(),
                     correlation: Correlation::default(),
                 };
                 if let Some(cofactors) = self.cofactors {
@@ -159,6 +165,10 @@ impl Solved<'_> {
                     for (n, estimated) in block.estimated.iter().enumerate() {
                         let sigma = root(factor * q[(n, n)]) * estimated.scale;
                         adjusted.sigma.insert(estimated.parameter, sigma);
+                        let value = adjusted.camera.interior.get(estimated.parameter);
+                        if let (true, true, Some(value)) = (sigma > 0.0, is_distortion(estimated.parameter), value) {
+                            adjusted.significance.insert(estimated.parameter, value.abs() / sigma);
+                        }
                     }
                 }
                 adjusted
@@ -170,8 +180,9 @@ impl Solved<'_> {
         let mut squares = vec![[0.0; 2]; self.network.photos.len()];
         for ray in &self.network.rays {
             let o = &observations[ray.row];
-            squares[ray.photo][0] += o.vx * o.vx;
-            squares[ray.photo][1] += o.vy * o.vy;
+            for (sum, v) in squares[ray.photo].iter_mut().zip([o.vx, o.vy]) {
+                *sum += v.map_or(0.0, |v| v * v);
+            }
         }
         let factor = self.variance_factor();
         let scale = self.frame().scale;
@@ -180,12 +191,16 @@ impl Solved<'_> {
             let pose = &self.state.poses[k];
             let angles = rotation::angles(&pose.matrix());
             let count = block.rays.max(1) as f64;
+            let camera = &self.project.cameras[self.network.interiors[block.interior].camera];
+            let (unit, pixel) = PhotoUnit::of(camera);
             let mut adjusted = AdjustedPhoto {
                 id: self.project.photos[block.index].id.clone(),
                 position: self.frame().outside(pose.centre),
                 rotation: angles,
                 rms_x: (squares[k][0] / count).sqrt(),
                 rms_y: (squares[k][1] / count).sqrt(),
+                unit,
+                pixel,
                 points: block.rays,
                 ..AdjustedPhoto::default()
             };
@@ -280,7 +295,7 @@ impl Solved<'_> {
             let p = self.state.poses[photo].camera_point(&self.state.points[point]);
             let linear = models[interior].and_then(|m| m.linearise(measured, p, self.weighting.place));
             let Some(linear) = linear.filter(|l| l.residual.iter().all(|v| v.is_finite())) else { return adjusted };
-            [adjusted.vx, adjusted.vy] = linear.residual;
+            [adjusted.vx, adjusted.vy] = linear.residual.map(Some);
             let Some(network_ray) = self.network.rays.get(ray) else { return adjusted };
             adjusted.enabled = true;
             let robust = self.weighting.robust.get(ray);
@@ -338,30 +353,19 @@ impl Solved<'_> {
             precision.rms_sigma.iter_mut().for_each(|s| *s = (*s / count).sqrt());
             precision.mean_q.iter_mut().for_each(|q| *q /= count);
         }
-        precision.largest_dimension = largest_dimension(points);
+        precision.largest_dimension = largest_distance(points.iter().map(|p| p.xyz).collect());
         let mean = precision.rms_sigma.iter().sum::<f64>() / 3.0;
         precision.relative = (mean > 0.0).then(|| precision.largest_dimension / mean);
         Some(precision)
     }
 }
 
-/// Distance of two points.
-pub fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
-}
-
-/// Largest distance between two points; for many points that of the extreme ones in thirteen directions.
-fn largest_dimension(points: &[AdjustedPoint]) -> f64 {
-    let mut extremes: Vec<[f64; 3]> = points.iter().map(|p| p.xyz).collect();
-    if extremes.len() > 400 {
-        let all = std::mem::take(&mut extremes);
-        for direction in 1..27_u32 {
-            let d: [f64; 3] = std::array::from_fn(|a| f64::from(direction / 3_u32.pow(a as u32) % 3) - 1.0);
-            let along = |p: &[f64; 3]| p[0] * d[0] + p[1] * d[1] + p[2] * d[2];
-            extremes.extend(all.iter().copied().max_by(|a, b| along(a).total_cmp(&along(b))));
-        }
-    }
-    extremes.iter().flat_map(|a| extremes.iter().map(move |b| distance(a, b))).fold(0.0, f64::max)
+/// Rms of all image residuals in pixels: residuals over the pixel size of their camera.
+fn rms_px(photos: &[AdjustedPhoto]) -> Option<f64> {
+    let square = |p: &AdjustedPhoto| (p.rms_x / p.pixel[0]).powi(2) + (p.rms_y / p.pixel[1]).powi(2);
+    let sum: f64 = photos.iter().map(|p| p.points as f64 * square(p)).sum();
+    let count: usize = photos.iter().map(|p| 2 * p.points).sum();
+    (count > 0).then(|| (sum / count as f64).sqrt())
 }
 
 fn check_statistics(points: &[CheckPoint]) -> Option<CheckStatistics> {
@@ -386,5 +390,6 @@ fn check_statistics(points: &[CheckPoint]) -> Option<CheckStatistics> {
         mean,
         standard_deviation: (count > 1).then_some(deviation),
         rms: over(&|axis| (axis.map(|d| d * d).sum::<f64>() / n).sqrt()),
+        rms_all: (differences.iter().flatten().map(|d| d * d).sum::<f64>() / (3.0 * n)).sqrt(),
     })
 }

@@ -53,8 +53,7 @@ pub fn observations(project: &Project, adjustment: &Adjustment) -> Table {
         let mut row: Vec<String> = names(Some(&given.what)).into();
         row.push(unit);
         row.extend(
-            [Some(given.residual), Some(given.sigma), given.reliability.map(|r| r.redundancy), test.w, test.mdb]
-                .map(value),
+            [given.residual, Some(given.sigma), given.reliability.map(|r| r.redundancy), test.w, test.mdb].map(value),
         );
         row.push(given.effect_point.clone().unwrap_or_default());
         row.extend([value(given.effect), value(Some(given.weight.unwrap_or(1.0)))]);
@@ -112,7 +111,7 @@ mod tests {
         let what = Given::Distance { from: "a".into(), to: "b,c".into() };
         let given = GivenObservation {
             what: what.clone(),
-            residual: -0.25,
+            residual: Some(-0.25),
             sigma: 0.5,
             reliability: Some(Reliability { redundancy: 0.5, w: Some(-1.5), mdb: None }),
             effect: Some(2.0),

@@ -28,7 +28,8 @@ fn residuals(adjustment: &Adjustment) -> [f64; 2] {
     let used: Vec<_> = adjustment.observations.iter().filter(|o| o.enabled).collect();
     let rms =
         |v: &dyn Fn(usize) -> f64| ((0..used.len()).map(v).sum::<f64>() / used.len().max(1) as f64).sqrt() * 1000.0;
-    [rms(&|i| used[i].vx.powi(2)), rms(&|i| used[i].vy.powi(2))]
+    let square = |v: Option<f64>| v.map_or(0.0, |v| v * v);
+    [rms(&|i| square(used[i].vx)), rms(&|i| square(used[i].vy))]
 }
 
 pub fn photos_table(all: &Adjustment, fewer: &Adjustment) -> Table {

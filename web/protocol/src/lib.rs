@@ -113,10 +113,10 @@ fn serve<T: Task>(by: &impl Service<T>, task: T, files: Vec<Vec<u8>>, say: Say) 
     }
 }
 
-/// A message as text. By way of a value, which has every name once: an adjusted camera's sigmas and its own share one.
+/// A message as text.
 pub fn to_text<M: Serialize>(message: &M) -> String {
     // Fails for types that JSON has no form for, which no message holds; the other side tells an empty text.
-    serde_json::to_value(message).and_then(|value| serde_json::to_string(&value)).unwrap_or_default()
+    serde_json::to_string(message).unwrap_or_default()
 }
 
 /// What has every name once, as text: in its own order, without the way by a value.

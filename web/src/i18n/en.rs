@@ -378,11 +378,13 @@ declare! { desk {
     photo_without_points_body:
         "It cannot be oriented and takes no part: detect targets with other options, name some by hand, or leave it out.";
     hold_or_more(name, camera): "Hold {name} of camera {camera}, or add photos that determine it";
+    hold_alone_body(name, ratio): "{name} is only {ratio} times its sigma: the network does not tell it from 0.";
     hold_or_more_body(name, ratio, other):
         "{name} is only {ratio} times its sigma and moves with {other}: the network does not determine both.";
     look_at(point, photo): "Look at point {point} in photo {photo}";
-    look_at_body(n):
-        "{n} {n:observation exceeds|observations exceed} the critical value 3.29 of Baarda's w at α 0.1 %. The largest is this one.";
+    look_at_given(kind, name): "Check the {kind} {name}";
+    look_at_body(n, w, alpha):
+        "{n} {n:observation exceeds|observations exceed} the critical value {w} of Baarda's w at α {alpha} %. The largest is this one.";
     nothing_lacks: "Every photo is tied and every point determined";
     nothing_lacks_body: "No observation exceeds the critical value, no parameter is left undetermined.";
     c_found(camera, value): "Principal distance of camera {camera} found: {value}";

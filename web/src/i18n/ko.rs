@@ -366,9 +366,11 @@ translate! { Korean desk {
     photo_without_points(photos): "측정된 점이 없는 사진: {photos}";
     photo_without_points_body: "표정할 수 없어 조정에 들어가지 않습니다. 다른 설정으로 검출하거나 점을 직접 지정하거나 제외하십시오.";
     hold_or_more(name, camera): "카메라 {camera}의 {name}{name:을|를} 고정하거나 이를 정할 사진을 더하십시오";
+    hold_alone_body(name, ratio): "{name}{name:은|는} 표준오차의 {ratio}배에 그쳐 0과 구별되지 않습니다.";
     hold_or_more_body(name, ratio, other): "{name}{name:은|는} 표준오차의 {ratio}배에 그치고 {other}{other:과|와} 함께 변합니다. 두 계수가 분리되지 않습니다.";
     look_at(point, photo): "사진 {photo}의 점 {point}{point:을|를} 확인하십시오";
-    look_at_body(n): "관측 {n}개가 α 0.1 %의 Baarda w 임계값 3.29를 넘습니다. 그중 가장 큰 관측입니다.";
+    look_at_given(kind, name): "{kind} {name}{name:을|를} 확인하십시오";
+    look_at_body(n, w, alpha): "관측 {n}개가 α {alpha} %의 Baarda w 임계값 {w}{w:을|를} 넘습니다. 그중 가장 큰 관측입니다.";
     nothing_lacks: "모든 사진이 이어지고 모든 점이 정해졌습니다";
     nothing_lacks_body: "임계값을 넘는 관측도 정해지지 않은 매개변수도 없습니다.";
     c_found(camera, value): "카메라 {camera}의 주점거리를 구함: {value}";

@@ -44,9 +44,6 @@ struct Item {
     target: Target,
 }
 
-/// Baarda's critical value at α 0.1 %.
-pub const CRITICAL_W: f64 = 3.29;
-
 #[component]
 pub fn Advice() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -160,10 +157,12 @@ fn items(desk: Desk) -> Vec<Item> {
             });
         }
         if let Some(result) = d.current() {
-            let unmodelled = sightline::adjust::unmodelled(&result.input, &result.adjustment);
-            from_result(&result.adjustment, unmodelled, &mut items);
-            items.extend(camera_against_photos(&result.adjustment.advice));
-            items.extend(result.adjustment.advice.iter().filter(|a| !of_one_photo(a)).map(network_item));
+            let adjustment = &result.adjustment;
+            let (first, others): (Vec<_>, Vec<_>) = adjustment.advice.iter().partition(|a| of_the_fit(a));
+            items.extend(first.into_iter().map(|advice| network_item(advice, &adjustment.criteria)));
+            items.extend(camera_against_photos(&adjustment.advice));
+            let others = others.into_iter().filter(|a| !of_one_photo(a));
+            items.extend(others.map(|advice| network_item(advice, &adjustment.criteria)));
         }
     });
     let said = items.iter().map(|i| i.target.clone()).collect::<Vec<_>>();
@@ -198,6 +197,28 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let all = names.collect::<Vec<_>>();
     let shown = all.iter().take(8).copied().collect::<Vec<_>>().join(", ");
     if all.len() > 8 { format!("{shown}, …") } else { shown }
+}
+
+/// Whether it says what is wrong with the fit, rather than what the network is weak in.
+fn of_the_fit(advice: &sightline::adjustment::Advice) -> bool {
+    use sightline::adjustment::Advice as A;
+    matches!(
+        advice,
+        A::SigmasTooSmall { .. } | A::UnmodelledAgain { .. } | A::Insignificant { .. } | A::Suspected { .. }
+    )
+}
+
+/// Where an observation of another kind than image coordinates was given.
+fn step_of(what: &Given) -> Target {
+    match what {
+        Given::Parameter { .. } => Target::Step(Step::Photos),
+        _ => Target::Step(Step::Control),
+    }
+}
+
+/// A standard deviation of what is not modelled as it is taken over: to a thousandth of a pixel.
+fn unmodelled(px: f64) -> Target {
+    Target::Unmodelled((px * 1000.0).round() / 1000.0)
 }
 
 /// Whether it is a correlation with an element of one photo's orientation.
@@ -238,7 +259,7 @@ fn camera_against_photos(advice: &[sightline::adjustment::Advice]) -> Option<Ite
 }
 
 /// What the engine says of a network that is solvable but weak.
-fn network_item(advice: &sightline::adjustment::Advice) -> Item {
+fn network_item(advice: &sightline::adjustment::Advice, criteria: &sightline::adjustment::Criteria) -> Item {
     use sightline::adjustment::Advice;
     let pairs = |pairs: &[(String, String)]| {
         let names: Vec<String> = pairs.iter().map(|(a, b)| format!("{a} – {b}")).collect();
@@ -263,12 +284,8 @@ fn network_item(advice: &sightline::adjustment::Advice) -> Item {
             let names = given.iter().map(|what| format!("{} {}", given_kind(what), given_name(what)));
             let names: Vec<String> = names.chain(observations.iter().map(|(a, b)| format!("{a} – {b}"))).collect();
             let body = text::low_redundancy_body(listed(names.iter().map(String::as_str)));
-            let target = match given.first() {
-                Some(Given::Parameter { .. }) => Target::Step(Step::Photos),
-                Some(_) => Target::Step(Step::Control),
-                None => observation(observations),
-            };
-            (title, body, "r < 0.1".to_owned(), target)
+            let target = given.first().map_or_else(|| observation(observations), step_of);
+            (title, body, format!("r < {}", format::round(criteria.low_redundancy)), target)
         }
         Advice::TwoRays { points } => (
             text::two_rays(listed(points.iter().map(String::as_str))),
@@ -294,6 +311,44 @@ fn network_item(advice: &sightline::adjustment::Advice) -> Item {
             String::new(),
             Target::Step(Step::Control),
         ),
+        Advice::SigmasTooSmall { sigma0, unmodelled: px } => (
+            text::sigmas_optimistic(format::fixed(*sigma0, 1)),
+            text::sigmas_optimistic_body().to_owned(),
+            format!("σ₀ {}", format::fixed(*sigma0, 3)),
+            px.map_or(Target::Step(Step::Results), unmodelled),
+        ),
+        Advice::UnmodelledAgain { sigma0, unmodelled: px } => (
+            text::unmodelled_again().to_owned(),
+            text::unmodelled_again_body().to_owned(),
+            format!("σ₀ {}", format::fixed(*sigma0, 3)),
+            unmodelled(*px),
+        ),
+        Advice::Insignificant { camera, parameter, ratio, with, correlation, .. } => {
+            let (name, ratio) = (parameter_name(*parameter), format::fixed(*ratio, 1));
+            let with = with.map(parameter_name).zip(*correlation);
+            let body = match with {
+                Some((other, _)) => text::hold_or_more_body(name, ratio, other),
+                None => text::hold_alone_body(name, ratio),
+            };
+            let evidence = with.map(|(other, r)| format!("{other} {}", format::fixed(r, 2))).unwrap_or_default();
+            let target = Target::Hold { camera: camera.clone(), parameter: *parameter };
+            (text::hold_or_more(name, camera), body, evidence, target)
+        }
+        Advice::Suspected { count, observations, given } => {
+            let largest = |w: Option<f64>| w.map_or(0.0, f64::abs);
+            let (image, other) = (observations.first(), given.first());
+            let (of_image, of_other) = (largest(image.map(|o| o.2)), largest(other.map(|g| g.1)));
+            let (title, target) = match (image, other) {
+                (Some((photo, point, _)), _) if of_image >= of_other => {
+                    (text::look_at(point, photo), Target::Observation { photo: photo.clone(), point: point.clone() })
+                }
+                (_, Some((what, _))) => (text::look_at_given(given_kind(what), given_name(what)), step_of(what)),
+                _ => (String::new(), Target::None),
+            };
+            let limits = (format::fixed(criteria.w, 2), format::round(100.0 * criteria.alpha));
+            let body = text::look_at_body(format::count(*count), limits.0, limits.1);
+            (title, body, format!("|w| {}", format::fixed(of_image.max(of_other), 2)), target)
+        }
         Advice::GrossErrorsUnsettled => {
             let target = Target::Step(Step::Identities);
             (text::unsettled().to_owned(), text::unsettled_body().to_owned(), String::new(), target)
@@ -316,85 +371,6 @@ fn network_item(advice: &sightline::adjustment::Advice) -> Item {
         ),
     };
     Item { warning: true, title, body, evidence, target }
-}
-
-fn from_result(adjustment: &sightline::adjustment::Adjustment, unmodelled: Option<f64>, items: &mut Vec<Item>) {
-    let to_take =
-        unmodelled.map_or(Target::Step(Step::Results), |px| Target::Unmodelled((px * 1000.0).round() / 1000.0));
-    if let (Some(sigma0), Some(test)) = (adjustment.sigma0, &adjustment.global_test)
-        && test.statistic > test.upper
-        && sigma0 > 2.0
-    {
-        items.push(Item {
-            warning: true,
-            title: text::sigmas_optimistic(format::fixed(sigma0, 1)),
-            body: text::sigmas_optimistic_body().to_owned(),
-            evidence: format!("σ₀ {}", format::fixed(sigma0, 3)),
-            target: to_take,
-        });
-    } else if let (Some(sigma0), Some(test)) = (adjustment.sigma0, &adjustment.global_test)
-        && !test.passed
-        && adjustment.options.unmodelled > 0.0
-        && to_take != Target::Unmodelled(adjustment.options.unmodelled)
-        && unmodelled.is_some()
-    {
-        // The first value came from weights that are no longer in use.
-        items.push(Item {
-            warning: true,
-            title: text::unmodelled_again().to_owned(),
-            body: text::unmodelled_again_body().to_owned(),
-            evidence: format!("σ₀ {}", format::fixed(sigma0, 3)),
-            target: to_take,
-        });
-    }
-    for camera in &adjustment.cameras {
-        for (i, name) in camera.correlation.names.iter().enumerate() {
-            let (Ok(parameter), Some(row)) = (name.parse::<Parameter>(), camera.correlation.matrix.get(i)) else {
-                continue;
-            };
-            let (Some(value), Some(&sigma)) = (camera.camera.interior.get(parameter), camera.sigma.get(&parameter))
-            else {
-                continue;
-            };
-            let strongest =
-                row.iter().enumerate().filter(|(j, _)| *j != i).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-            let Some((j, &r)) = strongest else { continue };
-            let distortion = !matches!(
-                parameter,
-                Parameter::C
-                    | Parameter::X0
-                    | Parameter::Y0
-                    | Parameter::F
-                    | Parameter::Fx
-                    | Parameter::Fy
-                    | Parameter::Cx
-                    | Parameter::Cy
-            );
-            if distortion && value.abs() < 2.0 * sigma {
-                let name = parameter_name(parameter);
-                let other = camera.correlation.names[j].parse::<Parameter>().map_or("", parameter_name);
-                items.push(Item {
-                    warning: true,
-                    title: text::hold_or_more(name, &camera.camera.id),
-                    body: text::hold_or_more_body(name, format::fixed(value.abs() / sigma, 1), other),
-                    evidence: format!("{other} {}", format::fixed(r, 2)),
-                    target: Target::Hold { camera: camera.camera.id.clone(), parameter },
-                });
-            }
-        }
-    }
-    let w = |o: &sightline::adjustment::AdjustedObservation| o.wx.unwrap_or(0.0).abs().max(o.wy.unwrap_or(0.0).abs());
-    let mut over = adjustment.observations.iter().filter(|o| o.enabled && w(o) > CRITICAL_W).collect::<Vec<_>>();
-    over.sort_by(|a, b| w(b).total_cmp(&w(a)));
-    if let Some(worst) = over.first() {
-        items.push(Item {
-            warning: true,
-            title: text::look_at(&worst.point, &worst.photo),
-            body: text::look_at_body(format::count(over.len())),
-            evidence: format!("|w| {}", format::fixed(w(worst), 2)),
-            target: Target::Observation { photo: worst.photo.clone(), point: worst.point.clone() },
-        });
-    }
 }
 
 /// What the orientation had to say.

@@ -9,7 +9,6 @@ use leptos::prelude::*;
 use sightline::adjustment::Adjustment;
 use sightline::project::{Camera, Project, Role};
 
-use super::advice::CRITICAL_W;
 use super::changes::change_words;
 use super::icon::{Glyph, Icon};
 use super::plots::{ResidualPlot, Vector};
@@ -22,7 +21,7 @@ use cameras::Cameras;
 use given::GivenTable;
 pub use given::{given_kind, given_name};
 use tables::{CheckPoints, PhotosTable, PointsTable, Worst, largest_w};
-use units::{rms_px, shown_as, unit_per_pixel};
+use units::{pixel_of, shown_as};
 
 #[component]
 pub fn Results() -> impl IntoView {
@@ -96,16 +95,10 @@ fn Hero() -> impl IntoView {
     let sigma0 = move || read(desk, |a, _| a.sigma0);
     let test = move || read(desk, |a, _| a.global_test.clone());
     let redundancy = move || read(desk, |a, _| (a.redundancy, a.observations_count, a.unknowns, a.constraints));
-    let rms = move || read(desk, rms_px);
+    let rms = move || read(desk, |a, _| a.rms_px);
     let precision = move || read(desk, |a, _| a.precision.clone());
     let points = move || read(desk, |a, _| a.points.len());
-    let check = move || {
-        read(desk, |a, _| {
-            let all = a.check_points.iter().filter_map(|c| c.difference).collect::<Vec<_>>();
-            let sum: f64 = all.iter().flatten().map(|d| d * d).sum();
-            (!all.is_empty()).then(|| ((sum / (3 * all.len()) as f64).sqrt(), all.len()))
-        })
-    };
+    let check = move || read(desk, |a, _| a.check_statistics.as_ref().map(|all| (all.rms_all, all.count)));
     view! {
         <h1 class="visually-hidden">{text::results}</h1>
         <div class="hero">
@@ -187,7 +180,7 @@ fn Residuals() -> impl IntoView {
         })
     });
     let frame = move |c: &Camera| {
-        let [px, py] = unit_per_pixel(c);
+        let [px, py] = pixel_of(c);
         [f64::from(c.width) * px, f64::from(c.height) * py]
     };
     let size = Signal::derive(move || camera.with(|c| c.as_ref().map_or([0.0; 2], frame)));
@@ -195,17 +188,19 @@ fn Residuals() -> impl IntoView {
         let (Some(photo), Some(camera)) = (photo.get(), camera.get()) else { return Vec::new() };
         let chosen = desk.selection.with(|s| s.point.clone());
         read(desk, |a, project| {
-            let [px, py] = unit_per_pixel(&camera);
+            let [px, py] = pixel_of(&camera);
             let (w, h) = (f64::from(camera.width), f64::from(camera.height));
             let places = project.observations.iter().zip(&a.observations);
             let here =
                 places.filter(|(o, r)| o.photo == photo && r.enabled && o.point == r.point && o.photo == r.photo);
-            here.map(|(o, r)| Vector {
-                point: o.point.clone(),
-                at: [(o.u - w / 2.0) * px, (h / 2.0 - o.v) * py],
-                residual: [r.vx, r.vy],
-                chosen: Some(&o.point) == chosen.as_ref(),
-                over: largest_w(r).is_some_and(|w| w.abs() > CRITICAL_W),
+            here.filter_map(|(o, r)| {
+                Some(Vector {
+                    point: o.point.clone(),
+                    at: [(o.u - w / 2.0) * px, (h / 2.0 - o.v) * py],
+                    residual: [r.vx?, r.vy?],
+                    chosen: Some(&o.point) == chosen.as_ref(),
+                    over: largest_w(r).is_some_and(|w| w.abs() > a.criteria.w),
+                })
             })
             .collect()
         })

@@ -8,12 +8,7 @@ use crate::format;
 use crate::i18n::text;
 use crate::store::Desk;
 use crate::view::adjust::{parameter_name, parameter_unit};
-use crate::view::advice::CRITICAL_W;
 use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
-
-/// Redundancy numbers below this are rounding: nothing else determines what was observed, and its residual is 0 whatever it
-/// says.
-const UNCHECKED: f64 = 1e-6;
 
 /// What was observed, by name: a point or photo with its axis, the ends of a distance, a parameter of a camera.
 pub fn given_name(what: &Given) -> String {
@@ -69,11 +64,11 @@ pub(super) fn GivenTable() -> impl IntoView {
                 };
                 let decimals = format::decimals_for(given.sigma);
                 let test = given.reliability.unwrap_or_default();
-                let over = test.w.is_some_and(|w| w.abs() > CRITICAL_W);
+                let over = test.w.is_some_and(|w| w.abs() > a.criteria.w);
                 let mut size = Cell::number(test.w, 2).class(if over { "bad" } else { "" });
                 size.order = test.w.map(f64::abs);
                 let redundancy = given.reliability.map(|r| r.redundancy);
-                let unchecked = redundancy.is_some_and(|r| r < UNCHECKED);
+                let unchecked = redundancy.is_some_and(|r| r < a.criteria.unchecked);
                 let number = |value: Option<f64>, decimals| Cell::number(value.filter(|_| !unchecked), decimals);
                 let mut checked = Cell::number(redundancy, redundancy.map_or(2, |r| format::decimals_of(r, 2)));
                 if unchecked {
@@ -87,7 +82,7 @@ pub(super) fn GivenTable() -> impl IntoView {
                         Cell::id(&given_name(&given.what)),
                         Cell::words(given_kind(&given.what)),
                         Cell::words(unit),
-                        number(Some(given.residual), format::decimals_of(given.residual, decimals)),
+                        number(given.residual, given.residual.map_or(decimals, |v| format::decimals_of(v, decimals))),
                         Cell::number(Some(given.sigma), decimals),
                         checked,
                         size,

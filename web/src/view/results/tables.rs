@@ -8,7 +8,6 @@ use super::units::{common_unit, factors};
 use crate::format;
 use crate::i18n::text;
 use crate::store::{Desk, Step};
-use crate::view::advice::CRITICAL_W;
 use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 
 /// Differences at the check points.
@@ -38,7 +37,7 @@ pub(super) fn PhotosTable() -> impl IntoView {
     let sorting = RwSignal::new(None::<Sorting>);
     let columns = Signal::derive(move || {
         let length = desk.document.with(|d| d.project.unit.clone());
-        let unit = read(desk, |_, p| common_unit(p).1.to_owned());
+        let unit = read(desk, |a, _| common_unit(a).1.to_owned());
         vec![
             Column::words(text::photo),
             Column::number(text::points_column),
@@ -53,8 +52,8 @@ pub(super) fn PhotosTable() -> impl IntoView {
         ]
     });
     let rows = Memo::new(move |_| {
-        read(desk, |a, project| {
-            let factors = factors(project);
+        read(desk, |a, _| {
+            let factors = factors(a);
             let row = |p: &sightline::adjustment::AdjustedPhoto| {
                 let [fx, fy] = factors.get(&p.id).copied().unwrap_or([1.0, 1.0]);
                 let sigma = p.sigma_position;
@@ -135,7 +134,7 @@ pub(super) fn Worst() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let sorting = RwSignal::new(Some(Sorting { column: 5, descending: true }));
     let columns = Signal::derive(move || {
-        let unit = read(desk, |_, p| common_unit(p).1.to_owned());
+        let unit = read(desk, |a, _| common_unit(a).1.to_owned());
         vec![
             Column::words(text::id),
             Column::words(text::photo),
@@ -147,24 +146,25 @@ pub(super) fn Worst() -> impl IntoView {
         ]
     });
     let rows = Memo::new(move |_| {
-        read(desk, |a, project| {
-            let factors = factors(project);
+        read(desk, |a, _| {
+            let factors = factors(a);
             let row = |o: &AdjustedObservation| {
                 let [fx, fy] = factors.get(&o.photo).copied().unwrap_or([1.0, 1.0]);
                 let decimals = 2 + usize::from(fx < 100.0);
                 let w = largest_w(o);
                 let r = [o.rx, o.ry].into_iter().flatten().min_by(f64::total_cmp);
-                let over = w.is_some_and(|w| w.abs() > CRITICAL_W);
+                let over = w.is_some_and(|w| w.abs() > a.criteria.w);
                 let mut size = Cell::number(w, 2).class(if over { "bad" } else { "" });
                 size.order = w.map(f64::abs);
-                let verdict = if over { format!("✕ {}", text::over(CRITICAL_W)) } else { String::new() };
+                let verdict =
+                    if over { format!("✕ {}", text::over(format::fixed(a.criteria.w, 2))) } else { String::new() };
                 Row {
                     key: format!("{}\u{1f}{}", o.photo, o.point),
                     cells: vec![
                         Cell::id(&o.point),
                         Cell::words(&o.photo),
-                        Cell::number(Some(o.vx * fx), decimals),
-                        Cell::number(Some(o.vy * fy), decimals),
+                        Cell::number(o.vx.map(|v| v * fx), decimals),
+                        Cell::number(o.vy.map(|v| v * fy), decimals),
                         Cell::number(r, 2),
                         size,
                         Cell::words(verdict).class("left wide bad"),
