@@ -160,18 +160,7 @@ pub(crate) fn document(bytes: &[u8]) -> Result<Project> {
         reason: Reason::NotJson { message: error.to_string() },
         at: Place { line: Some(error.line()), ..Place::default() },
     })?;
-    if head.format.as_ref().and_then(|format| format.as_str()) != Some("sightline") {
-        return Err(Error::Invalid { reason: Reason::NotADocument, at: Place::field("format") });
-    }
-    let version = match &head.version {
-        Some(version) if version.as_u64() == Some(1) => None,
-        Some(serde_json::Value::String(other)) => Some(Reason::NewerVersion { version: shortened(other) }),
-        Some(serde_json::Value::Number(other)) => Some(Reason::NewerVersion { version: other.to_string() }),
-        _ => Some(Reason::NoVersion),
-    };
-    if let Some(reason) = version {
-        return Err(Error::Invalid { reason, at: Place::field("version") });
-    }
+    check_head(head.format.as_ref(), head.version.as_ref())?;
     let mut json = serde_json::Deserializer::from_str(&text);
     serde_path_to_error::deserialize(&mut json).map_err(|error| Error::Invalid {
         reason: Reason::DamagedDocument { message: shortened(&error.inner().to_string()) },
@@ -201,6 +190,24 @@ fn carried<'a>(
         }
     }
     Ok(())
+}
+
+/// Checks the fields that tell a document of this version from anything else.
+///
+/// # Errors
+/// [`Error::Invalid`] with the field.
+pub fn check_head(format: Option<&serde_json::Value>, version: Option<&serde_json::Value>) -> Result<()> {
+    use serde_json::Value;
+    if format.and_then(Value::as_str) != Some("sightline") {
+        return Err(Error::Invalid { reason: Reason::NotADocument, at: Place::field("format") });
+    }
+    let reason = match version {
+        Some(Value::Number(version)) if version.as_f64() == Some(1.0) => return Ok(()),
+        Some(Value::Number(other)) => Reason::NewerVersion { version: other.to_string() },
+        Some(Value::String(other)) => Reason::NewerVersion { version: shortened(other) },
+        _ => Reason::NoVersion,
+    };
+    Err(Error::Invalid { reason, at: Place::field("version") })
 }
 
 fn unknown_format(format: &str, wanted: fn(&Format) -> bool) -> Error {

@@ -5,17 +5,17 @@
 //! errors that name the field. Errors are thrown as Error with `code`, `message`, `where` and `data`.
 
 mod fault;
+mod plain;
 mod table;
 mod value;
 
-use js_sys::{Uint8Array, Uint8ClampedArray, Uint16Array};
+use js_sys::{Uint8Array, Uint16Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use fault::thrown;
 use sightline::adjustment::{AdjustOptions, Iteration};
 use sightline::detection::DetectOptions;
-use sightline::error::Expected;
 use sightline::experiments::ExperimentOptions;
 use sightline::image::{Grey, Samples};
 use sightline::network::Network;
@@ -46,7 +46,7 @@ pub fn detect_file(
 ) -> Thrown {
     let found = || {
         let options: DetectOptions = value::options(&options, &[])?;
-        detect::detect_photo(&decode::photo(&value::bytes(&bytes, "bytes")?, options.channel)?, &options)
+        detect::detect_photo(&decode::photo(&plain::bytes(&bytes, "bytes")?, options.channel)?, &options)
     };
     found().map(value::detection_object).map_err(|error| thrown(&error))
 }
@@ -72,14 +72,12 @@ fn grey_of(width: &JsValue, height: &JsValue, samples: &JsValue) -> sightline::R
 }
 
 fn samples_of(samples: &JsValue) -> sightline::Result<Samples> {
-    if let Some(bytes) = samples.dyn_ref::<Uint8Array>() {
-        return Ok(Samples::U8(bytes.to_vec()));
-    }
-    if let Some(bytes) = samples.dyn_ref::<Uint8ClampedArray>() {
-        return Ok(Samples::U8(bytes.to_vec()));
-    }
-    let words = samples.dyn_ref::<Uint16Array>().map(|words| Samples::U16(words.to_vec()));
-    words.ok_or_else(|| value::not("samples", Expected::Samples))
+    let samples = plain::samples(samples, "samples")?;
+    Ok(match samples.dyn_into::<Uint16Array>() {
+        Ok(words) => Samples::U16(words.to_vec()),
+        // Clamped bytes are bytes here.
+        Err(bytes) => Samples::U8(bytes.unchecked_into::<Uint8Array>().to_vec()),
+    })
 }
 
 /// Measures the one target at a place of a photo, in a window around it; null where there is none.
@@ -90,7 +88,7 @@ pub fn measure_at(
     #[wasm_bindgen(unchecked_param_type = "number")] v: JsValue,
     #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
 ) -> Thrown {
-    measured_at(&u, &v, &options, |options| decode::photo(&value::bytes(&bytes, "bytes")?, options.channel))
+    measured_at(&u, &v, &options, |options| decode::photo(&plain::bytes(&bytes, "bytes")?, options.channel))
 }
 
 /// The same in a picture that is decoded already.
@@ -134,7 +132,7 @@ pub fn photo_info(#[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffe
         info: exif::PhotoInfo,
     }
     let found = || {
-        let bytes = value::bytes(&bytes, "bytes")?;
+        let bytes = plain::bytes(&bytes, "bytes")?;
         let decode::Size { width, height, bits } = decode::size(&bytes)?;
         Ok(Description { width, height, bits, info: exif::read(&bytes) })
     };

@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::*;
 
 use sightline::adjustment::{AdjustedObservation, AdjustedPoint};
 use sightline::detection::{self, Rejected};
-use sightline::error::{Error, Expected, Place, Reason, Result};
+use sightline::error::{Error, Expected, Place, Reason, Result, shortened};
 use sightline::project::{Observation, Point, Role, Sigma};
 
 #[wasm_bindgen(module = "/src/tables.js")]
@@ -20,6 +20,14 @@ extern "C" {
     #[wasm_bindgen(method, getter)]
     fn expected(this: &Columns) -> String;
     #[wasm_bindgen(method, getter)]
+    fn message(this: &Columns) -> Option<String>;
+    #[wasm_bindgen(method, getter)]
+    fn whole(this: &Columns) -> Option<bool>;
+    #[wasm_bindgen(method, getter)]
+    fn photo(this: &Columns) -> Option<String>;
+    #[wasm_bindgen(method, getter)]
+    fn point(this: &Columns) -> Option<String>;
+    #[wasm_bindgen(method, getter)]
     fn numbers(this: &Columns) -> Float64Array;
     #[wasm_bindgen(method, getter)]
     fn places(this: &Columns) -> Uint32Array;
@@ -27,9 +35,9 @@ extern "C" {
     fn names(this: &Columns) -> Vec<String>;
 
     #[wasm_bindgen(js_name = readObservations)]
-    fn read_observations(rows: &Array) -> Columns;
+    fn read_observations(rows: &JsValue) -> Columns;
     #[wasm_bindgen(js_name = readPoints)]
-    fn read_points(rows: &Array) -> Columns;
+    fn read_points(rows: &JsValue) -> Columns;
     #[wasm_bindgen(js_name = writeObservations)]
     fn write_observations(numbers: &[f64], places: &[u32], names: &Array) -> Array;
     #[wasm_bindgen(js_name = writePoints)]
@@ -52,8 +60,7 @@ const NORMAL: u32 = 16;
 
 /// Observations of a project from its rows.
 pub fn observations(rows: &JsValue) -> Result<Vec<Observation>> {
-    let Some(rows) = list(rows, "observations")? else { return Ok(Vec::new()) };
-    let columns = checked(read_observations(&rows), &rows, "observations")?;
+    let columns = checked(read_observations(rows), "observations")?;
     let (numbers, places, names) = (columns.numbers().to_vec(), columns.places().to_vec(), columns.names());
     let row = |(n, p): (&[f64], &[u32])| Observation {
         photo: names[p[0] as usize].clone(),
@@ -69,8 +76,7 @@ pub fn observations(rows: &JsValue) -> Result<Vec<Observation>> {
 
 /// Points of a project from their rows.
 pub fn points(rows: &JsValue) -> Result<Vec<Point>> {
-    let Some(rows) = list(rows, "points")? else { return Ok(Vec::new()) };
-    let columns = checked(read_points(&rows), &rows, "points")?;
+    let columns = checked(read_points(rows), "points")?;
     let (numbers, flags) = (columns.numbers().to_vec(), columns.places().to_vec());
     let row = |((id, n), flags): ((String, &[f64]), u32)| Point {
         id,
@@ -218,31 +224,20 @@ impl<'a> Repeated<'a> {
     }
 }
 
-/// A list, or nothing where it is left out.
-fn list(rows: &JsValue, field: &str) -> Result<Option<Array>> {
-    match rows.dyn_ref::<Array>() {
-        Some(rows) => Ok(Some(rows.clone())),
-        None if rows.is_undefined() || rows.is_null() => Ok(None),
-        None => Err(super::value::not(field, Expected::Objects)),
-    }
-}
-
 /// The columns, or what is wrong in which row, with the photo and point that the row names.
-fn checked(columns: Columns, rows: &Array, table: &str) -> Result<Columns> {
+fn checked(columns: Columns, table: &str) -> Result<Columns> {
     let Some(row) = columns.row() else { return Ok(columns) };
-    let (field, expected) = (columns.field(), columns.expected());
-    let source = rows.get(row);
-    let text = |name: &str| {
-        let value = js_sys::Reflect::get(&source, &JsValue::from_str(name)).ok()?;
-        value.as_string().or_else(|| value.as_f64().map(|number| number.to_string()))
+    let field = columns.field();
+    let path = match field.as_str() {
+        _ if columns.whole().unwrap_or(false) => table.to_owned(),
+        "" => format!("{table}[{row}]"),
+        field => format!("{table}[{row}].{field}"),
     };
-    let (photo, point) = if table == "points" { (None, text("id")) } else { (text("photo"), text("point")) };
-    let path = if field.is_empty() { format!("{table}[{row}]") } else { format!("{table}[{row}].{field}") };
-    Err(Error::Invalid {
-        reason: Reason::NotOfKind {
-            name: path.clone(),
-            expected: Expected::named(&expected).unwrap_or(Expected::Object),
-        },
-        at: Place { photo, point, field: Some(path), ..Place::default() },
-    })
+    let name = path.clone();
+    let reason = match Expected::named(&columns.expected()) {
+        Some(expected) => Reason::NotOfKind { name, expected },
+        None => Reason::Unreadable { name, message: shortened(&columns.message().unwrap_or_default()) },
+    };
+    let at = Place { photo: columns.photo(), point: columns.point(), field: Some(path), ..Place::default() };
+    Err(Error::Invalid { reason, at })
 }

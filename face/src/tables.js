@@ -27,6 +27,34 @@ const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
 const isTarget = (value) => Number.isInteger(value) && value > 0 && value < 2 ** 32;
 const isRow = (row) => typeof row === 'object' && row !== null && !Array.isArray(row);
 
+/** Most rows of a table: their columns are made before the rows are looked at. */
+const ROWS = 2e7;
+
+const named = (id) => (typeof id === 'string' ? id : typeof id === 'number' ? String(id) : undefined);
+
+/** Reads rows that may be anything: what throws, and what is too long, is said of its row, with the names that the row has. */
+function guarded(rows, read) {
+  const at = { row: 0 };
+  let found;
+  try {
+    if (rows === undefined || rows === null) return read([], at);
+    if (!Array.isArray(rows)) return { row: 0, whole: true, field: '', expected: 'objects' };
+    found = rows.length > ROWS ? { row: 0, whole: true, field: '', expected: 'smaller' } : read(rows, at);
+    if (found.row === undefined) return found;
+    const { photo, point, id } = rows[found.row] ?? {};
+    return { ...found, photo: named(photo), point: named(point ?? id) };
+  } catch (error) {
+    if (found?.row !== undefined) return found;
+    let message = 'it cannot be read';
+    try {
+      message = String(error?.message ?? error);
+    } catch {
+      // What was thrown throws itself.
+    }
+    return { row: at.row, field: '', expected: 'readable', message };
+  }
+}
+
 /** Three numbers, each perhaps null, into a column; whether they are that. */
 function three(value, column, at, nullable) {
   if (!Array.isArray(value) && !ArrayBuffer.isView(value)) return false;
@@ -39,11 +67,14 @@ function three(value, column, at, nullable) {
 }
 
 /** Columns u, v, sigma_u, sigma_v; photo, point, flags (1: enabled, 2: two sigmas), number of the target or 0. */
-export function readObservations(rows) {
+export const readObservations = (rows) => guarded(rows, observationColumns);
+
+function observationColumns(rows, at) {
   const names = new Names();
   const numbers = new Float64Array(4 * rows.length);
   const places = new Uint32Array(4 * rows.length);
   for (let row = 0; row < rows.length; row++) {
+    at.row = row;
     const source = rows[row];
     if (!isRow(source)) return { row, field: '', expected: 'object' };
     const { u, v, sigma, enabled, target } = source;
@@ -80,11 +111,14 @@ export function readObservations(rows) {
 const ROLES = ['tie', 'control', 'check'];
 
 /** Columns x, y, z, sx, sy, sz, diameter, normal; id, flags (0, 1, 2: role, 4: coordinates, 8: sigmas, 16: normal). */
-export function readPoints(rows) {
+export const readPoints = (rows) => guarded(rows, pointColumns);
+
+function pointColumns(rows, at) {
   const list = [];
   const numbers = new Float64Array(10 * rows.length).fill(NaN);
   const places = new Uint32Array(rows.length);
   for (let row = 0; row < rows.length; row++) {
+    at.row = row;
     const source = rows[row];
     if (!isRow(source)) return { row, field: '', expected: 'object' };
     const { id, role, xyz, sigma, diameter, normal } = source;

@@ -2,16 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use js_sys::{Array, ArrayBuffer, Function, Object, Reflect, Uint8Array, Uint16Array};
-use serde::Serialize;
-use serde::de::DeserializeOwned;
+use js_sys::{Function, Object, Reflect, Uint8Array, Uint16Array};
+use serde::de::{DeserializeOwned, IgnoredAny};
+use serde::{Deserialize, Serialize};
 use wasm_bindgen::prelude::*;
 
-use super::table;
+use super::{plain, table};
 use sightline::adjustment::Adjustment;
 use sightline::detection::Detection;
 use sightline::error::{Error, Expected, Names, Place, Reason, Result, shortened};
-use sightline::exchange::Files;
+use sightline::exchange::{self, Files};
 use sightline::image::{Grey, Samples};
 use sightline::orient::Oriented;
 use sightline::project::Project;
@@ -28,7 +28,11 @@ pub fn not(field: &str, expected: Expected) -> Error {
 
 /// A value of any serialisable type; `name` stands before the path of what is wrong.
 pub fn read<T: DeserializeOwned>(value: &JsValue, name: &str) -> Result<T> {
-    serde_path_to_error::deserialize(serde_wasm_bindgen::Deserializer::from(value.clone())).map_err(|error| {
+    of_json(&plain::json(value, name, &[])?, name)
+}
+
+fn of_json<T: DeserializeOwned>(text: &str, name: &str) -> Result<T> {
+    serde_path_to_error::deserialize(&mut serde_json::Deserializer::from_str(text)).map_err(|error| {
         let path = error.path().to_string();
         let field = match path.as_str() {
             "." => name.to_owned(),
@@ -36,12 +40,11 @@ pub fn read<T: DeserializeOwned>(value: &JsValue, name: &str) -> Result<T> {
             _ if path.starts_with('[') => format!("{name}{path}"),
             _ => format!("{name}.{path}"),
         };
+        // The line and column are of a text that the caller has never seen.
         let message = error.into_inner().to_string();
-        let message = shortened(message.trim_start_matches("Error: "));
-        invalid(
-            &field,
-            Reason::Unreadable { name: if field.is_empty() { "value".into() } else { field.clone() }, message },
-        )
+        let message = shortened(message.split(" at line ").next().unwrap_or_default());
+        let name = if field.is_empty() { "value".into() } else { field.clone() };
+        invalid(&field, Reason::Unreadable { name, message })
     })
 }
 
@@ -53,71 +56,53 @@ pub fn write(value: &impl Serialize) -> JsValue {
 
 /// Options: every field may be left out, none may be unknown. Fields named in `taken` are read elsewhere.
 pub fn options<T: DeserializeOwned + Serialize + Default>(value: &JsValue, taken: &[&str]) -> Result<T> {
-    if value.is_undefined() || value.is_null() {
+    let text = plain::json(value, "", taken)?;
+    if text == "null" {
         return Ok(T::default());
     }
-    let given = plain_object(value, "options")?;
+    if !text.starts_with('{') {
+        return Err(not("options", Expected::Object));
+    }
+    let given: BTreeMap<String, IgnoredAny> = of_json(&text, "options")?;
     let known: BTreeMap<String, serde_json::Value> =
         serde_json::to_value(T::default()).and_then(serde_json::from_value).map_err(|error| {
             let (name, message) = ("options".into(), error.to_string());
             invalid("options", Reason::Unreadable { name, message })
         })?;
-    let kept = Object::new();
-    for entry in Object::entries(given).iter() {
-        let entry: Array = entry.unchecked_into();
-        let (key, value) = (entry.get(0), entry.get(1));
-        let name = key.as_string().unwrap_or_default();
-        if taken.contains(&name.as_str()) || value.is_undefined() {
-            continue;
-        }
-        if !known.contains_key(&name) {
-            let all = known.into_keys().chain(taken.iter().map(|name| (*name).to_owned())).collect();
-            let reason = Reason::NoSuchOption { name: shortened(&name), known: Names(all) };
-            return Err(invalid(&name, reason));
-        }
-        if value.as_f64().is_some_and(|number| !number.is_finite()) {
-            return Err(not(&name, Expected::FiniteNumber));
-        }
-        set(&kept, &name, &value);
+    if let Some(name) = given.keys().find(|name| !known.contains_key(*name)) {
+        let all = known.into_keys().chain(taken.iter().map(|name| (*name).to_owned())).collect();
+        return Err(invalid(name, Reason::NoSuchOption { name: shortened(name), known: Names(all) }));
     }
-    read(&kept, "")
+    of_json(&text, "")
 }
 
 /// A function among the options, if there is one.
 pub fn callback(options: &JsValue, name: &str) -> Result<Option<Function>> {
-    let value = if options.is_object() { get(options, name) } else { JsValue::UNDEFINED };
+    let value = plain::field(options, name)?;
     if value.is_undefined() || value.is_null() {
         return Ok(None);
     }
     value.dyn_into().map(Some).map_err(|_| not(name, Expected::Function))
 }
 
+/// What tells a document from anything else.
+#[derive(Deserialize)]
+struct Head {
+    format: Option<serde_json::Value>,
+    version: Option<serde_json::Value>,
+}
+
 /// A document.
 pub fn project(value: &JsValue) -> Result<Project> {
-    let given = plain_object(value, "project")?;
-    if get(given, "format").as_string().as_deref() != Some("sightline") {
-        return Err(invalid("format", Reason::NotADocument));
+    let text = plain::json(value, "", &["observations", "points"])?;
+    if !text.starts_with('{') {
+        return Err(not("project", Expected::Object));
     }
-    match get(given, "version").as_f64() {
-        Some(1.0) => {}
-        Some(other) => {
-            return Err(invalid("version", Reason::NewerVersion { version: other.to_string() }));
-        }
-        None => {
-            let reason = match get(given, "version").as_string() {
-                Some(other) => Reason::NewerVersion { version: shortened(&other) },
-                None => Reason::NoVersion,
-            };
-            return Err(invalid("version", reason));
-        }
-    }
-    let rest = Object::assign(&Object::new(), given);
-    let (observations, points) = (get(given, "observations"), get(given, "points"));
-    set(&rest, "observations", &Array::new());
-    set(&rest, "points", &Array::new());
-    let mut project: Project = read(&rest, "")?;
-    project.observations = table::observations(&observations)?;
-    project.points = table::points(&points)?;
+    let Head { format, version } = of_json(&text, "")?;
+    exchange::check_head(format.as_ref(), version.as_ref())?;
+    let mut project: Project = of_json(&text, "")?;
+    project.observations = table::observations(&plain::field(value, "observations")?)?;
+    project.points = table::points(&plain::field(value, "points")?)?;
     Ok(project)
 }
 
@@ -167,30 +152,9 @@ pub fn picture(grey: &Grey) -> JsValue {
     object.into()
 }
 
-/// Bytes of a file.
-pub fn bytes(value: &JsValue, field: &str) -> Result<Vec<u8>> {
-    if let Some(array) = value.dyn_ref::<Uint8Array>() {
-        return Ok(array.to_vec());
-    }
-    if let Some(buffer) = value.dyn_ref::<ArrayBuffer>() {
-        return Ok(Uint8Array::new(buffer).to_vec());
-    }
-    Err(not(field, Expected::Bytes))
-}
-
 /// Files by name: bytes, or text.
 pub fn files(value: &JsValue) -> Result<Files> {
-    let mut files = Files::new();
-    for entry in Object::entries(plain_object(value, "files")?).iter() {
-        let entry: Array = entry.unchecked_into();
-        let (name, content) = (entry.get(0).as_string().unwrap_or_default(), entry.get(1));
-        let content = match content.as_string() {
-            Some(text) => text.into_bytes(),
-            None => bytes(&content, &format!("files.{name}"))?,
-        };
-        files.insert(name, content);
-    }
-    Ok(files)
+    Ok(plain::files(value, "files")?.into_iter().collect())
 }
 
 /// Files as an object of bytes.
@@ -222,17 +186,7 @@ pub fn whole(value: &JsValue, field: &str) -> Result<usize> {
         .ok_or_else(wrong)
 }
 
-/// An own field of an object.
-pub fn get(object: &JsValue, name: &str) -> JsValue {
-    Reflect::get(object, &JsValue::from_str(name)).unwrap_or(JsValue::UNDEFINED)
-}
-
 fn set(object: &Object, name: &str, value: &JsValue) {
     // A plain object made here takes every field.
     let _ = Reflect::set(object, &JsValue::from_str(name), value);
-}
-
-fn plain_object<'a>(value: &'a JsValue, name: &str) -> Result<&'a Object> {
-    let plain = value.is_object() && !Array::is_array(value) && !ArrayBuffer::is_view(value);
-    value.dyn_ref::<Object>().filter(|_| plain).ok_or_else(|| not(name, Expected::Object))
 }

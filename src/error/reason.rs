@@ -287,6 +287,11 @@ words! {
         Role = "role" => "tie, control or check";
         NumberOrNull = "number_or_null" => "a number or null";
         ThreeOrNull = "three_or_null" => "three finite numbers or null";
+        Plain = "plain" => "plain data: objects, lists, texts, numbers, true, false and null are taken";
+        Tree = "tree" => "a tree: it holds itself";
+        Shallower = "shallower" => "nested as little as an argument has to be, 32 deep";
+        Smaller = "smaller" => "as small as an argument has to be";
+        Attached = "attached" => "there any more: its buffer was handed over";
         SigmasOrNull = "sigmas_or_null" => "three values, numbers or null, or null";
     }
 }

@@ -78,6 +78,66 @@ test('arguments of a wrong kind are errors, never traps', () => {
   }
 });
 
+test('arguments that fight back have codes, and later calls work', () => {
+  const detached = () => {
+    const buffer = new ArrayBuffer(8);
+    structuredClone(buffer, { transfer: [buffer] });
+    return buffer;
+  };
+  const cyclic = document();
+  cyclic.cameras[0].self = cyclic;
+  const deep = document();
+  deep.name = Array.from({ length: 5000 }).reduce((inner) => ({ inner }), {});
+  const throwing = Object.defineProperty({}, 'format', {
+    enumerable: true,
+    get() {
+      throw { toString: () => { throw new Error('again'); } };
+    },
+  });
+  const rows = document();
+  rows.observations = new Proxy([], { get: () => { throw new Error('no'); } });
+  const row = document();
+  row.points[1] = new Proxy({}, { get: () => { throw new Error('no'); } });
+  const revoked = Proxy.revocable([], {});
+  revoked.revoke();
+  const half = document();
+  half.cameras[0].sigma = [null];
+  const long = document();
+  long.photos = new Array(4e9);
+  const longRows = { ...document(), observations: new Array(4e9) };
+  const at = (field) => (error) => assert.ok(error.where.field?.startsWith(field), `${field}: ${error.where.field} ${error.message}`);
+  const adjust = (project) => () => sightline.adjust(project);
+  const cases = [
+    [adjust(half), at('cameras[0]')],
+    [adjust(cyclic), at('cameras[0].self')],
+    [adjust(deep), at('name.inner')],
+    [adjust(throwing), at('format')],
+    [adjust(rows), at('observations')],
+    [adjust(row), at('points[1]')],
+    [adjust(long), at('photos')],
+    [adjust(longRows), at('observations')],
+    [adjust({ ...document(), points: revoked.proxy }), at('points')],
+    [adjust(new Proxy({}, { ownKeys: () => { throw new Error('no'); } })), () => {}],
+    [() => sightline.adjust(document(), { get robust() { throw new Error('no'); } }), at('robust')],
+    [() => sightline.adjust(document(), { covariance_of: new Array(4e9) }), at('covariance_of')],
+    [() => sightline.adjust(document(), { get on_iteration() { throw new Error('no'); } }), at('on_iteration')],
+    [() => sightline.photoInfo(detached()), at('bytes')],
+    [() => sightline.photoInfo(new Uint8Array(detached())), at('bytes')],
+    [() => sightline.detectGray(2, 2, new Uint8Array(detached())), at('samples')],
+    [() => sightline.importProject('sightline', { 'a.json': detached() }), at('files.a.json')],
+    [() => sightline.importProject('sightline', { get a() { throw new Error('no'); } }), at('files.a')],
+    [() => sightline.nameCoded([{ photo: 'a', targets: [10n] }]), at('photos[0].targets[0]')],
+  ];
+  for (let round = 0; round < 400; round++) {
+    for (const [action, look] of cases) {
+      const error = thrown(action);
+      assert.equal(error.code, 'invalid', error.message);
+      look(error);
+    }
+  }
+  assert.equal(decode(sightline.exportProject('sightline', document())['project.json']).format, 'sightline');
+});
+
 test('formats that do not exist are named with those that do', () => {
   const error = thrown(() => sightline.importProject('docx', { 'a.docx': new Uint8Array(3) }));
   assert.equal(error.code, 'unknown');

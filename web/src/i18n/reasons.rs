@@ -318,6 +318,11 @@ fn expected(expected: Expected) -> &'static str {
         Expected::Role => "tie, control, check 가운데 하나",
         Expected::NumberOrNull => "수 또는 null",
         Expected::ThreeOrNull => "유한한 수 셋 또는 null",
+        Expected::Plain => "객체, 목록, 텍스트, 수, true, false, null만으로 된 값",
+        Expected::Tree => "자신을 포함하지 않는 값",
+        Expected::Shallower => "32단계 이내로 겹친 값",
+        Expected::Smaller => "더 작은 값",
+        Expected::Attached => "다른 곳에 넘기지 않은 버퍼",
         Expected::SigmasOrNull => "수나 null 셋, 또는 null",
     }
 }
