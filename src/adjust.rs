@@ -72,9 +72,16 @@ pub fn adjust(
     let mut adjustment = Solved::new(&session, options, &solution).adjustment();
     adjustment.options = options.clone();
     adjustment.termination = termination;
-    adjustment.iterations = log.iterations;
+    adjustment.iterations = std::mem::take(&mut log.iterations);
     adjustment.advice = judgement(&adjustment, unmodelled::estimate(document, &adjustment));
     adjustment.advice.extend(advice::advice(project, &session.network, &session.state, &adjustment));
+    if !searching && matches!(termination, Termination::IterationLimit | Termination::Diverged) {
+        // Its own residuals show no gross error: those of a robust start do.
+        adjustment.advice.retain(|advice| !matches!(advice, Advice::Suspected { .. }));
+        let mut quiet = Log { iterations: Vec::new(), on_iteration: log.on_iteration };
+        let suspects = Session::new(project, &left_out).map(|mut s| s.suspects(options, &mut quiet));
+        adjustment.advice.extend(gross_errors::search::told(project, &session.network, &suspects.unwrap_or_default()));
+    }
     if !settled {
         adjustment.advice.push(Advice::GrossErrorsUnsettled);
     }

@@ -440,7 +440,8 @@ pub enum Advice {
         #[serde(default)]
         correlation: Option<f64>,
     },
-    /// Observations whose |w| exceeds the critical value ([`Criteria::w`]).
+    /// Observations whose |w| exceeds the critical value ([`Criteria::w`]), told where the largest is too large for the largest of so
+    /// many: of a thousand tests one exceeds the critical value by chance.
     Suspected {
         /// How many there are.
         count: usize,

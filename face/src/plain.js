@@ -134,11 +134,20 @@ export function readField(value, name) {
   }
 }
 
+/** Whether a buffer has been given away: nothing can be laid over it. */
+function isDetached(buffer) {
+  try {
+    return new Uint8Array(buffer).buffer !== buffer;
+  } catch {
+    return true;
+  }
+}
+
 function bytesOf(value) {
-  if (value instanceof ArrayBuffer && value.detached === true) throw new Fault('attached');
+  if (value instanceof ArrayBuffer && isDetached(value)) throw new Fault('attached');
   const bytes = value instanceof ArrayBuffer ? new Uint8Array(value) : value;
   if (!(bytes instanceof Uint8Array)) throw new Fault('bytes');
-  if (bytes.buffer.detached === true) throw new Fault('attached');
+  if (isDetached(bytes.buffer)) throw new Fault('attached');
   if (bytes.length > BYTES) throw new Fault('smaller');
   return bytes;
 }
@@ -157,7 +166,7 @@ export function readSamples(value, name) {
   try {
     const known = [Uint8Array, Uint8ClampedArray, Uint16Array].some((kind) => value instanceof kind);
     if (!known) throw new Fault('samples');
-    if (value.buffer.detached === true) throw new Fault('attached');
+    if (isDetached(value.buffer)) throw new Fault('attached');
     if (value.byteLength > BYTES) throw new Fault('smaller');
     return { value };
   } catch (error) {

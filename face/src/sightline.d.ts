@@ -291,7 +291,8 @@ export type Advice =
       with: Parameter | null;
       correlation: number | null;
     }
-  /** Observations whose |w| exceeds the critical value: image observations with the largest (at most 20), others. */
+  /** Observations whose |w| exceeds the critical value, told where the largest is too large for one of so many: image observations with the
+   * largest (at most 20), others. */
   | { kind: "suspected"; count: number; observations: [string, string, number][]; given: [Given, number][] };
 
 

@@ -4,4 +4,5 @@ pub mod advice;
 pub mod judgement;
 mod null_space;
 pub mod rank_defect;
+pub mod slips;
 pub mod structure;

@@ -2,6 +2,6 @@
 
 mod reweighting;
 mod robust;
-mod search;
+pub mod search;
 pub mod snooping;
 pub mod start;

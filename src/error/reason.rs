@@ -55,6 +55,8 @@ reasons! {
     // The adjustment
     DatumPoints => "the datum needs at least three points that do not lie in one line";
     NoImage => "the iteration ended where a point has no image: improve the initial values";
+    StandardErrorsApart { value: Number, usual: Number } => "a standard error of {value} here, where {usual} would be as accurate as what is usual in this network, leaves nothing to compute with: one of them has slipped by digits or a unit";
+    PhotoAstray => "most points measured in this photo lie behind it or far outside its picture: correct its position and rotation, or leave them out and orient it anew";
     Unmodelled { value: Number } => "unmodelled is {value}; a number of pixels from 0 is expected";
     CommonDiameter { value: Number } => "target_diameter is {value}; a finite number above 0 is expected";
     DiameterBeyondPoints { value: Number, extent: Number } => "target_diameter is {value}, but all points lie within {extent}; give it in their unit";

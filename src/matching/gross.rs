@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::photo::OrientedPhoto;
 use super::{Doubt, Doubtful};
 use crate::adjust::{adjust, apply};
-use crate::adjustment::{AdjustOptions, Adjustment, Iteration};
+use crate::adjustment::{AdjustOptions, Adjustment, Iteration, Robust};
 use crate::error::Result;
 use crate::initial::intersection::{Ray, intersect};
 use crate::initial::robust::scale;
@@ -31,7 +31,8 @@ pub struct Cleaned {
     pub removed: Vec<Doubtful>,
 }
 
-/// Adjusts, disables measurements that disagree with the other rays of their point, and adjusts again until none does.
+/// Adjusts, disables measurements that disagree with the other rays of their point, and adjusts again until none does. The first
+/// adjustment is a robust one: what is to be judged must not have carried away what judges it.
 ///
 /// # Errors
 /// Those of [`adjust`].
@@ -42,11 +43,12 @@ pub fn without_gross_errors(
 ) -> Result<Cleaned> {
     let mut project = project.clone();
     let mut removed = Vec::new();
-    let mut adjustment = adjust(&project, options, on_iteration)?;
-    for _ in 0..MOST_ROUNDS {
+    let robust = AdjustOptions { robust: options.robust.or(Some(Robust::Huber)), ..options.clone() };
+    let mut adjustment = adjust(&project, &robust, on_iteration)?;
+    for round in 0..MOST_ROUNDS {
         project = apply(&project, &adjustment);
         let wrong = disagreeing(&project);
-        if wrong.is_empty() {
+        if round > 0 && wrong.is_empty() {
             break;
         }
         for k in wrong {

@@ -22,6 +22,12 @@ pub fn critical_w() -> f64 {
     normal_quantile(1.0 - ALPHA / 2.0)
 }
 
+/// What the largest |w| of `count` tests exceeds with the probability `alpha` where nothing is wrong (Z. Šidák 1967).
+pub fn critical_among(count: usize, alpha: f64) -> f64 {
+    let one = -((-alpha).ln_1p() / count.max(1) as f64).exp_m1();
+    -normal_quantile(one / 2.0)
+}
+
 /// Non-centrality δ0 at [`ALPHA`] and [`POWER`]: 4.13.
 pub fn noncentrality() -> f64 {
     static ONCE: LazyLock<f64> = LazyLock::new(|| critical_w() + normal_quantile(POWER));
@@ -98,6 +104,16 @@ mod tests {
                 "{r}: {low} {high}"
             );
         }
+    }
+
+    #[test]
+    fn the_largest_of_many_may_be_larger() {
+        assert!((critical_among(1, ALPHA) - critical_w()).abs() < 1e-9);
+        // (1 - p)^1000 = 0.95 with p = 5.1292e-5, and 4.0497 is the normal quantile of 1 - p/2.
+        let limit = critical_among(1000, 0.05);
+        let p = 2.0 * Normal::standard().cdf(-limit);
+        assert!(((1.0 - p).powi(1000) - 0.95).abs() < 1e-9, "{limit}");
+        assert!((limit - 4.0497).abs() < 1e-4, "{limit}");
     }
 
     #[test]

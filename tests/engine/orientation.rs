@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use sightline::adjust::{adjust, apply};
-use sightline::adjustment::{AdjustOptions, Adjustment, StatisticsChoice, Termination};
+use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, StatisticsChoice, Termination};
 use sightline::camera::pixel_from_camera_point;
 use sightline::error::{Error, Lack};
 use sightline::initial::Pose;
@@ -172,7 +172,11 @@ fn camcal_is_oriented_and_adjusted_from_nothing() {
         let Some(project) = camcal(c) else { return };
         let oriented = orient(&project).expect("a valid project");
         assert!(all_oriented(&oriented), "c {c:?}: {:?}", oriented.notes);
-        let adjustment = adjusted(&oriented.project);
+        // The published sigma0 is that of residuals at the corrected place.
+        let (residuals, statistics) = (ResidualPlace::Corrected, StatisticsChoice::None);
+        let options = AdjustOptions { residuals, statistics, ..AdjustOptions::default() };
+        let adjustment = adjust(&oriented.project, &options, &mut |_| true).expect("solvable");
+        assert_eq!(adjustment.termination, Termination::Converged);
         let found = adjustment.cameras[0].camera.interior.get(Parameter::C).expect("a value");
         assert!((found - 7.457).abs() < 0.003, "c {c:?} became {found}");
         let sigma0 = adjustment.sigma0.expect("redundant");

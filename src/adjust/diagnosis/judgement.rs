@@ -1,9 +1,13 @@
 //! What the result itself says of observations, parameters and standard errors, by the limits that it carries.
 
 use crate::adjustment::{AdjustedCamera, AdjustedObservation, Adjustment, Advice, Criteria, GivenObservation};
+use crate::statistics::distribution::critical_among;
 
 /// Two suggestions for what is not modelled that differ by less are one, pixels.
 const SAME_UNMODELLED: f64 = 0.0005;
+
+/// How often the observations of a sound network are suspected.
+const FALSE_SUSPICION: f64 = 0.01;
 
 /// What is wrong with the fit; `unmodelled` is what its residuals suggest.
 pub fn judgement(adjustment: &Adjustment, unmodelled: Option<f64>) -> Vec<Advice> {
@@ -25,9 +29,17 @@ fn standard_errors(adjustment: &Adjustment, unmodelled: Option<f64>) -> Option<A
     another.map(|unmodelled| Advice::UnmodelledAgain { sigma0, unmodelled })
 }
 
-/// Observations whose test value exceeds the critical one, the largest first.
+/// Observations whose test value exceeds the critical one, the largest first. Of many observations some exceed it though nothing
+/// is wrong: nobody is sent to look unless the largest of all does so in one sound network of a hundred.
 fn suspected(adjustment: &Adjustment) -> Option<Advice> {
     let critical = adjustment.criteria.w;
+    let of_rays = adjustment.observations.iter().filter(|o| o.enabled).flat_map(|o| [o.wx, o.wy]);
+    let of_given = adjustment.given.iter().filter(|g| g.enabled).map(|g| g.reliability.and_then(|r| r.w));
+    let tested = of_rays.chain(of_given).flatten();
+    let (count, worst) = tested.fold((0, 0.0_f64), |(count, worst), w| (count + 1, worst.max(w.abs())));
+    if worst <= critical.max(critical_among(count, FALSE_SUSPICION)) {
+        return None;
+    }
     let largest = |o: &AdjustedObservation| {
         [o.wx, o.wy].into_iter().flatten().max_by(|a, b| a.abs().total_cmp(&b.abs())).filter(|w| w.abs() > critical)
     };
@@ -102,11 +114,15 @@ mod tests {
         let row = |k: usize| AdjustedObservation {
             photo: "a".into(),
             point: k.to_string(),
-            wx: Some(if k % 2 == 0 { k as f64 } else { 0.0 }),
+            wx: Some(if k.is_multiple_of(2) { k as f64 } else { 0.0 }),
             wy: Some(-1.0),
             enabled: k != 58,
             ..AdjustedObservation::default()
         };
+        // One of 120 a little beyond the limit is chance.
+        let mut sound = Adjustment { observations: (0..60).map(|_| row(1)).collect(), ..Adjustment::default() };
+        sound.observations[0].wx = Some(3.5);
+        assert_eq!(judgement(&sound, None), []);
         let what = Given::Distance { from: "1".into(), to: "2".into() };
         let given = |w: f64| GivenObservation {
             what: what.clone(),

@@ -1,7 +1,8 @@
 //! Robust estimation: weights from standardised residuals until they settle, their scale, and the variance of the result.
 
 use crate::adjust::problem::additional::{self, Observed};
-use crate::adjust::solve::session::{Log, RobustVariance, Session};
+use crate::adjust::solve::session::{Log, RobustVariance, Session, Solution};
+use crate::adjust::statistics::cofactors::Cofactors;
 use crate::adjustment::{
     AdjustOptions, GrossError, GrossErrorAction, Robust, RobustScale, StatisticsChoice, Termination,
 };
@@ -10,10 +11,10 @@ use crate::statistics::distribution::critical_w;
 
 use super::robust::{factor, predicting, prediction, scale, variance};
 use super::snooping::{Item, TESTABLE};
-use super::start::LEAST;
+use super::start::least;
 
 /// Robust weights that change less are settled.
-const SETTLED: f64 = 1e-5;
+const SETTLED: f64 = 1e-4;
 /// Rounds with one function, after the first few of which the scale is held.
 const MOST_ROUNDS: usize = 80;
 const SCALING_ROUNDS: usize = 12;
@@ -24,12 +25,19 @@ const LOST: f64 = 1e-3;
 /// Rounds in which observations that are needed are given their weight again.
 const MOST_KEPT: usize = 10;
 
-/// What the residuals are standardised with.
-struct Standards {
-    /// Square roots of the redundancy numbers of the image coordinates at their own weights; 0 where nothing checks them.
-    rays: Vec<[f64; 2]>,
-    /// Per additional observation the cofactor by which the others predict it, in units of its own variance.
-    given: Vec<f64>,
+/// Rounds of least squares in which it is decided what stands out.
+const MOST_DECISIONS: usize = 10;
+/// Less redundancy says nothing of sigma0.
+const LEAST_REDUNDANCY: f64 = 0.5;
+
+/// What errors are standardised with: cofactors by which all others predict an observation, in units of its own variance (see
+/// [`prediction`]). With its own weight the standardised error is v/(σ√r); what has lost its weight no longer draws the
+/// solution to itself, and its larger residual is not taken for a larger error.
+pub struct Standards {
+    /// Per image coordinate, all having their own weights.
+    pub rays: Vec<[f64; 2]>,
+    /// Per additional observation.
+    pub given: Vec<f64>,
 }
 
 impl Session<'_> {
@@ -84,7 +92,7 @@ impl Session<'_> {
                     round += 1;
                     let residuals = self.residuals(options)?;
                     if *stage == Robust::Huber && turn < SCALING_ROUNDS {
-                        s = self.scale(&residuals, &standards, options.robust_scale);
+                        s = at_least(options.robust_scale, scale(&self.standardised(&residuals, &standards)));
                     }
                     let change = self.weigh_rays(*stage, &residuals, &standards, &kept_rays, s);
                     let change = change.max(self.weigh_given(*stage, given, own, &standards, &kept_given, s));
@@ -92,8 +100,10 @@ impl Session<'_> {
                         settled = true;
                         break;
                     }
-                    if self.iterate(options, log)? != Termination::Converged {
-                        return Ok(false);
+                    match self.iterate(options, log)? {
+                        Termination::Converged => {}
+                        Termination::Stopped => return Ok(false),
+                        Termination::IterationLimit | Termination::Diverged => break,
                     }
                 }
                 standards.given = self.predicting(options, given)?;
@@ -125,7 +135,8 @@ impl Session<'_> {
     }
 
     /// sigma0 of least squares without what stands out of the robust solution: residuals of a robust solution are smaller than those
-    /// their redundancy numbers stand for, and the fewer there are the more so. Leaves state and weights as they are.
+    /// their redundancy numbers stand for, and the fewer there are the more so. What stands out is decided again with every such
+    /// solution until it stays the same. Leaves state and weights as they are.
     fn hard_sigma0(
         &mut self,
         options: &AdjustOptions,
@@ -137,62 +148,112 @@ impl Session<'_> {
     ) -> Result<f64> {
         let (state, weights, factors) = (self.state.clone(), self.weights.clone(), self.given_factors.clone());
         let residuals = self.residuals(options)?;
-        let limit = critical_w();
-        let soft = scale(&standardised(&residuals, standards));
-        let decided = |t: f64| if t.abs() <= limit * s { 1.0 } else { LEAST };
-        for (ray, weight) in self.weights.iter_mut().enumerate() {
-            let side = |k: usize| match standards.rays[ray][k] {
-                root if root > 0.0 => residuals[ray][k] / root,
-                _ => 0.0,
-            };
-            *weight = [decided(side(0)), decided(side(1))];
+        let mut sigma0 = scale(&self.standardised(&residuals, standards));
+        let mut decided = self.decided(&residuals, given, own, standards, s);
+        for _ in 0..MOST_DECISIONS {
+            let (of_rays, of_given) = decided.split_at(self.weights.len());
+            self.weights = of_rays.iter().map(|factor| [*factor; 2]).collect();
+            for (k, observed) in given.iter().enumerate() {
+                self.given_factors[k] = of_given[k];
+                observed.set_sqrt_weight(&mut self.network, own[k] * self.given_factors[k]);
+            }
+            if !self.iterate(options, log).is_ok_and(|t| t == Termination::Converged) {
+                break;
+            }
+            let full =
+                AdjustOptions { statistics: StatisticsChoice::Full, covariance_of: Vec::new(), ..options.clone() };
+            let Ok(Solution { cofactors: Some(cofactors), .. }) = self.finish(&full, false) else { break };
+            let residuals = self.residuals(options)?;
+            let (mut squares, mut redundancy) = (0.0, 0.0);
+            for (ray, _) in of_rays.iter().enumerate().filter(|(_, factor)| **factor == 1.0) {
+                squares += residuals[ray].iter().map(|e| e * e).sum::<f64>();
+                redundancy += cofactors.rays[ray].iter().map(|c| 1.0 - c).sum::<f64>();
+            }
+            for (k, observed) in given.iter().enumerate().filter(|(k, _)| of_given[*k] == 1.0) {
+                squares += (observed.residual(&self.network, &self.state) * own[k]).powi(2);
+                redundancy += 1.0 - observed.cofactor(&self.network, &cofactors);
+            }
+            if redundancy < LEAST_REDUNDANCY {
+                break;
+            }
+            sigma0 = (squares / redundancy).sqrt();
+            let present =
+                Standards { rays: self.predicting_rays(&cofactors), given: self.predicting_with(&cofactors, given) };
+            let next = self.decided(&residuals, given, own, &present, at_least(options.robust_scale, sigma0));
+            let settled = next.iter().zip(&decided).all(|(a, b)| (*a == 1.0) == (*b == 1.0));
+            decided = next;
+            if settled {
+                break;
+            }
         }
-        for (k, observed) in given.iter().enumerate() {
-            let e = observed.residual(&self.network, &self.state) * own[k];
-            let t = prediction(e, factors[k].powi(2), standards.given[k], TESTABLE);
-            self.given_factors[k] = t.map_or(1.0, decided);
-            observed.set_sqrt_weight(&mut self.network, own[k] * self.given_factors[k]);
-        }
-        let solved = self.iterate(options, log).is_ok_and(|t| t == Termination::Converged);
-        let full = AdjustOptions { statistics: StatisticsChoice::Full, covariance_of: Vec::new(), ..options.clone() };
-        let solution = if solved { self.finish(&full, false).ok() } else { None };
-        let sigma0 = solution.as_ref().and_then(|solution| {
-            let cofactors = solution.cofactors.as_ref()?;
-            let rays = self.weights.iter().flatten().zip(cofactors.rays.iter().flatten());
-            let image: f64 = rays.filter(|(w, _)| **w == 1.0).map(|(_, c)| 1.0 - c).sum();
-            let of_given = given.iter().zip(&self.given_factors).filter(|(_, w)| **w == 1.0);
-            let others: f64 = of_given.map(|(observed, _)| 1.0 - observed.cofactor(&self.network, cofactors)).sum();
-            let redundancy = image + others;
-            (redundancy > 0.5).then(|| (solution.cost / redundancy).sqrt())
-        });
         (self.state, self.weights, self.given_factors) = (state, weights, factors);
         for (k, observed) in given.iter().enumerate() {
             observed.set_sqrt_weight(&mut self.network, own[k] * self.given_factors[k]);
         }
-        Ok(sigma0.unwrap_or(soft))
+        Ok(sigma0)
     }
 
-    /// Scale of the weights: that of the standardised residuals, and unless asked never below the a priori one.
-    fn scale(&self, residuals: &[[f64; 2]], standards: &Standards, choice: RobustScale) -> f64 {
-        let s = scale(&standardised(residuals, standards));
-        match choice {
-            RobustScale::AtLeastPrior => s.max(1.0),
-            RobustScale::Estimated => s,
-        }
+    /// Square roots of the factors on the weights by hard decision: 1 for rays, both coordinates together, and additional observations
+    /// whose errors are within what the scale `s` allows, or that nothing checks.
+    fn decided(
+        &self,
+        residuals: &[[f64; 2]],
+        given: &[Observed],
+        own: &[f64],
+        standards: &Standards,
+        s: f64,
+    ) -> Vec<f64> {
+        let limit = critical_w() * s;
+        let factor = |t: f64| if t.abs() <= limit { 1.0 } else { least(t) };
+        let of_rays = (0..self.weights.len()).map(|ray| {
+            let side = |side| self.standardised_ray(residuals, standards, ray, side).map_or(1.0, factor);
+            side(0).min(side(1))
+        });
+        let of_given = given.iter().enumerate().map(|(k, observed)| {
+            let e = observed.residual(&self.network, &self.state) * own[k];
+            prediction(e, self.given_factors[k].powi(2), standards.given[k], TESTABLE).map_or(1.0, factor)
+        });
+        of_rays.chain(of_given).collect()
     }
 
-    fn standards(&mut self, options: &AdjustOptions, given: &[Observed]) -> Result<Standards> {
+    /// Standardised error of an image coordinate; none where nothing checks it.
+    pub fn standardised_ray(
+        &self,
+        residuals: &[[f64; 2]],
+        standards: &Standards,
+        ray: usize,
+        side: usize,
+    ) -> Option<f64> {
+        let factor = self.weights[ray][side].powi(2);
+        prediction(residuals[ray][side], factor, standards.rays[ray][side], TESTABLE)
+    }
+
+    /// Standardised errors of the image coordinates that others check.
+    fn standardised(&self, residuals: &[[f64; 2]], standards: &Standards) -> Vec<f64> {
+        let one = |ray| [0, 1].map(|side| self.standardised_ray(residuals, standards, ray, side));
+        (0..self.weights.len()).flat_map(one).flatten().collect()
+    }
+
+    /// At the present weights and values.
+    ///
+    /// # Errors
+    /// As [`Self::finish`].
+    pub fn standards(&mut self, options: &AdjustOptions, given: &[Observed]) -> Result<Standards> {
         let full = AdjustOptions { statistics: StatisticsChoice::Full, covariance_of: Vec::new(), ..options.clone() };
         let solution = self.finish(&full, false)?;
         let Some(cofactors) = &solution.cofactors else {
             return Ok(Standards {
-                rays: vec![[1.0; 2]; self.network.rays.len()],
+                rays: vec![[f64::INFINITY; 2]; self.network.rays.len()],
                 given: vec![f64::INFINITY; given.len()],
             });
         };
-        let root = |c: &f64| Some(1.0 - c).filter(|r| *r > TESTABLE).map_or(0.0, f64::sqrt);
-        let rays = cofactors.rays.iter().map(|[x, y]| [root(x), root(y)]).collect();
-        Ok(Standards { rays, given: self.predicting_with(cofactors, given) })
+        Ok(Standards { rays: self.predicting_rays(cofactors), given: self.predicting_with(cofactors, given) })
+    }
+
+    fn predicting_rays(&self, cofactors: &Cofactors) -> Vec<[f64; 2]> {
+        let factor = |ray: usize, side: usize| self.weights.get(ray).map_or(1.0, |w| w[side].powi(2));
+        let of = |(ray, c): (usize, &[f64; 2])| [0, 1].map(|side| predicting(c[side], factor(ray, side)));
+        cofactors.rays.iter().enumerate().map(of).collect()
     }
 
     fn predicting(&mut self, options: &AdjustOptions, given: &[Observed]) -> Result<Vec<f64>> {
@@ -207,11 +268,7 @@ impl Session<'_> {
         })
     }
 
-    fn predicting_with(
-        &self,
-        cofactors: &crate::adjust::statistics::cofactors::Cofactors,
-        given: &[Observed],
-    ) -> Vec<f64> {
+    fn predicting_with(&self, cofactors: &Cofactors, given: &[Observed]) -> Vec<f64> {
         let of = |(k, observed): (usize, &Observed)| {
             let factor = self.given_factors.get(k).copied().unwrap_or(1.0);
             predicting(observed.cofactor(&self.network, cofactors), factor * factor)
@@ -228,14 +285,12 @@ impl Session<'_> {
         s: f64,
     ) -> f64 {
         let mut change = 0.0_f64;
-        for (ray, weight) in self.weights.iter_mut().enumerate() {
+        for ray in 0..self.weights.len() {
             for side in 0..2 {
-                let root = standards.rays[ray][side];
-                let free = root == 0.0 || kept[ray];
-                let t = if free { 0.0 } else { residuals[ray][side] / (s * root) };
-                let new = factor(kind, t).sqrt().max(LEAST);
-                change = change.max((new - weight[side]).abs());
-                weight[side] = new;
+                let t = self.standardised_ray(residuals, standards, ray, side).filter(|_| !kept[ray]);
+                let new = t.map_or(1.0, |t| factor(kind, t / s).sqrt().max(least(t)));
+                change = change.max((new - self.weights[ray][side]).abs());
+                self.weights[ray][side] = new;
             }
         }
         change
@@ -255,7 +310,7 @@ impl Session<'_> {
             let e = observed.residual(&self.network, &self.state) * own[k];
             let t = prediction(e, self.given_factors[k].powi(2), standards.given[k], TESTABLE);
             let new = match t.filter(|_| !kept[k]) {
-                Some(t) => factor(kind, t / s).sqrt().max(LEAST),
+                Some(t) => factor(kind, t / s).sqrt().max(least(t)),
                 None => 1.0,
             };
             change = change.max((new - self.given_factors[k]).abs());
@@ -291,8 +346,10 @@ impl Session<'_> {
     }
 }
 
-/// v/(σ√r) of the image coordinates that others check.
-fn standardised(residuals: &[[f64; 2]], standards: &Standards) -> Vec<f64> {
-    let pairs = residuals.iter().flatten().zip(standards.rays.iter().flatten());
-    pairs.filter(|(_, root)| **root > 0.0).map(|(e, root)| e / root).collect()
+/// The scale of weights and decisions: unless asked never below that of the a priori standard errors.
+fn at_least(choice: RobustScale, s: f64) -> f64 {
+    match choice {
+        RobustScale::AtLeastPrior => s.max(1.0),
+        RobustScale::Estimated => s,
+    }
 }

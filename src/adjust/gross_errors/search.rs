@@ -12,12 +12,13 @@ use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
 use crate::adjust::solve::session::{Log, Session, unsound};
 use crate::adjust::statistics::cofactors::Cofactors;
-use crate::adjustment::{AdjustOptions, Given, GrossError, GrossErrorAction, StatisticsChoice, Termination};
+use crate::adjustment::{AdjustOptions, Advice, Given, GrossError, GrossErrorAction, StatisticsChoice, Termination};
 use crate::error::Result;
+use crate::project::Project;
 use crate::statistics::distribution::critical_tau;
 
 use super::robust::{predicting, prediction, scale};
-use super::snooping::{Decision, Item, TESTABLE, Tests, VANISHING, consequences, decide, items};
+use super::snooping::{Decision, Item, TESTABLE, Tests, consequences, decide, items, vanishing};
 
 /// Rounds of a search for gross errors.
 const MOST_ROUNDS: usize = 500;
@@ -31,7 +32,8 @@ struct Search {
     items: Vec<Item>,
     /// Reciprocal standard errors of additional observations, 1 for rays.
     own: Vec<f64>,
-    out: Vec<bool>,
+    /// Square root of the weight of what is taken out.
+    out: Vec<Option<f64>>,
     /// Not to be taken out any more.
     settled: Vec<bool>,
     restored: Vec<usize>,
@@ -43,7 +45,7 @@ struct Search {
 impl Search {
     fn redundancy(&self) -> usize {
         let lost = |(item, _): (&Item, _)| if matches!(item, Item::Ray(_)) { 2 } else { 1 };
-        self.all.saturating_sub(self.items.iter().zip(&self.out).filter(|(_, out)| **out).map(lost).sum())
+        self.all.saturating_sub(self.items.iter().zip(&self.out).filter(|(_, out)| out.is_some()).map(lost).sum())
     }
 }
 
@@ -89,31 +91,14 @@ impl Session<'_> {
         left_out: &mut LeftOut,
         record: &mut Vec<GrossError>,
     ) -> Result<bool> {
-        let items = items(&self.network);
-        // The start's factors are in the weights of additional observations.
-        let mut factors = self.given_factors.iter();
-        let own = items.iter().map(|item| match item {
-            Item::Ray(_) => 1.0,
-            Item::Given(observed) => observed.sqrt_weight(&self.network) / factors.next().unwrap_or(&1.0),
-        });
-        let own: Vec<f64> = own.collect();
-        let n = items.len();
-        let mut search = Search {
-            items,
-            own,
-            out: vec![false; n],
-            settled: vec![false; n],
-            restored: vec![0; n],
-            all: self.redundancy,
-            round: 1,
-        };
-        let first = self.stand_out(options, &mut search)?;
+        let mut search = self.search();
+        let first = self.stand_out(options, &search)?;
         let mut ended = self.take_out_at_once(options, log, &mut search, first, record)?;
         if ended {
             ended = self.one_at_a_time(options, log, &mut search, record)?;
         }
         self.redundancy = search.all;
-        for (item, _) in search.items.iter().zip(&search.out).filter(|(_, out)| **out) {
+        for (item, _) in search.items.iter().zip(&search.out).filter(|(_, out)| out.is_some()) {
             match item {
                 Item::Ray(ray) => left_out.observations[self.network.rays[*ray].row] = true,
                 Item::Given(observed) => left_out.given.push(observed.key(&self.network)),
@@ -126,8 +111,41 @@ impl Session<'_> {
         Ok(ended)
     }
 
+    /// Observations and others that stand out of a robust start, with their statistics, the largest first; none where it comes to no
+    /// rest. For an adjustment that finds no way because of them.
+    pub fn suspects(&mut self, options: &AdjustOptions, log: &mut Log<'_>) -> Vec<(Item, f64)> {
+        if !self.robust_start(options, log).is_ok_and(|t| t == Termination::Converged) {
+            return Vec::new();
+        }
+        let search = self.search();
+        let found = self.stand_out(options, &search).unwrap_or_default();
+        found.into_iter().map(|(item, statistic, _)| (search.items[item], statistic)).collect()
+    }
+
+    /// A search that has found nothing yet, after a robust start.
+    fn search(&self) -> Search {
+        let items = items(&self.network);
+        // The start's factors are in the weights of additional observations.
+        let mut factors = self.given_factors.iter();
+        let own = items.iter().map(|item| match item {
+            Item::Ray(_) => 1.0,
+            Item::Given(observed) => observed.sqrt_weight(&self.network) / factors.next().unwrap_or(&1.0),
+        });
+        let own: Vec<f64> = own.collect();
+        let n = items.len();
+        Search {
+            items,
+            own,
+            out: vec![None; n],
+            settled: vec![false; n],
+            restored: vec![0; n],
+            all: self.redundancy,
+            round: 1,
+        }
+    }
+
     /// What stands out of the robust start, largest statistic first: the error with which all others predict it.
-    fn stand_out(&mut self, options: &AdjustOptions, search: &mut Search) -> Result<Vec<(usize, f64, f64)>> {
+    fn stand_out(&mut self, options: &AdjustOptions, search: &Search) -> Result<Vec<(usize, f64, f64)>> {
         let Some(limit) = critical_tau(search.all) else { return Ok(Vec::new()) };
         let weights = self.weights.clone();
         let solution = self.finish(&full(options), false)?;
@@ -192,12 +210,12 @@ impl Session<'_> {
             self.weigh(search.items[item], search.own[item], 1.0);
         }
         for (item, statistic, limit) in first {
-            if !search.out[item] {
+            if search.out[item].is_none() {
                 self.take_out(search, item, (statistic, limit), record);
             }
         }
         self.redundancy = search.redundancy();
-        let none = !search.out.contains(&true);
+        let none = search.out.iter().all(Option::is_none);
         match self.iterate(options, log) {
             Ok(Termination::Converged) => return Ok(true),
             Ok(Termination::Stopped) => return Ok(false),
@@ -205,7 +223,7 @@ impl Session<'_> {
             _ => {}
         }
         for item in 0..search.items.len() {
-            search.out[item] = false;
+            search.out[item] = None;
             self.weigh(search.items[item], search.own[item], 1.0);
         }
         record.clear();
@@ -227,8 +245,9 @@ impl Session<'_> {
             return false;
         };
         for at in together {
-            search.out[at] = true;
-            self.weigh(search.items[at], search.own[at], VANISHING);
+            let vanishing = vanishing(statistic);
+            search.out[at] = Some(vanishing);
+            self.weigh(search.items[at], search.own[at], vanishing);
             let entry = self.gross_error(search.items[at], GrossErrorAction::Removed, search.round);
             record.push(GrossError { statistic, limit, consequence: at != item, ..entry });
         }
@@ -238,7 +257,7 @@ impl Session<'_> {
     /// Names an item that the network cannot do without.
     fn keep(&mut self, search: &mut Search, item: usize, (statistic, limit): (f64, f64), record: &mut Vec<GrossError>) {
         search.settled[item] = true;
-        search.out[item] = false;
+        search.out[item] = None;
         self.weigh(search.items[item], search.own[item], 1.0);
         let entry = self.gross_error(search.items[item], GrossErrorAction::Kept, search.round);
         record.push(GrossError { statistic, limit, ..entry });
@@ -256,14 +275,20 @@ impl Session<'_> {
             search.round = round;
             let solution = self.finish(&full(options), false)?;
             let Some(cofactors) = &solution.cofactors else { return Ok(false) };
-            let sigma0 = (solution.cost / self.redundancy.max(1) as f64).sqrt();
             let tests = self.tests(options, search, cofactors)?;
-            let needed = (0..tests.len()).filter(|k| search.out[*k] && !lost_with_its_point(&self.network, search, *k));
+            // What is out adds what little weight it has.
+            let squares = |(tests, out): (&Tests, &Option<f64>)| {
+                out.map_or(0.0, |factor| tests.iter().flatten().map(|(e, _)| (e * factor).powi(2)).sum())
+            };
+            let outside: f64 = tests.iter().zip(&search.out).map(squares).sum();
+            let sigma0 = ((solution.cost - outside).max(0.0) / self.redundancy.max(1) as f64).sqrt();
+            let needed = (0..tests.len())
+                .filter(|k| search.out[*k].is_some() && !lost_with_its_point(&self.network, search, *k));
             let needed = needed.filter(|k| tests[*k].iter().flatten().any(|(_, c)| *c > NEEDED)).min_by(|a, b| {
                 let size = |k: usize| tests[k].iter().flatten().map(|(e, _)| e.abs()).fold(0.0, f64::max);
                 size(*a).total_cmp(&size(*b))
             });
-            let before: (State, Vec<bool>, usize) = (self.state.clone(), search.out.clone(), record.len());
+            let before: (State, Vec<Option<f64>>, usize) = (self.state.clone(), search.out.clone(), record.len());
             let mut changed = None;
             if let Some(item) = needed {
                 self.keep(search, item, (0.0, 0.0), record);
@@ -277,7 +302,7 @@ impl Session<'_> {
                         changed = Some((item, statistic, limit));
                     }
                     Decision::Restore { item, statistic, limit } => {
-                        search.out[item] = false;
+                        search.out[item] = None;
                         search.restored[item] += 1;
                         // What comes back a second time stays.
                         search.settled[item] = search.restored[item] > 1;
@@ -297,7 +322,7 @@ impl Session<'_> {
                     (self.state, search.out) = (state, out);
                     record.truncate(entries);
                     for at in 0..search.items.len() {
-                        self.weigh(search.items[at], search.own[at], if search.out[at] { VANISHING } else { 1.0 });
+                        self.weigh(search.items[at], search.own[at], search.out[at].unwrap_or(1.0));
                     }
                     self.keep(search, item, (statistic, limit), record);
                     self.redundancy = search.redundancy();
@@ -367,12 +392,28 @@ impl Session<'_> {
     }
 }
 
+/// What stands out as advice.
+pub fn told(project: &Project, network: &Network, suspects: &[(Item, f64)]) -> Option<Advice> {
+    let (mut observations, mut given) = (Vec::new(), Vec::new());
+    for (item, statistic) in suspects {
+        match item {
+            Item::Ray(ray) => {
+                let o = &project.observations[network.rays[*ray].row];
+                observations.push((o.photo.clone(), o.point.clone(), *statistic));
+            }
+            Item::Given(observed) => given.push((observed.key(network).named(project), *statistic)),
+        }
+    }
+    observations.truncate(Advice::SUSPECTS);
+    (!suspects.is_empty()).then_some(Advice::Suspected { count: suspects.len(), observations, given })
+}
+
 /// Whether all rays of the item's point are out: the point is gone, and nothing needs them.
 fn lost_with_its_point(network: &Network, search: &Search, item: usize) -> bool {
     let Item::Ray(ray) = search.items[item] else { return false };
     // Rays are numbered as in the network.
     let point = network.points.iter().find(|p| p.rays.contains(&ray));
-    point.is_some_and(|p| p.rays.clone().all(|ray| search.out[ray]))
+    point.is_some_and(|p| p.rays.clone().all(|ray| search.out[ray].is_some()))
 }
 
 fn full(options: &AdjustOptions) -> AdjustOptions {

@@ -10,8 +10,14 @@ use crate::adjust::problem::additional::{self, Observed};
 use crate::adjust::problem::network::Network;
 use crate::statistics::distribution::critical_tau;
 
-/// Square root of the weight of what is taken out.
-pub const VANISHING: f64 = 1e-4;
+/// Square root of the weight of what is taken out, and what it pulls at most in standard errors.
+const VANISHING: f64 = 1e-4;
+const PULL: f64 = 0.01;
+
+/// Square root of the weight of what is taken out with this statistic.
+pub fn vanishing(statistic: f64) -> f64 {
+    VANISHING.min(PULL / statistic.abs())
+}
 
 /// An observation taken out whose weighted cofactor is larger all the same is the only one that determines its place.
 const UNPREDICTED: f64 = 0.01;
@@ -63,8 +69,8 @@ pub enum Decision {
     Done,
 }
 
-/// The next step. Items in `settled` are not taken out.
-pub fn decide(tests: &[Tests], removed: &[bool], settled: &[bool], redundancy: usize, sigma0: f64) -> Decision {
+/// The next step. Items in `settled` are not taken out; those taken out have the square root of their weight in `removed`.
+pub fn decide(tests: &[Tests], removed: &[Option<f64>], settled: &[bool], redundancy: usize, sigma0: f64) -> Decision {
     let Some(limit) = critical_tau(redundancy).filter(|_| sigma0 > 0.0) else { return Decision::Done };
     let mut worst = (0, limit);
     let mut best = (0, limit);
@@ -73,12 +79,12 @@ pub fn decide(tests: &[Tests], removed: &[bool], settled: &[bool], redundancy: u
             let one = |(e, q): (f64, f64)| variance(q).map(|r| (e / (sigma0 * r.sqrt())).abs());
             tests.iter().flatten().filter_map(|test| one(*test)).fold(0.0, f64::max)
         };
-        if removed[item] {
+        if let Some(vanishing) = removed[item] {
             // What nothing else predicts agrees with itself: that says nothing, and it stays out.
             if tests.iter().flatten().any(|(_, q)| *q > UNPREDICTED) {
                 continue;
             }
-            let predicted = largest(&|q| Some(1.0 + q / (VANISHING * VANISHING)));
+            let predicted = largest(&|q| Some(1.0 + q / (vanishing * vanishing)));
             // A little below the limit, so that nothing goes in and out forever.
             if predicted < 0.95 * best.1 {
                 best = (item, predicted);
@@ -102,22 +108,27 @@ pub fn decide(tests: &[Tests], removed: &[bool], settled: &[bool], redundancy: u
 /// Items to take out together with `item`, itself first: a point left with a single ray loses that too. None when a photo
 /// would be left with fewer than three points. What no other observation determines has a redundancy number of 0 and is
 /// never asked for.
-pub fn consequences(network: &Network, items: &[Item], removed: &[bool], item: usize) -> Option<Vec<usize>> {
+pub fn consequences(network: &Network, items: &[Item], removed: &[Option<f64>], item: usize) -> Option<Vec<usize>> {
     // Rays are numbered as in the network.
     let Item::Ray(ray) = items[item] else { return Some(vec![item]) };
     let at = network.points.iter().position(|p| p.rays.contains(&ray))?;
     let point = &network.points[at];
     let known = |a: usize| {
         let own = items.iter().position(|item| *item == Item::Given(Observed::Control(at, a)));
-        point.fixed[a] || own.is_some_and(|k| !removed[k])
+        point.fixed[a] || own.is_some_and(|k| removed[k].is_none())
     };
-    let others: Vec<usize> = point.rays.clone().filter(|r| *r != ray && !removed[*r]).collect();
+    let others: Vec<usize> = point.rays.clone().filter(|r| *r != ray && removed[*r].is_none()).collect();
     let mut out = vec![item];
     if others.len() == 1 && !(0..3).all(known) {
         out.extend(others);
     }
     let left = |photo: usize| {
-        network.rays.iter().enumerate().filter(|(k, r)| r.photo == photo && !removed[*k] && !out.contains(k)).count()
+        network
+            .rays
+            .iter()
+            .enumerate()
+            .filter(|(k, r)| r.photo == photo && removed[*k].is_none() && !out.contains(k))
+            .count()
     };
     out.iter().all(|r| left(network.rays[*r].photo) >= 3).then_some(out)
 }

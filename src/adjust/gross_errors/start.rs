@@ -1,16 +1,17 @@
 //! A robust start: weights that follow the residuals while the iteration is still on its way, so that a gross error can neither
 //! stop it nor carry it away.
 //!
-//! Every few steps the weights are set anew from the residuals, at first by Huber's function, whose way has one end, then
-//! by Tukey's, which forgets what is far off. The scale is that of the residuals at hand, so that poor initial values, which make
-//! all residuals large, weigh nothing down.
+//! Every few steps the weights are set anew from the errors with which all others predict each observation, at first by Huber's
+//! function, whose way has one end, then by Tukey's, which forgets what is far off. The scale is that of the errors at hand, so
+//! that poor initial values, which make all of them large, weigh nothing down.
 
 use crate::adjust::problem::additional;
 use crate::adjust::solve::session::{Log, Session};
 use crate::adjustment::{AdjustOptions, Robust, Termination};
 use crate::error::Result;
 
-use super::robust::{factor, median_scale};
+use super::robust::{factor, median_scale, prediction};
+use super::snooping::TESTABLE;
 
 /// Rounds with either function, and steps in each.
 const ROUNDS: [(Robust, usize); 2] = [(Robust::Huber, 15), (Robust::Tukey, 10)];
@@ -19,6 +20,13 @@ const STEPS: usize = 4;
 const SETTLED: f64 = 0.02;
 /// Least square root of a factor: what is weighed down goes on holding what nothing else holds.
 pub const LEAST: f64 = 1e-3;
+/// Most that an observation so weighed down still pulls, in standard errors.
+const PULL: f64 = 0.1;
+
+/// Least square root of the factor of an observation off by t standard errors.
+pub fn least(t: f64) -> f64 {
+    LEAST.min(PULL / t.abs())
+}
 
 impl Session<'_> {
     /// Iterates to a state that gross errors have not carried away, and leaves the robust weights set. Where the network does not
@@ -55,21 +63,39 @@ impl Session<'_> {
         let given = additional::all(&self.network);
         self.weights = vec![[1.0; 2]; self.network.rays.len()];
         self.given_factors = vec![1.0; given.len()];
+        // Where the first equations have no cofactors the residuals themselves have to do.
+        let standards = self.standards(options, &given).ok();
         let mut termination = Termination::IterationLimit;
         for (kind, rounds) in ROUNDS {
             for _ in 0..rounds {
                 let residuals = self.residuals(options)?;
-                let s = median_scale(residuals.iter().flatten().copied().collect()).max(1.0);
-                let weigh = |e: f64| factor(kind, e / s).sqrt().max(LEAST);
+                let errors: Vec<[f64; 2]> = match &standards {
+                    Some(standards) => (0..residuals.len())
+                        .map(|ray| {
+                            let side = |side| self.standardised_ray(&residuals, standards, ray, side).unwrap_or(0.0);
+                            [side(0), side(1)]
+                        })
+                        .collect(),
+                    None => residuals,
+                };
+                let s = median_scale(errors.iter().flatten().copied().collect()).max(1.0);
+                let weigh = |e: f64| factor(kind, e / s).sqrt().max(least(e));
                 let mut change = 0.0_f64;
-                for (weight, e) in self.weights.iter_mut().zip(&residuals) {
+                for (weight, e) in self.weights.iter_mut().zip(&errors) {
                     // Both coordinates come from one mark: a wrong one is wrong in both.
                     let new = weigh(e[0].abs().max(e[1].abs()));
                     change = change.max((new - weight[0]).abs());
                     *weight = [new; 2];
                 }
                 for (k, observed) in given.iter().enumerate() {
-                    let new = weigh(observed.residual(&self.network, &self.state) * own[k]);
+                    let e = observed.residual(&self.network, &self.state) * own[k];
+                    let new = weigh(match &standards {
+                        Some(standards) => {
+                            let factor = self.given_factors[k].powi(2);
+                            prediction(e, factor, standards.given[k], TESTABLE).unwrap_or(0.0)
+                        }
+                        None => e,
+                    });
                     change = change.max((new - self.given_factors[k]).abs());
                     self.given_factors[k] = new;
                     observed.set_sqrt_weight(&mut self.network, own[k] * new);

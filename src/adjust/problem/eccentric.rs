@@ -100,26 +100,33 @@ pub fn difference(network: &Network, a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     (0..network.rays.len()).flat_map(|k| [one(k, 0), one(k, 1)]).fold(0.0, f64::max)
 }
 
-/// Normals of the points with a diameter: given, or that of the surface where their group shows one.
+/// Normals of the points with a diameter: given, or that of the surface where their group shows one. Targets show it among
+/// themselves, since other points need not lie on it; where they are too few, with all others.
 fn normals(project: &Project, network: &Network, state: &State) -> Vec<Option<Vector3<f64>>> {
-    let surface = Surface::new(&state.points);
     let mut normals = vec![None; network.points.len()];
-    let mut open = vec![false; network.points.len()];
+    let (mut target, mut open) = (vec![false; network.points.len()], vec![false; network.points.len()]);
     for (k, block) in network.points.iter().enumerate() {
         let point = &project.points[block.index];
         if point.diameter.is_some_and(|d| d > 0.0) {
             normals[k] = point.normal.and_then(|n| Vector3::from(n).try_normalize(0.0));
-            open[k] = normals[k].is_none();
+            (target[k], open[k]) = (true, normals[k].is_none());
         }
     }
-    for group in groups(&surface, &open) {
-        let found: Vec<Option<(Vector3<f64>, f64)>> = group.iter().map(|k| surface.normal(*k)).collect();
-        let within = |left: f64| found.iter().flatten().filter(|(_, sigma)| 2.0 * sigma <= left).count();
-        if within(LEFT) as f64 >= BELIEVED * group.len() as f64 && within(LEFT_AT_THE_RIM) == group.len() {
-            group.iter().zip(found).for_each(|(k, found)| normals[*k] = found.map(|(normal, _)| normal));
-        }
+    let targets = Surface::of(&state.points, |k| target[k]);
+    let everything = Surface::new(&state.points);
+    for group in groups(&targets, &open) {
+        let found = [&targets, &everything].into_iter().find_map(|surface| believed(surface, &group));
+        group.iter().zip(found.into_iter().flatten()).for_each(|(k, normal)| normals[*k] = Some(normal));
     }
     normals
+}
+
+/// Normals of all points of a group, if the surface shows them.
+fn believed(surface: &Surface<'_>, group: &[usize]) -> Option<Vec<Vector3<f64>>> {
+    let found: Vec<(Vector3<f64>, f64)> = group.iter().map(|k| surface.normal(*k)).collect::<Option<_>>()?;
+    let within = |left: f64| found.iter().filter(|(_, sigma)| 2.0 * sigma <= left).count();
+    let shown = within(LEFT) as f64 >= BELIEVED * group.len() as f64 && within(LEFT_AT_THE_RIM) == group.len();
+    shown.then(|| found.into_iter().map(|(normal, _)| normal).collect())
 }
 
 /// Points without a normal of their own that are joined by chains of neighbours.

@@ -1,6 +1,6 @@
-//! Initial coordinates that lie far from everything else: a slip of a digit, or an intersection of parallel rays. They would stretch the
-//! frame of the adjustment and pull a free datum after them, and the way back to where the rays meet is long. Where the
-//! rays meet elsewhere, and there fit them better by far, the point starts there.
+//! Initial coordinates that lie far from everything else, or behind a photo that shows the point: a slip of a digit, or an intersection of
+//! parallel rays. They would stretch the frame of the adjustment and pull a free datum after them, and there is no way back through
+//! a camera. Where the rays meet elsewhere, and there fit them better by far, the point starts there.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -15,10 +15,13 @@ const FAR: f64 = 30.0;
 /// The rays must fit so many times better at their intersection.
 const BETTER: f64 = 10.0;
 
-/// The project with tie points that lie far off where their rays meet.
+/// The project with tie points that lie far off or behind a photo where their rays meet.
 pub fn brought_back(mut project: Cow<'_, Project>) -> Cow<'_, Project> {
     let found: Vec<(usize, [f64; 3])> = {
-        let far = far(&project);
+        let mut far = far(&project);
+        far.extend(behind(&project));
+        far.sort_unstable();
+        far.dedup();
         if far.is_empty() {
             return project;
         }
@@ -54,6 +57,20 @@ fn far(project: &Project) -> Vec<(&str, usize)> {
     let ties = project.points.iter().enumerate().filter(|(_, p)| p.role == Role::Tie);
     let off = ties.filter(|(_, p)| p.xyz.is_some_and(|xyz| from(&xyz) > FAR * usual));
     off.map(|(k, p)| (p.id.as_str(), k)).collect()
+}
+
+/// Identifiers and places of the tie points that lie behind a photo in which they are measured.
+fn behind(project: &Project) -> Vec<(&str, usize)> {
+    let photos = project.photos.iter().filter(|p| p.enabled);
+    let poses: HashMap<&str, Pose> = photos.filter_map(|p| Some((p.id.as_str(), Pose::of_photo(p)?))).collect();
+    let ties = project.points.iter().enumerate().filter(|(_, p)| p.role == Role::Tie);
+    let ties: HashMap<&str, (usize, [f64; 3])> = ties.filter_map(|(k, p)| Some((p.id.as_str(), (k, p.xyz?)))).collect();
+    let measured = project.observations.iter().filter(|o| o.enabled);
+    let off = measured.filter_map(|o| {
+        let (pose, (k, xyz)) = (poses.get(o.photo.as_str())?, ties.get(o.point.as_str())?);
+        (pose.to_camera(&nalgebra::Vector3::from(*xyz)).z >= 0.0).then_some((o.point.as_str(), *k))
+    });
+    off.collect()
 }
 
 /// Where the rays of a point meet, if they fit much better there.

@@ -33,11 +33,16 @@ struct Plane {
 }
 
 impl<'a> Surface<'a> {
-    /// Of these points.
+    /// Of all these points.
     pub fn new(points: &'a [[f64; 3]]) -> Self {
-        let mut order: Vec<usize> = (0..points.len()).collect();
+        Self::of(points, |_| true)
+    }
+
+    /// Of those of the points that lie on it, which alone may be asked for.
+    pub fn of(points: &'a [[f64; 3]], on: impl Fn(usize) -> bool) -> Self {
+        let mut order: Vec<usize> = (0..points.len()).filter(|k| on(*k)).collect();
         order.sort_by(|a, b| points[*a][0].total_cmp(&points[*b][0]));
-        let mut place = vec![0; points.len()];
+        let mut place = vec![usize::MAX; points.len()];
         order.iter().enumerate().for_each(|(at, k)| place[*k] = at);
         Self { points, order, place }
     }

@@ -189,7 +189,7 @@ pub fn iterate(
 }
 
 /// Square of what rounding leaves of the weighted residuals.
-fn rounding(network: &Network) -> f64 {
+pub fn rounding(network: &Network) -> f64 {
     let one = |measured: f64, weight: f64| (64.0 * f64::EPSILON * weight * (measured.abs() + 1.0)).powi(2);
     network.rays.iter().map(|r| one(r.measured[0], r.sqrt_weight[0]) + one(r.measured[1], r.sqrt_weight[1])).sum()
 }

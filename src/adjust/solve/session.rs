@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::adjust::datum::free::{self, FreeDatum, at_point};
-use crate::adjust::diagnosis::{rank_defect, structure};
+use crate::adjust::diagnosis::{rank_defect, slips, structure};
 use crate::adjust::equations::back_substitution::Full;
 use crate::adjust::equations::collinearity::Weighting;
 use crate::adjust::equations::normal::Normal;
@@ -18,7 +18,7 @@ use crate::adjustment::{AdjustOptions, Covariance, Iteration, ResidualPlace, Sta
 use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::project::Project;
 
-use super::iteration::{Outcome, Setting, iterate};
+use super::iteration::{Outcome, Setting, iterate, rounding};
 
 /// Rounds of eccentricity corrections, and their change in standard errors of a measurement that no longer matters.
 const MOST_CORRECTIONS: usize = 4;
@@ -27,6 +27,9 @@ const CORRECTED: f64 = 1e-3;
 const POLISHED: f64 = 1e-8;
 /// Steps with one factor on the way there.
 const MOST_POLISHING: usize = 4;
+
+/// vᵀPv that rises by more than this part is no polish.
+const RISING: f64 = 1e-6;
 
 /// Progress to the caller: the iterations so far and whether to go on.
 pub struct Log<'a> {
@@ -186,7 +189,7 @@ impl<'a> Session<'a> {
     /// [`Error::RankDefect`]; [`Error::Invalid`] where a point has no image.
     pub fn finish(&mut self, options: &AdjustOptions, polish: bool) -> Result<Solution> {
         let pins = self.pins();
-        let mut last = None;
+        let (mut last, mut refused) = (None, None);
         let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
         if options.statistics == StatisticsChoice::None {
             let (cost, _) = right_hand_side::cost(&self.network, &self.state, weighting).ok_or_else(unsound)?;
@@ -205,6 +208,7 @@ impl<'a> Session<'a> {
             if !polish {
                 break;
             }
+            let cost = self.normal.cost;
             let (polished, near) = self.polished(options.residuals)?;
             if near {
                 last = polished;
@@ -212,10 +216,13 @@ impl<'a> Session<'a> {
             }
             match polished {
                 Some(polished) => self.state = polished,
-                None => break,
+                None => {
+                    refused = Some(cost);
+                    break;
+                }
             }
         }
-        let cost = self.normal.cost;
+        let cost = refused.unwrap_or(self.normal.cost);
         let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
         let full = options.statistics == StatisticsChoice::Full;
         let (network, layout, state) = (&self.network, &self.layout, &self.state);
@@ -238,9 +245,11 @@ impl<'a> Session<'a> {
     }
 
     /// The state after a few steps with the factor at hand, the last of them negligible, and whether the first was already,
-    /// so that the factor serves for the cofactors. None where the steps lead nowhere.
+    /// so that the factor serves for the cofactors. None where the steps lead nowhere: of unknowns that are hardly determined they
+    /// are rounding, and may lead far off.
     fn polished(&mut self, place: ResidualPlace) -> Result<(Option<State>, bool)> {
         let limit = POLISHED * POLISHED * self.normal.cost / self.redundancy.max(1) as f64;
+        let most = self.normal.cost * (1.0 + RISING) + rounding(&self.network);
         let mut state = self.state.clone();
         for step in 0..MOST_POLISHING {
             let solution = self.normal.solve(&self.network, &self.layout);
@@ -257,8 +266,8 @@ impl<'a> Session<'a> {
                 return Ok((Some(state), step == 0));
             }
             let weighting = Weighting { place, robust: &self.weights, shift: &self.shift };
-            if !self.normal.renew(&self.network, &self.layout, &state, weighting) {
-                return Err(unsound());
+            if !self.normal.renew(&self.network, &self.layout, &state, weighting) || self.normal.cost > most {
+                return Ok((None, false));
             }
         }
         Ok((Some(state), false))
@@ -317,6 +326,9 @@ impl<'a> Session<'a> {
     }
 
     fn rank_defect(&mut self) -> Error {
+        if let Some(error) = slips::slip(self.project, &self.network, &self.initial) {
+            return error;
+        }
         let pins = self.pins();
         rank_defect::rank_defect(self.project, &self.network, &self.layout, &self.state, &mut self.normal, &pins)
     }

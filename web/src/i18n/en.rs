@@ -386,7 +386,7 @@ declare! { desk {
     look_at_body(n, w, alpha):
         "{n} {n:observation exceeds|observations exceed} the critical value {w} of Baarda's w at α {alpha} %. The largest is this one.";
     nothing_lacks: "Every photo is tied and every point determined";
-    nothing_lacks_body: "No observation exceeds the critical value, no parameter is left undetermined.";
+    nothing_lacks_body: "No observation is further off than chance explains, no parameter is left undetermined.";
     c_found(camera, value): "Principal distance of camera {camera} found: {value}";
     c_assumed(camera, value): "Principal distance of camera {camera} started at {value}";
     c_body: "No value was given; this one is only the start of the adjustment.";

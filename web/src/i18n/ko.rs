@@ -372,7 +372,7 @@ translate! { Korean desk {
     look_at_given(kind, name): "{kind} {name}{name:을|를} 확인하십시오";
     look_at_body(n, w, alpha): "관측 {n}개가 α {alpha} %의 Baarda w 임계값 {w}{w:을|를} 넘습니다. 그중 가장 큰 관측입니다.";
     nothing_lacks: "모든 사진이 이어지고 모든 점이 정해졌습니다";
-    nothing_lacks_body: "임계값을 넘는 관측도 정해지지 않은 매개변수도 없습니다.";
+    nothing_lacks_body: "우연으로 설명되지 않을 만큼 벗어난 관측도, 정해지지 않은 매개변수도 없습니다.";
     c_found(camera, value): "카메라 {camera}의 주점거리를 구함: {value}";
     c_assumed(camera, value): "카메라 {camera}의 주점거리 시작값: {value}";
     c_body: "주어진 값이 없어 조정의 시작값으로만 씁니다.";

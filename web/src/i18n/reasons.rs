@@ -48,6 +48,14 @@ pub fn reason(reason: &Reason) -> String {
 
         R::DatumPoints => "기준계에는 한 직선 위에 있지 않은 점이 셋 이상 필요합니다",
         R::NoImage => "점의 상이 생기지 않는 곳에서 반복이 끝났습니다. 초기값을 개선하십시오",
+        R::StandardErrorsApart { value, usual } => {
+            return format!(
+                "이 표준오차는 {value}인데, 이 망의 보통 정확도라면 {usual}입니다. 너무 달라 계산할 수 없으니 자릿수나 단위를 확인하십시오"
+            );
+        }
+        R::PhotoAstray => {
+            "이 사진에서 측정한 점 대부분이 사진 뒤나 화면 밖 먼 곳에 있습니다. 위치와 회전을 고치거나 비우고 다시 표정하십시오"
+        }
         R::Unmodelled { value } => {
             return format!("모형화되지 않은 오차가 {value}입니다. 0 이상의 화소 수여야 합니다");
         }

@@ -15,7 +15,7 @@ struct Order {
     children: &'static [&'static str],
 }
 
-const ORDERS: [Order; 3] = [
+const ORDERS: [Order; 2] = [
     Order {
         parent: &[],
         children: &[
@@ -45,13 +45,6 @@ const ORDERS: [Order; 3] = [
             "sample",
             "exchange",
             "experiments",
-        ],
-    },
-    Order {
-        parent: &["detect"],
-        children: &[
-            "code", "median", "normal", "picture", "ellipse", "edges", "centroid", "rendered", "search", "measure",
-            "click",
         ],
     },
     Order {
