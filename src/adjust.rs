@@ -50,7 +50,9 @@ pub fn adjust(
     let mut log = Log { iterations: Vec::new(), on_iteration };
     let mut record = Vec::new();
     let mut settled = true;
+    let starts = far_points::control_starts(project);
     let mut session = Session::new(project, &left_out)?;
+    session.start_at(&starts);
     let searching = options.snooping || options.robust.is_some();
     let mut termination =
         if searching { session.robust_start(options, &mut log)? } else { session.iterate(options, &mut log)? };
@@ -79,7 +81,10 @@ pub fn adjust(
         // Its own residuals show no gross error: those of a robust start do.
         adjustment.advice.retain(|advice| !matches!(advice, Advice::Suspected { .. }));
         let mut quiet = Log { iterations: Vec::new(), on_iteration: log.on_iteration };
-        let suspects = Session::new(project, &left_out).map(|mut s| s.suspects(options, &mut quiet));
+        let suspects = Session::new(project, &left_out).map(|mut session| {
+            session.start_at(&starts);
+            session.suspects(options, &mut quiet)
+        });
         adjustment.advice.extend(gross_errors::search::told(project, &session.network, &suspects.unwrap_or_default()));
     }
     if !settled {

@@ -2,6 +2,7 @@
 
 pub mod back_substitution;
 pub mod collinearity;
+pub mod context;
 pub mod normal;
 pub mod ordering;
 pub mod right_hand_side;

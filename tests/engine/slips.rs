@@ -123,6 +123,26 @@ fn gross_errors_of_any_size_are_taken_out_or_named() {
 }
 
 #[test]
+fn control_of_another_place_is_taken_out_or_named() {
+    let project = base(true);
+    let sound = sigma0(&run(&project, true).expect("solvable"));
+    let what = Given::Control { point: "p5".into(), axis: 0 };
+    for far in [1e3, 1e4, 1e6] {
+        let mut slipped = project.clone();
+        slipped.points[5].xyz = slipped.points[5].xyz.map(|[x, y, z]| [x + far, y, z]);
+        let found = run(&slipped, true).expect("solvable");
+        assert!(found.given.iter().any(|g| g.what == what && !g.enabled), "{far}: {:?}", found.gross_errors);
+        assert!((sigma0(&found) / sound - 1.0).abs() < 0.05, "{far}");
+        let plain = run(&slipped, false).expect("a result");
+        let named = plain.advice.iter().any(|a| match a {
+            Advice::Suspected { given, .. } => given.iter().any(|(g, _)| *g == what),
+            _ => false,
+        });
+        assert!(named, "{far}: {:?}", plain.advice);
+    }
+}
+
+#[test]
 fn a_distance_far_more_accurate_than_the_images_does_not_pass_its_error_on() {
     let mut project = base(false);
     project.distances.iter_mut().for_each(|d| d.sigma = 0.01);

@@ -2,11 +2,9 @@
 
 use nalgebra::{DMatrix, SMatrix};
 
+use crate::adjust::equations::context::Context;
 use crate::adjust::equations::normal::Normal;
-use crate::adjust::equations::ordering::Layout;
 use crate::adjust::linear::cholesky3::forward3;
-use crate::adjust::problem::network::Network;
-use crate::adjust::problem::state::State;
 
 use super::free::{FreeDatum, SIMILARITY};
 
@@ -58,13 +56,8 @@ pub fn transformed<const K: usize>(
 }
 
 /// Solves the equations for the datum's constraints as right-hand sides.
-pub fn transformation(
-    normal: &Normal,
-    network: &Network,
-    layout: &Layout,
-    state: &State,
-    datum: &FreeDatum,
-) -> Option<Transformation> {
+pub fn transformation(normal: &Normal, context: Context<'_>, datum: &FreeDatum) -> Option<Transformation> {
+    let Context { network, layout, state, .. } = context;
     // D (DᵀG)⁻ᵀ, so that everything below is already multiplied by the inverse.
     let d = datum.constraint_rows(state) * datum.inverse_of_constrained(state)?.transpose();
     let mut t = Transformation {

@@ -4,10 +4,9 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::adjust::datum::free::{self, Direction, SIMILARITY};
 use crate::adjust::equations::back_substitution::Full;
-use crate::adjust::equations::collinearity::Weighting;
+use crate::adjust::equations::context::Context;
 use crate::adjust::equations::normal::Normal;
 use crate::adjust::equations::ordering::Layout;
-use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
 
 /// Damping of the inverse iteration: what is weaker counts as undetermined.
@@ -17,15 +16,9 @@ const MOST_VECTORS: usize = 12;
 
 /// Vectors that the observations do not determine, each unknown weighted by the effect it has on its own observations.
 /// Inverse iteration with (N + λD)⁻¹D, orthogonal in D.
-pub fn null_space(
-    network: &Network,
-    layout: &Layout,
-    state: &State,
-    normal: &mut Normal,
-    pins: &[usize],
-    weighting: Weighting<'_>,
-) -> Option<Vec<Full>> {
-    if !normal.build(network, layout, state, weighting, SHIFT, pins) {
+pub fn null_space(context: Context<'_>, normal: &mut Normal, pins: &[usize]) -> Option<Vec<Full>> {
+    let Context { network, layout, state, .. } = context;
+    if !normal.build(context, SHIFT, pins) {
         return None;
     }
     normal.factor();

@@ -3,11 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::adjust::equations::collinearity::Weighting;
+use crate::adjust::equations::context::{Context, Weighting};
 use crate::adjust::equations::normal::Normal;
-use crate::adjust::equations::ordering::Layout;
-use crate::adjust::problem::network::Network;
-use crate::adjust::problem::state::State;
 use crate::adjustment::ResidualPlace;
 use crate::error::{Defect, Error};
 use crate::project::Project;
@@ -15,17 +12,11 @@ use crate::project::Project;
 use super::null_space::null_space;
 use super::structure::{groups, not_tied, photo_id, point_id};
 
-/// Reads a rank defect from the null space of the normal equations at `state`; overwrites `normal`.
-pub fn rank_defect(
-    project: &Project,
-    network: &Network,
-    layout: &Layout,
-    state: &State,
-    normal: &mut Normal,
-    pins: &[usize],
-) -> Error {
+/// Reads a rank defect from the null space of the normal equations, whatever the weights; overwrites `normal`.
+pub fn rank_defect(project: &Project, context: Context<'_>, normal: &mut Normal, pins: &[usize]) -> Error {
+    let Context { network, layout, .. } = context;
     let weighting = Weighting { place: ResidualPlace::Corrected, robust: &[], shift: &[] };
-    let vectors = null_space(network, layout, state, normal, pins, weighting).unwrap_or_default();
+    let vectors = null_space(Context { weighting, ..context }, normal, pins).unwrap_or_default();
     let strength = |values: &mut dyn Iterator<Item = f64>| values.map(|x| x * x).sum::<f64>().sqrt();
     let reduced = |from: usize, length: usize| {
         strength(&mut vectors.iter().flat_map(|v| v.reduced[from..from + length].iter().copied()))

@@ -270,7 +270,8 @@ impl Full {
 
 #[cfg(test)]
 mod tests {
-    use super::super::collinearity::{Linearisation, Weighting};
+    use super::super::collinearity::Linearisation;
+    use super::super::context::{Context, Weighting};
     use super::super::normal::Normal;
     use super::super::ordering::layout;
     use super::*;
@@ -315,9 +316,10 @@ mod tests {
         assert_eq!(network.points.iter().filter(|p| p.fixed == [false, true, false]).count(), 1);
         let weighting = Weighting { place: ResidualPlace::Corrected, robust: &[], shift: &[] };
         let mut normal = Normal::new(&network, &layout);
-        assert!(normal.build(&network, &layout, &state, weighting, 0.0, &[]));
+        let context = Context { network: &network, layout: &layout, state: &state, weighting };
+        assert!(normal.build(context, 0.0, &[]));
         let eliminated = &normal.eliminated;
-        let linearisation = Linearisation::<0>::new(&network, &state, weighting).unwrap();
+        let linearisation = Linearisation::<0>::new(context).unwrap();
         let x: Vec<f64> = (0..layout.size).map(|k| (k as f64 * 0.7).sin()).collect();
         let motions = eliminated.motions(&layout, &x);
         let near = |a: f64, b: f64, size: f64| assert!((a - b).abs() < 1e-12 * size, "{a} {b}");

@@ -9,6 +9,8 @@ use crate::adjust::problem::state::{Pose, State};
 use crate::adjustment::ResidualPlace;
 use crate::camera::{Brown, Linearised, Model, PARAMETERS};
 
+use super::context::{Context, Weighting};
+
 /// Weighted rows of one ray. `N` is the number of interior unknowns, padded with zeros.
 #[derive(Clone, Copy, Debug)]
 pub struct Row<const N: usize> {
@@ -24,17 +26,6 @@ pub struct Row<const N: usize> {
     pub pose: [[f64; 6]; 2],
     /// By the scaled unknowns of the interior orientation.
     pub interior_rows: [[f64; N]; 2],
-}
-
-/// What the linearisation needs besides the state.
-#[derive(Clone, Copy, Debug)]
-pub struct Weighting<'a> {
-    /// Where residuals are taken.
-    pub place: ResidualPlace,
-    /// Factors on the reciprocal standard errors (robust weighting), per ray; empty for none.
-    pub robust: &'a [[f64; 2]],
-    /// Shifts of the measurements in the units of the residuals (eccentricity), per ray; empty for none.
-    pub shift: &'a [[f64; 2]],
 }
 
 impl<const N: usize> Row<N> {
@@ -63,7 +54,8 @@ pub struct Linearisation<'a, const N: usize> {
 
 impl<'a, const N: usize> Linearisation<'a, N> {
     /// None where a principal distance is missing.
-    pub fn new(network: &'a Network, state: &'a State, weighting: Weighting<'a>) -> Option<Self> {
+    pub fn new(context: Context<'a>) -> Option<Self> {
+        let Context { network, state, weighting, .. } = context;
         let models = state.interiors.iter().map(Model::new).collect::<Option<_>>()?;
         let columns = network.interiors.iter().map(|interior| {
             let of = |k: usize| interior.estimated.get(k).map_or((k, 0.0), |e| (e.column, e.scale));

@@ -13,10 +13,10 @@
 use crate::adjust::linear::tiles::TileMatrix;
 use crate::adjust::problem::additional::distance_row;
 use crate::adjust::problem::network::Network;
-use crate::adjust::problem::state::{State, Step};
+use crate::adjust::problem::state::Step;
 
 use super::back_substitution::{Eliminated, Full};
-use super::collinearity::Weighting;
+use super::context::Context;
 use super::ordering::Layout;
 use super::right_hand_side::gradient;
 use super::schur::accumulate;
@@ -81,41 +81,33 @@ impl Normal {
     }
 
     /// Accumulates the equations at a state. Returns false where a projection does not exist.
-    pub fn build(
-        &mut self,
-        network: &Network,
-        layout: &Layout,
-        state: &State,
-        weighting: Weighting<'_>,
-        lambda: f64,
-        pins: &[usize],
-    ) -> bool {
+    pub fn build(&mut self, context: Context<'_>, lambda: f64, pins: &[usize]) -> bool {
         self.matrix.clear();
         self.rhs.fill(0.0);
         self.reference.fill(0.0);
-        self.eliminated.start(state);
+        self.eliminated.start(context.state);
         self.cost = 0.0;
         self.behind = 0;
         self.lambda = lambda;
         let normal = &mut *self;
-        let sound = with_interior_size!(network, accumulate(normal, network, layout, state, weighting));
+        let sound = with_interior_size!(context.network, accumulate(normal, context));
         if sound.is_none() || !self.cost.is_finite() {
             return false;
         }
-        self.add_given(network, layout, state, true);
-        self.finish_diagonal(network, layout, pins);
+        self.add_given(context, true);
+        self.finish_diagonal(context, pins);
         true
     }
 
     /// The right-hand side alone at another state, for the factor at hand: one step of the simplified Newton iteration, which
     /// costs a fraction of new equations. Returns false where a projection does not exist.
-    pub fn renew(&mut self, network: &Network, layout: &Layout, state: &State, weighting: Weighting<'_>) -> bool {
+    pub fn renew(&mut self, context: Context<'_>) -> bool {
         self.rhs.fill(0.0);
         self.cost = 0.0;
         self.behind = 0;
         let normal = &mut *self;
-        let sound = with_interior_size!(network, gradient(normal, network, layout, state, weighting));
-        self.add_given(network, layout, state, false);
+        let sound = with_interior_size!(context.network, gradient(normal, context));
+        self.add_given(context, false);
         sound.is_some() && self.cost.is_finite()
     }
 
@@ -129,7 +121,7 @@ impl Normal {
     }
 
     /// Distances and observed values of photos and interior orientations, in the matrix too if `whole`.
-    fn add_given(&mut self, network: &Network, layout: &Layout, state: &State, whole: bool) {
+    fn add_given(&mut self, Context { network, layout, state, .. }: Context<'_>, whole: bool) {
         for bar in &network.bars {
             let (e, rows) = distance_row(network, state, bar);
             self.cost += e * e;
@@ -166,7 +158,7 @@ impl Normal {
     }
 
     /// Damping, pins, fixed axes of kept points and the gaps between blocks.
-    fn finish_diagonal(&mut self, network: &Network, layout: &Layout, pins: &[usize]) {
+    fn finish_diagonal(&mut self, Context { network, layout, .. }: Context<'_>, pins: &[usize]) {
         let mut used = vec![false; layout.size];
         for start in &layout.photo {
             used[*start..start + 6].fill(true);

@@ -3,17 +3,16 @@
 use crate::adjust::linear::blocks::add_rows;
 use crate::adjust::linear::cholesky3::{backward3, forward3};
 use crate::adjust::problem::additional::distance_row;
-use crate::adjust::problem::network::Network;
-use crate::adjust::problem::state::State;
 
-use super::collinearity::{Linearisation, Weighting, point_equations};
+use super::collinearity::{Linearisation, point_equations};
+use super::context::{Context, Weighting};
 use super::normal::Normal;
-use super::ordering::Layout;
 
 /// vᵀPv of a state without its normal equations, and the number of rays behind their camera; none where a projection
 /// does not exist.
-pub fn cost(network: &Network, state: &State, weighting: Weighting<'_>) -> Option<(f64, usize)> {
-    let linearisation = Linearisation::<0>::new(network, state, weighting)?;
+pub fn cost(context: Context<'_>) -> Option<(f64, usize)> {
+    let Context { network, state, .. } = context;
+    let linearisation = Linearisation::<0>::new(context)?;
     let (mut sum, mut behind, mut room) = (0.0, 0, Vec::new());
     for point in 0..network.points.len() {
         let rows = linearisation.point(point, &mut room, &mut behind)?;
@@ -36,8 +35,10 @@ pub fn cost(network: &Network, state: &State, weighting: Weighting<'_>) -> Optio
 }
 
 /// Residuals of all rays over their a priori standard errors, whatever their robust weights.
-pub fn weighted_residuals(network: &Network, state: &State, weighting: Weighting<'_>) -> Option<Vec<[f64; 2]>> {
-    let linearisation = Linearisation::<0>::new(network, state, Weighting { robust: &[], ..weighting })?;
+pub fn weighted_residuals(context: Context<'_>) -> Option<Vec<[f64; 2]>> {
+    let Context { network, weighting, .. } = context;
+    let weighting = Weighting { robust: &[], ..weighting };
+    let linearisation = Linearisation::<0>::new(Context { weighting, ..context })?;
     let (mut behind, mut room) = (0, Vec::new());
     let mut residuals = Vec::with_capacity(network.rays.len());
     for point in 0..network.points.len() {
@@ -49,14 +50,9 @@ pub fn weighted_residuals(network: &Network, state: &State, weighting: Weighting
 
 /// All points' contributions to the right-hand side, their elimination being the one at hand: with the point's own step
 /// t = -L⁻ᵀh every ray is left with e + At, and GᵀB h need not be formed. None where a projection does not exist.
-pub fn gradient<const N: usize>(
-    normal: &mut Normal,
-    network: &Network,
-    layout: &Layout,
-    state: &State,
-    weighting: Weighting<'_>,
-) -> Option<()> {
-    let linearisation = Linearisation::<N>::new(network, state, weighting)?;
+pub fn gradient<const N: usize>(normal: &mut Normal, context: Context<'_>) -> Option<()> {
+    let Context { network, layout, state, .. } = context;
+    let linearisation = Linearisation::<N>::new(context)?;
     let (mut behind, mut room) = (0, Vec::new());
     for (point, block) in network.points.iter().enumerate() {
         let rows = linearisation.point(point, &mut room, &mut behind)?;

@@ -4,10 +4,10 @@ use crate::adjust::linear::blocks::{add_lower, add_product, add_rows, add_square
 use crate::adjust::linear::cholesky3::{PointFactor, factor3, forward3};
 use crate::adjust::linear::kernel::TILE;
 use crate::adjust::linear::tiles::{Line, TileMatrix};
-use crate::adjust::problem::network::{Network, PhotoBlock, PointBlock};
-use crate::adjust::problem::state::State;
+use crate::adjust::problem::network::{PhotoBlock, PointBlock};
 
-use super::collinearity::{Linearisation, Row, Weighting, point_equations};
+use super::collinearity::{Linearisation, Row, point_equations};
+use super::context::Context;
 use super::normal::Normal;
 use super::ordering::Layout;
 
@@ -53,7 +53,7 @@ struct Shared {
     cross: usize,
 }
 
-fn places<const N: usize>(matrix: &TileMatrix, network: &Network, layout: &Layout) -> Vec<Place> {
+fn places<const N: usize>(matrix: &TileMatrix, Context { network, layout, .. }: Context<'_>) -> Vec<Place> {
     let place = |(photo, &row): (&PhotoBlock, &usize)| {
         let interior = layout.interior[photo.interior];
         let at = |column: usize| if N > 0 { matrix.place(interior, column) } else { 0 };
@@ -85,15 +85,10 @@ struct Parts {
 }
 
 /// All points' contributions. None where a projection does not exist.
-pub fn accumulate<const N: usize>(
-    normal: &mut Normal,
-    network: &Network,
-    layout: &Layout,
-    state: &State,
-    weighting: Weighting<'_>,
-) -> Option<()> {
-    let linearisation = Linearisation::<N>::new(network, state, weighting)?;
-    let places = places::<N>(&normal.matrix, network, layout);
+pub fn accumulate<const N: usize>(normal: &mut Normal, context: Context<'_>) -> Option<()> {
+    let Context { network, layout, state, .. } = context;
+    let linearisation = Linearisation::<N>::new(context)?;
+    let places = places::<N>(&normal.matrix, context);
     let (mut room, mut parts) = (Vec::new(), Parts::default());
     let mut behind = 0;
     for (point, block) in network.points.iter().enumerate() {
@@ -101,7 +96,7 @@ pub fn accumulate<const N: usize>(
         let (n, g, cost) = point_equations(block, &state.points[point], rows);
         normal.cost += cost;
         if block.kept {
-            keep(normal, network, layout, layout.point[point], n, g, rows);
+            keep(normal, context, layout.point[point], n, g, rows);
             continue;
         }
         factor_point(normal, block, point, n, g);
@@ -126,8 +121,7 @@ pub fn accumulate<const N: usize>(
 /// Blocks of a point that stays in the reduced equations.
 fn keep<const N: usize>(
     normal: &mut Normal,
-    network: &Network,
-    layout: &Layout,
+    Context { network, layout, .. }: Context<'_>,
     place: usize,
     n: [f64; 6],
     g: [f64; 3],

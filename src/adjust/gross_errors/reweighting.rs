@@ -136,7 +136,8 @@ impl Session<'_> {
 
     /// sigma0 of least squares without what stands out of the robust solution: residuals of a robust solution are smaller than those
     /// their redundancy numbers stand for, and the fewer there are the more so. What stands out is decided again with every such
-    /// solution until it stays the same. Leaves state and weights as they are.
+    /// solution until it stays the same, always by the robust scale: what is still inside must not widen the limits by which it
+    /// is judged. Leaves state and weights as they are.
     fn hard_sigma0(
         &mut self,
         options: &AdjustOptions,
@@ -179,7 +180,7 @@ impl Session<'_> {
             sigma0 = (squares / redundancy).sqrt();
             let present =
                 Standards { rays: self.predicting_rays(&cofactors), given: self.predicting_with(&cofactors, given) };
-            let next = self.decided(&residuals, given, own, &present, at_least(options.robust_scale, sigma0));
+            let next = self.decided(&residuals, given, own, &present, s);
             let settled = next.iter().zip(&decided).all(|(a, b)| (*a == 1.0) == (*b == 1.0));
             decided = next;
             if settled {

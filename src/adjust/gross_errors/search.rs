@@ -5,7 +5,6 @@
 //! observation a round goes or comes back. Nothing is taken out that the network cannot do without: such an observation is
 //! kept and named.
 
-use crate::adjust::equations::collinearity::Weighting;
 use crate::adjust::equations::right_hand_side;
 use crate::adjust::problem::additional::LeftOut;
 use crate::adjust::problem::network::Network;
@@ -55,8 +54,7 @@ impl Session<'_> {
     /// # Errors
     /// [`crate::Error::Invalid`] where a point has no image.
     pub fn residuals(&self, options: &AdjustOptions) -> Result<Vec<[f64; 2]>> {
-        let weighting = Weighting { place: options.residuals, robust: &[], shift: &self.shift };
-        right_hand_side::weighted_residuals(&self.network, &self.state, weighting).ok_or_else(unsound)
+        right_hand_side::weighted_residuals(self.context(options.residuals)).ok_or_else(unsound)
     }
 
     /// An entry of the record; the caller completes what led to it.

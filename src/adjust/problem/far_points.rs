@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use crate::camera::ideal_from_pixel;
 use crate::initial::Pose;
 use crate::initial::intersection::{Ray, intersect};
-use crate::project::{Observation, Project, Role};
+use crate::project::{DatumKind, Observation, Project, Role};
 
 /// Times the median distance from the middle of all points and photos.
 const FAR: f64 = 30.0;
@@ -17,31 +17,38 @@ const BETTER: f64 = 10.0;
 
 /// The project with tie points that lie far off or behind a photo where their rays meet.
 pub fn brought_back(mut project: Cow<'_, Project>) -> Cow<'_, Project> {
-    let found: Vec<(usize, [f64; 3])> = {
-        let mut far = far(&project);
-        far.extend(behind(&project));
-        far.sort_unstable();
-        far.dedup();
-        if far.is_empty() {
-            return project;
-        }
-        let mut sights: HashMap<&str, Vec<&Observation>> = far.iter().map(|(id, _)| (*id, Vec::new())).collect();
-        for o in project.observations.iter().filter(|o| o.enabled) {
-            if let Some(list) = sights.get_mut(o.point.as_str()) {
-                list.push(o);
-            }
-        }
-        let place = |(id, k): &(&str, usize)| Some((*k, intersection(&project, *k, &sights[id])?));
-        far.iter().filter_map(place).collect()
-    };
-    for (k, xyz) in found {
+    for (k, xyz) in found(&project, Role::Tie) {
         project.to_mut().points[k].xyz = Some(xyz);
     }
     project
 }
 
-/// Identifiers and places of the tie points far from all others.
-fn far(project: &Project) -> Vec<(&str, usize)> {
+/// Places in the document of control points whose given coordinates lie far off or behind a photo, and where their rays meet: what
+/// is given stays as given, the iteration starts from there.
+pub fn control_starts(project: &Project) -> Vec<(usize, [f64; 3])> {
+    if project.datum.kind == DatumKind::Control { found(project, Role::Control) } else { Vec::new() }
+}
+
+fn found(project: &Project, role: Role) -> Vec<(usize, [f64; 3])> {
+    let mut off = far(project, role);
+    off.extend(behind(project, role));
+    off.sort_unstable();
+    off.dedup();
+    if off.is_empty() {
+        return Vec::new();
+    }
+    let mut sights: HashMap<&str, Vec<&Observation>> = off.iter().map(|(id, _)| (*id, Vec::new())).collect();
+    for o in project.observations.iter().filter(|o| o.enabled) {
+        if let Some(list) = sights.get_mut(o.point.as_str()) {
+            list.push(o);
+        }
+    }
+    let place = |(id, k): &(&str, usize)| Some((*k, intersection(project, *k, &sights[id])?));
+    off.iter().filter_map(place).collect()
+}
+
+/// Identifiers and places of the points of a role far from all others.
+fn far(project: &Project, role: Role) -> Vec<(&str, usize)> {
     let places: Vec<[f64; 3]> =
         project.points.iter().filter_map(|p| p.xyz).chain(project.photos.iter().filter_map(|p| p.position)).collect();
     let median = |mut list: Vec<f64>| {
@@ -54,16 +61,16 @@ fn far(project: &Project) -> Vec<(&str, usize)> {
     let middle: [f64; 3] = std::array::from_fn(|a| median(places.iter().map(|p| p[a]).collect()));
     let from = |p: &[f64; 3]| (0..3).map(|a| (p[a] - middle[a]).powi(2)).sum::<f64>().sqrt();
     let usual = median(places.iter().map(from).collect());
-    let ties = project.points.iter().enumerate().filter(|(_, p)| p.role == Role::Tie);
+    let ties = project.points.iter().enumerate().filter(|(_, p)| p.role == role);
     let off = ties.filter(|(_, p)| p.xyz.is_some_and(|xyz| from(&xyz) > FAR * usual));
     off.map(|(k, p)| (p.id.as_str(), k)).collect()
 }
 
-/// Identifiers and places of the tie points that lie behind a photo in which they are measured.
-fn behind(project: &Project) -> Vec<(&str, usize)> {
+/// Identifiers and places of the points of a role that lie behind a photo in which they are measured.
+fn behind(project: &Project, role: Role) -> Vec<(&str, usize)> {
     let photos = project.photos.iter().filter(|p| p.enabled);
     let poses: HashMap<&str, Pose> = photos.filter_map(|p| Some((p.id.as_str(), Pose::of_photo(p)?))).collect();
-    let ties = project.points.iter().enumerate().filter(|(_, p)| p.role == Role::Tie);
+    let ties = project.points.iter().enumerate().filter(|(_, p)| p.role == role);
     let ties: HashMap<&str, (usize, [f64; 3])> = ties.filter_map(|(k, p)| Some((p.id.as_str(), (k, p.xyz?)))).collect();
     let measured = project.observations.iter().filter(|o| o.enabled);
     let off = measured.filter_map(|o| {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Matrix6};
 
-use crate::adjust::equations::collinearity::Weighting;
+use crate::adjust::equations::context::Weighting;
 use crate::adjust::gross_errors::start::LEAST;
 use crate::adjust::problem::eccentric;
 use crate::adjust::problem::network::Network;
@@ -79,7 +79,7 @@ impl<'a> Solved<'a> {
             network: &session.network,
             state: &session.state,
             cofactors: solution.cofactors.as_ref(),
-            weighting: Weighting { place: options.residuals, robust: &session.weights, shift: &session.shift },
+            weighting: session.context(options.residuals).weighting,
             given_factors: &session.given_factors,
             cost: solution.cost,
             constraints: session.datum.as_ref().map_or(0, |d| d.defect),

@@ -5,9 +5,8 @@
 //! rounding of the observations, so that exact observations (sigma0 of 0) converge like any others.
 //! D. Marquardt, J. SIAM 11 (1963); K. Madsen, H. B. Nielsen, O. Tingleff 2004.
 
-use crate::adjust::equations::collinearity::Weighting;
+use crate::adjust::equations::context::Context;
 use crate::adjust::equations::normal::Normal;
-use crate::adjust::equations::ordering::Layout;
 use crate::adjust::equations::right_hand_side::cost;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
@@ -42,14 +41,10 @@ enum Ready {
 
 /// What the iteration works on.
 pub struct Setting<'a> {
-    /// The network.
-    pub network: &'a Network,
-    /// Places of its blocks.
-    pub layout: &'a Layout,
+    /// The network at its first values.
+    pub context: Context<'a>,
     /// Photo unknowns that take up a free datum.
     pub pins: &'a [usize],
-    /// Weights and place of the residuals.
-    pub weighting: Weighting<'a>,
     /// n - u + d.
     pub redundancy: usize,
     /// Largest number of iterations.
@@ -66,22 +61,18 @@ pub struct Outcome {
     pub singular: Vec<usize>,
 }
 
-/// Iterates from `state`; `normal` is working space. `log` receives every iteration and says whether to go on.
-pub fn iterate(
-    setting: &Setting<'_>,
-    normal: &mut Normal,
-    mut state: State,
-    log: &mut dyn FnMut(Iteration) -> bool,
-) -> Outcome {
-    let Setting { network, layout, pins, weighting, redundancy, max_iterations } = *setting;
+/// Iterates; `normal` is working space. `log` receives every iteration and says whether to go on.
+pub fn iterate(setting: &Setting<'_>, normal: &mut Normal, log: &mut dyn FnMut(Iteration) -> bool) -> Outcome {
+    let Setting { context, pins, redundancy, max_iterations } = *setting;
+    let Context { network, layout, .. } = context;
+    let mut state = context.state.clone();
     let rounding = rounding(network);
     let unit = redundancy.max(1) as f64;
     let mut lambda = 0.0;
     let mut growth = 2.0;
     let mut undamped_below = FIRST_DAMPING;
     let mut flat_steps = 0;
-    let mut ready =
-        if normal.build(network, layout, &state, weighting, lambda, pins) { Ready::Built } else { Ready::No };
+    let mut ready = if normal.build(context, lambda, pins) { Ready::Built } else { Ready::No };
     let mut behind = normal.behind;
     let mut singular = Vec::new();
     // Length of the last full step in standard errors.
@@ -91,7 +82,7 @@ pub fn iterate(
         return outcome(state, Termination::Diverged, singular);
     }
     for _ in 0..max_iterations {
-        if ready == Ready::No && !normal.build(network, layout, &state, weighting, lambda, pins) {
+        if ready == Ready::No && !normal.build(context.at(&state), lambda, pins) {
             return outcome(state, Termination::Diverged, singular);
         }
         let before = normal.cost;
@@ -129,11 +120,8 @@ pub fn iterate(
             // A full step is nearly always good: its equations are built at once, or, where the steps shrink fast, the
             // right-hand side alone.
             let keep = contraction.is_some_and(|c| c < KEEPING);
-            let built = if keep {
-                normal.renew(network, layout, &trial, weighting)
-            } else {
-                normal.build(network, layout, &trial, weighting, 0.0, pins)
-            };
+            let built =
+                if keep { normal.renew(context.at(&trial)) } else { normal.build(context.at(&trial), 0.0, pins) };
             ready = match (built, keep) {
                 (true, true) => Ready::Renewed,
                 (true, false) => Ready::Built,
@@ -141,7 +129,7 @@ pub fn iterate(
             };
             built.then_some((normal.cost, normal.behind))
         } else {
-            cost(network, &trial, weighting)
+            cost(context.at(&trial))
         };
         let gain = match after {
             Some((after, now_behind)) if behind > 0 || now_behind == 0 => (before - after) / solution.predicted,

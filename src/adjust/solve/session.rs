@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use crate::adjust::datum::free::{self, FreeDatum, at_point};
 use crate::adjust::diagnosis::{rank_defect, slips, structure};
 use crate::adjust::equations::back_substitution::Full;
-use crate::adjust::equations::collinearity::Weighting;
+use crate::adjust::equations::context::{Context, Weighting};
 use crate::adjust::equations::normal::Normal;
 use crate::adjust::equations::ordering::{Layout, layout};
 use crate::adjust::equations::right_hand_side;
@@ -19,6 +19,18 @@ use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::project::Project;
 
 use super::iteration::{Outcome, Setting, iterate, rounding};
+
+/// The network at the present values; not a method, since the normal equations are borrowed beside it.
+macro_rules! context {
+    ($session:ident, $place:expr) => {
+        Context {
+            network: &$session.network,
+            layout: &$session.layout,
+            state: &$session.state,
+            weighting: Weighting { place: $place, robust: &$session.weights, shift: &$session.shift },
+        }
+    };
+}
 
 /// Rounds of eccentricity corrections, and their change in standard errors of a measurement that no longer matters.
 const MOST_CORRECTIONS: usize = 4;
@@ -122,6 +134,22 @@ impl<'a> Session<'a> {
         Ok(session)
     }
 
+    /// Starts points of the document, which are given with standard errors, elsewhere.
+    pub fn start_at(&mut self, starts: &[(usize, [f64; 3])]) {
+        for (index, xyz) in starts {
+            let Some(k) = self.network.points.iter().position(|p| p.index == *index) else { continue };
+            let inside = self.network.frame.inside(*xyz);
+            for a in (0..3).filter(|a| !self.network.points[k].fixed[*a]) {
+                self.state.points[k][a] = inside[a];
+            }
+        }
+    }
+
+    /// The network at the present values.
+    pub fn context(&self, place: ResidualPlace) -> Context<'_> {
+        context!(self, place)
+    }
+
     fn pins(&self) -> Vec<usize> {
         self.datum.as_ref().map_or_else(Vec::new, |d| free::pins(&self.layout, &self.state, d.defect))
     }
@@ -148,10 +176,8 @@ impl<'a> Session<'a> {
     fn iterate_held(&mut self, options: &AdjustOptions, log: &mut Log<'_>) -> Result<Termination> {
         let pins = self.pins();
         let setting = Setting {
-            network: &self.network,
-            layout: &self.layout,
+            context: context!(self, options.residuals),
             pins: &pins,
-            weighting: Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift },
             redundancy: self.redundancy,
             max_iterations: options.max_iterations,
         };
@@ -160,8 +186,7 @@ impl<'a> Session<'a> {
             log.iterations.push(iteration);
             going
         };
-        let Outcome { state, termination, singular } =
-            iterate(&setting, &mut self.normal, self.state.clone(), &mut each);
+        let Outcome { state, termination, singular } = iterate(&setting, &mut self.normal, &mut each);
         self.state = state;
         self.state.orthonormalise();
         if !singular.is_empty() && termination != Termination::Stopped {
@@ -190,16 +215,14 @@ impl<'a> Session<'a> {
     pub fn finish(&mut self, options: &AdjustOptions, polish: bool) -> Result<Solution> {
         let pins = self.pins();
         let (mut last, mut refused) = (None, None);
-        let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
         if options.statistics == StatisticsChoice::None {
-            let (cost, _) = right_hand_side::cost(&self.network, &self.state, weighting).ok_or_else(unsound)?;
+            let (cost, _) = right_hand_side::cost(context!(self, options.residuals)).ok_or_else(unsound)?;
             return Ok(Solution { cost, cofactors: None, covariance: None });
         }
         // The equations are factored for the statistics anyway: further steps with that factor, until the unknowns keep
         // all their digits.
         for _ in 0..4 {
-            let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
-            if !self.normal.build(&self.network, &self.layout, &self.state, weighting, 0.0, &pins) {
+            if !self.normal.build(context!(self, options.residuals), 0.0, &pins) {
                 return Err(unsound());
             }
             if !self.normal.factor().is_empty() {
@@ -223,10 +246,8 @@ impl<'a> Session<'a> {
             }
         }
         let cost = refused.unwrap_or(self.normal.cost);
-        let weighting = Weighting { place: options.residuals, robust: &self.weights, shift: &self.shift };
         let full = options.statistics == StatisticsChoice::Full;
-        let (network, layout, state) = (&self.network, &self.layout, &self.state);
-        let cofactors = cofactors(&self.normal, network, layout, state, weighting, self.datum.as_ref(), full);
+        let cofactors = cofactors(&self.normal, context!(self, options.residuals), self.datum.as_ref(), full);
         let cofactors = Some(cofactors.ok_or_else(unsound)?);
         let variance = match self.robust {
             Some(robust) => robust.variance,
@@ -265,8 +286,7 @@ impl<'a> Session<'a> {
             if solution.decrement <= limit {
                 return Ok((Some(state), step == 0));
             }
-            let weighting = Weighting { place, robust: &self.weights, shift: &self.shift };
-            if !self.normal.renew(&self.network, &self.layout, &state, weighting) || self.normal.cost > most {
+            if !self.normal.renew(context!(self, place).at(&state)) || self.normal.cost > most {
                 return Ok((None, false));
             }
         }
@@ -330,6 +350,7 @@ impl<'a> Session<'a> {
             return error;
         }
         let pins = self.pins();
-        rank_defect::rank_defect(self.project, &self.network, &self.layout, &self.state, &mut self.normal, &pins)
+        let context = context!(self, ResidualPlace::Corrected);
+        rank_defect::rank_defect(self.project, context, &mut self.normal, &pins)
     }
 }

@@ -12,16 +12,14 @@
 use nalgebra::{DMatrix, Matrix3, Matrix6, SMatrix};
 
 use crate::adjust::datum::free::{self, FreeDatum, SIMILARITY, at_point};
-use crate::adjust::datum::s_transformation::{Transformation, carried, transformation, transformed};
-use crate::adjust::equations::collinearity::{Linearisation, Row, Weighting};
+use crate::adjust::datum::s_transformation::{carried, transformation, transformed};
+use crate::adjust::equations::collinearity::{Linearisation, Row};
+use crate::adjust::equations::context::Context;
 use crate::adjust::equations::normal::{Normal, with_interior_size};
-use crate::adjust::equations::ordering::Layout;
 use crate::adjust::linear::cholesky3::{backward3, forward3};
 use crate::adjust::linear::kernel::TILE;
 use crate::adjust::linear::tiles::TileMatrix;
 use crate::adjust::problem::additional::distance_row;
-use crate::adjust::problem::network::Network;
-use crate::adjust::problem::state::State;
 
 use super::external_reliability::{Alignment, Blocks, Carried, Influence, Taken, length};
 use super::ray_cofactors::{RayCofactors, at_photo};
@@ -50,16 +48,8 @@ pub struct Cofactors {
 }
 
 /// Computes cofactors from undamped, factored equations at `state`; none where a projection does not exist.
-pub fn cofactors(
-    normal: &Normal,
-    network: &Network,
-    layout: &Layout,
-    state: &State,
-    weighting: Weighting<'_>,
-    datum: Option<&FreeDatum>,
-    full: bool,
-) -> Option<Cofactors> {
-    with_interior_size!(network, compute(normal, network, layout, state, weighting, datum, full))
+pub fn cofactors(normal: &Normal, context: Context<'_>, datum: Option<&FreeDatum>, full: bool) -> Option<Cofactors> {
+    with_interior_size!(context.network, compute(normal, context, datum, full))
 }
 
 /// A block of the inverse: numbers of the first index side by side, or of the second.
@@ -88,17 +78,15 @@ pub fn block(q: &TileMatrix, row: usize, column: usize) -> Block<'_> {
 
 fn compute<const N: usize>(
     normal: &Normal,
-    network: &Network,
-    layout: &Layout,
-    state: &State,
-    weighting: Weighting<'_>,
+    context: Context<'_>,
     datum: Option<&FreeDatum>,
     full: bool,
 ) -> Option<Cofactors> {
-    let linearisation = Linearisation::<N>::new(network, state, weighting)?;
+    let Context { network, layout, state, .. } = context;
+    let linearisation = Linearisation::<N>::new(context)?;
     let inverse = normal.matrix.inverse();
     let transformation = match datum {
-        Some(datum) => Some(transformation(normal, network, layout, state, datum)?),
+        Some(datum) => Some(transformation(normal, context, datum)?),
         None => None,
     };
     let mut result = Cofactors {
@@ -107,10 +95,10 @@ fn compute<const N: usize>(
         given_influence: if full { Influence::new(network) } else { Influence::default() },
         ..Cofactors::default()
     };
-    let blocks = Blocks { network, layout, state, transformation: transformation.as_ref() };
-    reduced_blocks(&mut result, network, layout, state, &inverse, transformation.as_ref());
+    let blocks = Blocks { context, transformation: transformation.as_ref() };
+    reduced_blocks(&mut result, &blocks, &inverse);
 
-    let alignment = transformation.as_ref().map(|t| Alignment::<N>::new(t, network, layout, state));
+    let alignment = transformation.as_ref().map(|t| Alignment::<N>::new(t, context));
     let mut room = Vec::new();
     let mut rays = RayCofactors::<N>::default();
     let mut taken: Vec<Taken> = Vec::new();
@@ -119,7 +107,7 @@ fn compute<const N: usize>(
         let rows = linearisation.point(point, &mut room, &mut behind)?;
         if network_point.kept {
             let q = kept_point(&mut result, &blocks, &inverse, alignment.as_ref(), point, rows, full);
-            push_point(&mut result, network, layout, state, point, q, transformation.as_ref(), |at, v| v[at]);
+            push_point(&mut result, &blocks, point, q, |at, v| v[at]);
             continue;
         }
         let l = normal.eliminated.factors[point].l;
@@ -166,7 +154,7 @@ fn compute<const N: usize>(
         if full {
             result.given_influence.own(network, point, |a| q.column(a).into());
         }
-        push_point(&mut result, network, layout, state, point, q, transformation.as_ref(), |_, _| 0.0);
+        push_point(&mut result, &blocks, point, q, |_, _| 0.0);
         if let (Some(t), Some(v)) = (&transformation, at_this_point) {
             let rows = at_point(&state.points[point]);
             let v = SMatrix::<f64, SIMILARITY, 3>::from_fn(|j, a| v[j][a]);
@@ -193,15 +181,11 @@ fn compute<const N: usize>(
     Some(result)
 }
 
-#[allow(clippy::too_many_arguments)] // the block and everything it is transformed with
 fn push_point(
     result: &mut Cofactors,
-    network: &Network,
-    layout: &Layout,
-    state: &State,
+    &Blocks { context: Context { network, layout, state, .. }, transformation }: &Blocks<'_>,
     point: usize,
     q: Matrix3<f64>,
-    transformation: Option<&Transformation>,
     reduced: impl Fn(usize, &[f64]) -> f64,
 ) {
     result.given_points.push([q[(0, 0)], q[(1, 1)], q[(2, 2)]]);
@@ -219,8 +203,7 @@ fn push_point(
 
 /// Cofactor of the photo and interior part of a row.
 fn reduced_square<const N: usize>(
-    network: &Network,
-    layout: &Layout,
+    Context { network, layout, .. }: Context<'_>,
     inverse: &TileMatrix,
     row: &Row<N>,
     side: usize,
@@ -254,7 +237,8 @@ fn kept_point<const N: usize>(
     rows: &[Row<N>],
     full: bool,
 ) -> Matrix3<f64> {
-    let &Blocks { network, layout, transformation, .. } = blocks;
+    let &Blocks { context, transformation } = blocks;
+    let Context { network, layout, .. } = context;
     let place = layout.point[point];
     let own = block(inverse, place, place);
     let mut q = Matrix3::from_fn(|i, j| own.get(i, j));
@@ -285,7 +269,7 @@ fn kept_point<const N: usize>(
                         shift[k] += (0..length).map(|j| interior.get(k, j) * row.interior_rows[side][j]).sum::<f64>();
                     }
                 }
-                let own = reduced_square(network, layout, inverse, row, side);
+                let own = reduced_square(context, inverse, row, side);
                 result.rays[ray][side] = own + 2.0 * a.dot(&shift) - a.dot(&(q * a));
                 shifts[side] = shift.into();
             }
@@ -301,11 +285,8 @@ fn kept_point<const N: usize>(
 /// Blocks of photos and interior orientations, in the datum.
 fn reduced_blocks(
     result: &mut Cofactors,
-    network: &Network,
-    layout: &Layout,
-    state: &State,
+    &Blocks { context: Context { network, layout, state, .. }, transformation }: &Blocks<'_>,
     inverse: &TileMatrix,
-    transformation: Option<&Transformation>,
 ) {
     for (k, block_of_photo) in network.photos.iter().enumerate() {
         let place = layout.photo[k];

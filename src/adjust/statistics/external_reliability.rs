@@ -9,7 +9,7 @@ use crate::adjust::datum::free::{SIMILARITY, at_point};
 use crate::adjust::datum::s_transformation::Transformation;
 use crate::adjust::equations::back_substitution::Own;
 use crate::adjust::equations::collinearity::Row;
-use crate::adjust::equations::ordering::Layout;
+use crate::adjust::equations::context::Context;
 use crate::adjust::linear::blocks::add_rows;
 use crate::adjust::linear::cholesky3::backward3;
 use crate::adjust::linear::kernel::TILE;
@@ -58,7 +58,7 @@ pub struct Alignment<'a, const N: usize> {
 
 impl<'a, const N: usize> Alignment<'a, N> {
     /// Lays out the vectors.
-    pub fn new(t: &Transformation, network: &Network, layout: &Layout, state: &'a State) -> Self {
+    pub fn new(t: &Transformation, Context { network, layout, state, .. }: Context<'a>) -> Self {
         let at = |place: usize| std::array::from_fn(|j| t.v.get(j).map_or(0.0, |v| v[place]));
         let photos = layout.photo.iter().map(|photo| std::array::from_fn(|k| at(photo + k))).collect();
         let interiors = layout.interior.iter().zip(&network.interiors).map(|(place, interior)| {
@@ -112,12 +112,8 @@ fn keep(largest: &mut Largest, length: f64, point: usize) {
 
 /// What a point's blocks of the cofactor matrix are read from.
 pub struct Blocks<'a> {
-    /// The network.
-    pub network: &'a Network,
-    /// Places.
-    pub layout: &'a Layout,
-    /// Present values.
-    pub state: &'a State,
+    /// The network at its present values.
+    pub context: Context<'a>,
     /// The datum, if any.
     pub transformation: Option<&'a Transformation>,
 }
@@ -128,14 +124,14 @@ impl Blocks<'_> {
         if let Some(t) = self.transformation {
             let mut taken = [0.0; SIMILARITY];
             taken.iter_mut().zip(&t.v).for_each(|(taken, v)| *taken = v[place]);
-            align(self.state, point, &taken, &mut shift);
+            align(self.context.state, point, &taken, &mut shift);
         }
-        length(&shift, &self.network.points[point].fixed)
+        length(&shift, &self.context.network.points[point].fixed)
     }
 
     /// Photos and interior orientations that see a point and have given values.
     fn observed(&self, point: usize) -> (Vec<usize>, Vec<usize>) {
-        let network = self.network;
+        let network = self.context.network;
         let (mut photos, mut interiors) = (Vec::new(), Vec::new());
         for ray in &network.rays[network.points[point].rays.clone()] {
             let photo = &network.photos[ray.photo];
@@ -185,14 +181,14 @@ impl Influence {
             let t = at_photo(photo);
             for a in 0..3 {
                 let shift = backward3(l, std::array::from_fn(|m| -t[m][3 + a]));
-                let place = blocks.layout.photo[photo] + 3 + a;
+                let place = blocks.context.layout.photo[photo] + 3 + a;
                 keep(&mut self.photos[photo][a], blocks.in_datum(point, place, shift), point);
             }
         }
         for (own, t) in at_interiors.0.iter().zip(at_interiors.1).filter(|(own, _)| interiors.contains(&own.interior)) {
             for n in 0..own.length {
                 let shift = backward3(l, std::array::from_fn(|m| -t[m][n]));
-                let place = blocks.layout.interior[own.interior] + n;
+                let place = blocks.context.layout.interior[own.interior] + n;
                 keep(&mut self.interiors[own.interior][n], blocks.in_datum(point, place, shift), point);
             }
         }
@@ -201,17 +197,17 @@ impl Influence {
     /// The same for a point kept in the reduced equations.
     pub fn kept(&mut self, blocks: &Blocks<'_>, inverse: &TileMatrix, point: usize) {
         let (photos, interiors) = blocks.observed(point);
-        let place = blocks.layout.point[point];
+        let place = blocks.context.layout.point[point];
         let column = |at: usize| std::array::from_fn(|a| element(inverse, place + a, at));
         for photo in photos {
             for a in 0..3 {
-                let at = blocks.layout.photo[photo] + 3 + a;
+                let at = blocks.context.layout.photo[photo] + 3 + a;
                 keep(&mut self.photos[photo][a], blocks.in_datum(point, at, column(at)), point);
             }
         }
         for interior in interiors {
             for (n, largest) in self.interiors[interior].iter_mut().enumerate() {
-                let at = blocks.layout.interior[interior] + n;
+                let at = blocks.context.layout.interior[interior] + n;
                 keep(largest, blocks.in_datum(point, at, column(at)), point);
             }
         }
@@ -219,9 +215,9 @@ impl Influence {
 
     /// Distances move their ends.
     pub fn distances(&mut self, blocks: &Blocks<'_>, inverse: &TileMatrix) {
-        for bar in &blocks.network.bars {
-            let (_, rows) = distance_row(blocks.network, blocks.state, bar);
-            let places = [blocks.layout.point[bar.from], blocks.layout.point[bar.to]];
+        for bar in &blocks.context.network.bars {
+            let (_, rows) = distance_row(blocks.context.network, blocks.context.state, bar);
+            let places = [blocks.context.layout.point[bar.from], blocks.context.layout.point[bar.to]];
             let at = |k: usize| places[k / 3] + k % 3;
             let mut taken = [0.0; SIMILARITY];
             for (taken, v) in taken.iter_mut().zip(blocks.transformation.iter().flat_map(|t| &t.v)) {
@@ -231,8 +227,8 @@ impl Influence {
             for (end, place) in [bar.from, bar.to].into_iter().zip(places) {
                 let mut shift =
                     std::array::from_fn(|a| (0..6).map(|k| rows[k] * element(inverse, place + a, at(k))).sum());
-                align(blocks.state, end, &taken, &mut shift);
-                keep(&mut largest, length(&shift, &blocks.network.points[end].fixed), end);
+                align(blocks.context.state, end, &taken, &mut shift);
+                keep(&mut largest, length(&shift, &blocks.context.network.points[end].fixed), end);
             }
             self.bars.push(largest);
         }
