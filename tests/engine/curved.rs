@@ -52,7 +52,7 @@ fn saddle(count: usize) -> Targets {
 /// The top and four sides of a box.
 fn cube(count: usize) -> Targets {
     let mut random = Uniform(4);
-    let mut place = |k: usize| {
+    let place = |k: usize| {
         let [a, b] = [random.between(-300.0, 300.0), random.between(-300.0, 300.0)];
         match k % 5 {
             0 => (Vector3::new(a, b, 300.0), Vector3::z()),
@@ -62,7 +62,7 @@ fn cube(count: usize) -> Targets {
             _ => (Vector3::new(a, -300.0, b), -Vector3::y()),
         }
     };
-    (0..count).map(|k| place(k)).collect()
+    (0..count).map(place).collect()
 }
 
 /// Targets in space that face up, more or less.
@@ -98,7 +98,7 @@ fn seen(targets: &Targets, seed: u64) -> Project {
     }
     project.datum.points = Some((0..8).map(|k| format!("r{k}")).collect());
     for k in 0..12 {
-        let (sin, cos) = (0.5236 * f64::from(k)).sin_cos();
+        let (sin, cos) = (std::f64::consts::FRAC_PI_6 * f64::from(k)).sin_cos();
         let elevation = if k % 2 == 0 { 0.5_f64 } else { 1.0 };
         let centre = 1700.0 * Vector3::new(cos * elevation.cos(), sin * elevation.cos(), elevation.sin());
         let z = centre.normalize();
