@@ -1,6 +1,7 @@
 // The page is killed at random moments, as a full memory or a flat battery does it; reopening has everything up to a second before.
 // SIGHTLINE_KILLS is how often: a few in the tests, 200 in `cargo xtask bench field`.
 import assert from 'node:assert/strict';
+import { existsSync } from 'node:fs';
 import { test } from 'node:test';
 
 import { killRenderers, open } from './browser.mjs';
@@ -52,7 +53,7 @@ const WORK = {
   },
 };
 
-test(`killed ${KILLS} times, a project is there again each time`, { timeout: 120_000 + KILLS * 30_000 }, async () => {
+test(`killed ${KILLS} times, a project is there again each time`, { timeout: 120_000 + KILLS * 30_000, skip: !existsSync('/proc') && 'the processes of a browser are found in /proc' }, async () => {
   const { page: first, context, url, profile, close } = await open({ width: 1366, height: 768 });
   try {
     let page = first;
