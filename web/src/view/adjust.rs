@@ -261,7 +261,8 @@ fn FromWhat() -> impl IntoView {
         <label class="tick" title=text::components_why>
             <input type="checkbox" name="variance-components" prop:checked=move || desk.document.with(|d| d.options.variance_components.is_some())
                 on:change=move |e| {
-                    let wanted = event::checked(&e).then(|| VarianceComponents { per_camera: false, unmodelled: false });
+                    let all = VarianceComponents { per_camera: false, unmodelled: false };
+                    let wanted = event::checked(&e).then_some(all);
                     desk.set_options(|options| options.variance_components = wanted);
                 }/>
             <span>{text::components}</span>
