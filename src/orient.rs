@@ -10,12 +10,17 @@
 //! same result, bit by bit.
 
 mod absolute;
+mod ambiguity;
+mod aside;
 mod block;
 mod growth;
+mod models;
+mod neighbour;
 mod note;
 mod principal_distance;
 mod refine;
 mod seed;
+mod trial;
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -23,10 +28,11 @@ use serde::{Deserialize, Serialize};
 pub use note::{DistanceSource, Note, PhotoReason, PointReason, ScaleSource, SystemSource};
 
 use absolute::Frame;
+use aside::set_aside;
 use block::{Block, longer_side, principal_distance_px, set_principal_distance_px};
 use growth::grow;
-use refine::{Freedom, refine};
-use seed::Outcome;
+use models::Models;
+use refine::{Freedom, distance_sigmas_px, refine};
 
 use crate::error::{Error, Lack, Result};
 use crate::initial::robust::quantile;
@@ -42,10 +48,7 @@ pub struct Oriented {
     pub notes: Vec<Note>,
 }
 
-/// Principal distances tried, as multiples of the assumed one, when the first leaves large residuals.
-const OTHER_DISTANCES: [f64; 4] = [1.6, 0.65, 2.8, 0.45];
-/// Noise, over the longer side of the photo and over the a priori sigma, at which a network is believed.
-const FINE_SHARE: f64 = 3e-4;
+/// Noise over the a priori sigma at which a network is believed.
 const FINE_SIGMAS: f64 = 3.0;
 
 /// Fills in every initial value that can be found.
@@ -62,16 +65,17 @@ pub fn orient(project: &Project) -> Result<Oriented> {
         }
     }
     let sources = give_principal_distances(&mut start);
-    let mut block = from_known(&start);
-    let mut frame = (block.oriented() > 0).then_some(if block.anchored { Frame::Known } else { Frame::GivenPhotos });
+    let mut models = Models::new(from_known(&start));
+    models.build(&sources, fine_px(project));
+    let Models { mut block, frame, mut apart } = models;
+    let mut frame = frame;
     let mut scaled = true;
-    if block.oriented() < wanted(&block)
-        && let Some(mut model) = from_images(&block, &sources, fine_px(project))
-    {
-        if absolute::to_known(&mut model) {
-            block = if block.oriented() > 0 { absolute::merged(block, model) } else { model };
-            frame = Some(Frame::Known);
-        } else if !absolute::join(&mut block, &model) && model.oriented() > block.oriented() {
+    if frame == Some(Frame::Own) {
+        (frame, scaled) = absolute::to_own(&mut block, project, &start);
+    } else if frame == Some(Frame::GivenPhotos) {
+        let larger = (0..apart.len()).find(|&k| apart[k].oriented() > block.oriented());
+        if let Some(k) = larger {
+            let mut model = apart.remove(k);
             (frame, scaled) = absolute::to_own(&mut model, project, &block);
             block = model;
         }
@@ -85,12 +89,22 @@ pub fn orient(project: &Project) -> Result<Oriented> {
     refine(&mut block, Freedom::Everything);
     block.intersect_new(0.0);
     block.review();
+    verify(&mut block);
+    trial::settle(&mut block, |block| {
+        let mut trial = filled(project, block);
+        set_aside(&mut trial, block);
+        trial
+    });
+    let sigmas = distance_sigmas_px(&block);
     let mut notes = note::of_frame(&block, frame, scaled);
-    notes.extend(note::of_cameras(project, &block, &sources));
-    notes.extend(note::of_photos(project, &block));
+    notes.extend(note::of_cameras(project, &block, &sources, &sigmas));
+    notes.extend(note::of_groups(project, &block, &apart));
+    notes.extend(note::of_photos(project, &block, &apart));
+    notes.extend(ambiguity::notes(project, &block));
     notes.extend(note::of_points(project, &block));
     notes.extend(note::of_observations(project, &block));
     let mut project = filled(project, &block);
+    set_aside(&mut project, &block);
     if frame == Some(Frame::Own) {
         // Directions given in another system mean nothing in this one.
         project.points.iter_mut().for_each(|point| point.normal = None);
@@ -98,15 +112,29 @@ pub fn orient(project: &Project) -> Result<Oriented> {
     Ok(Oriented { project, notes })
 }
 
-/// Photos with measurements.
-fn wanted(block: &Block) -> usize {
-    block.views.iter().filter(|v| !v.sights.is_empty()).count()
+/// Takes back poses that too few of their photo's measurements agree with after all, and tries those photos once more.
+fn verify(block: &mut Block) {
+    let doubtful: Vec<usize> = (0..block.views.len()).filter(|&k| !growth::holds(block, k)).collect();
+    if doubtful.is_empty() {
+        return;
+    }
+    doubtful.iter().for_each(|&k| block.views[k].pose = None);
+    refine(block, Freedom::Everything);
+    grow(block);
+    refine(block, Freedom::Everything);
+    block.intersect_new(0.0);
+    block.review();
+    for k in 0..block.views.len() {
+        if !growth::holds(block, k) {
+            block.views[k].pose = None;
+        }
+    }
+    block.review();
 }
 
 fn fine_px(project: &Project) -> f64 {
     let sigmas: Vec<f64> = project.observations.iter().map(|o| o.sigma.both()[0]).collect();
-    let side = project.cameras.iter().map(longer_side).fold(0.0, f64::max);
-    (FINE_SIGMAS * quantile(&sigmas, 0.5)).max(FINE_SHARE * side)
+    FINE_SIGMAS * quantile(&sigmas, 0.5)
 }
 
 /// Gives every camera a principal distance to work with, and tells where it comes from; none where it was given.
@@ -143,32 +171,6 @@ fn from_known(start: &Block) -> Block {
         grow(&mut block);
     }
     block
-}
-
-/// A model of the photos from image points alone, started among those not oriented yet; where the principal distance
-/// is only assumed, several are tried.
-fn from_images(block: &Block, sources: &[Option<DistanceSource>], fine_px: f64) -> Option<Block> {
-    let assumed: Vec<usize> =
-        (0..sources.len()).filter(|&k| sources[k] == Some(DistanceSource::Assumed) && block.oriented() == 0).collect();
-    let others = if assumed.is_empty() { &[][..] } else { &OTHER_DISTANCES[..] };
-    let mut best: Option<(Outcome, Block)> = None;
-    for factor in std::iter::once(&1.0).chain(others) {
-        let mut trial = block.clone();
-        for &camera in &assumed {
-            let px = principal_distance::ASSUMED * longer_side(&trial.cameras[camera]) * factor;
-            set_principal_distance_px(&mut trial.cameras[camera], px);
-        }
-        trial.refresh_rays();
-        let Some(model) = seed::from_first_pair(&trial, fine_px) else { continue };
-        let outcome = Outcome::of(&model);
-        if best.as_ref().is_none_or(|(other, _)| outcome.better_than(other)) {
-            best = Some((outcome, model));
-        }
-        if outcome.is_final(wanted(block), fine_px) {
-            break;
-        }
-    }
-    best.map(|(_, model)| model)
 }
 
 /// The project with what the block found in the places that were empty.

@@ -44,6 +44,9 @@ pub struct Project {
     /// Datum.
     #[serde(default)]
     pub datum: Datum,
+    /// Observations that the last orientation disabled, with the reason; the next one looks at them anew.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub set_aside: Vec<SetAside>,
 }
 
 fn default_unit() -> String {
@@ -63,6 +66,7 @@ impl Default for Project {
             observations: Vec::new(),
             distances: Vec::new(),
             datum: Datum::default(),
+            set_aside: Vec::new(),
         }
     }
 }
@@ -201,6 +205,31 @@ pub struct Observation {
     /// Number of the photo's target whose centre it is, where it is a target's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target: Option<u32>,
+}
+
+/// An image observation that orientation disabled.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SetAside {
+    /// Identifier of the photo.
+    #[serde(deserialize_with = "identifier")]
+    pub photo: String,
+    /// Identifier of the point.
+    #[serde(deserialize_with = "identifier")]
+    pub point: String,
+    /// Why.
+    pub reason: SetAsideReason,
+}
+
+/// Why an observation was set aside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SetAsideReason {
+    /// It disagrees with the other measurements: a wrong identity, most often.
+    Disagrees,
+    /// Its photo could not be oriented.
+    PhotoNotOriented,
+    /// Its point could not be determined.
+    PointNotDetermined,
 }
 
 /// A measured distance between two points (scale bar).

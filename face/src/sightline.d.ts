@@ -118,6 +118,8 @@ export interface Project {
   observations?: Observation[];
   distances?: Distance[];
   datum?: Datum;
+  /** Observations that the last orientation disabled, with the reason; the next one looks at them anew. */
+  set_aside?: { photo: string; point: string; reason: "disagrees" | "photo_not_oriented" | "point_not_determined" }[];
 }
 
 export interface Iteration {
@@ -538,11 +540,25 @@ export interface Matching {
 /** Something to say about an orientation: an assumption, or what could not be found and why. */
 export type Note =
   | { note: "principal_distance"; camera: string; value: number; source: "known_points" | "assumed" }
+  /** The network determines the principal distance badly; sigma is null where it does not at all. */
+  | { note: "principal_distance_weak"; camera: string; value: number; sigma: number | null }
+  | { note: "principal_distance_changed"; camera: string; value: number; given: number }
+  /** Photos that share too little to be joined; the first group, the largest, is oriented. */
+  | { note: "groups"; groups: string[][] }
+  /** Two orientations fit the photo's known points alike: the one not taken; rms of the one taken and the other. */
+  | {
+      note: "photo_ambiguous";
+      photo: string;
+      position: [number, number, number];
+      rotation: [number, number, number];
+      rms_px: [number, number];
+    }
   | { note: "system"; source: "known_points" | "given_photos" | "own"; scale: "given" | "arbitrary" }
   | ({ note: "photo_not_oriented"; photo: string } & (
       | { why: "no_points" }
       | { why: "too_few_points"; determined: number; needed: number }
       | { why: "disagrees"; determined: number }
+      | { why: "other_group"; group: number }
     ))
   | ({ note: "point_not_determined"; point: string } & (
       | { why: "not_measured" | "rays_disagree" | "coordinates_missing" }

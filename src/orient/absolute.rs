@@ -9,6 +9,9 @@ use crate::initial::similarity::{Similarity, fit_robust};
 use crate::initial::{Pose, Spread};
 use crate::project::{Distance, Project};
 
+/// Tolerances of a measurement within which points of two models agree: both are extrapolated.
+const WIDE: f64 = 20.0;
+
 /// Where the coordinate system comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Frame {
@@ -34,15 +37,70 @@ pub(super) fn to_known(block: &mut Block) -> bool {
     })
 }
 
-/// Joins a model of other photos to the block by the points both have; whether that was possible.
-pub(super) fn join(block: &mut Block, model: &Block) -> bool {
-    let pairs = block.marks.iter().zip(&model.marks).filter_map(|(b, m)| m.xyz.zip(b.xyz));
-    let (source, target): (Vec<_>, Vec<_>) = pairs.unzip();
-    let Ok((fit, _)) = fit_robust(&source, &target, 0) else { return false };
-    let mut model = model.clone();
-    transform(&mut model, &fit.transform);
-    *block = merged(block.clone(), model);
-    true
+/// Points and photos that must agree before two models are one, and the share of those both have.
+const FEWEST_AGREEING: usize = 4;
+const AGREEING: f64 = 0.5;
+
+/// The block with a model of other photos joined to it; none where what both have does not bear that out.
+///
+/// Tried are the similarity over common points and projection centres, and for every photo that both have oriented the
+/// one that keeps its pose and takes the scale from the distances of common points. What decides is how many common
+/// points of the model appear where the block's photos show them, and the other way round.
+pub(super) fn joined(block: &Block, model: &Block) -> Option<Block> {
+    let points: Vec<(usize, Vector3<f64>, Vector3<f64>)> =
+        (0..block.marks.len()).filter_map(|k| Some((k, model.marks[k].xyz?, block.marks[k].xyz?))).collect();
+    let photos: Vec<(Pose, Pose)> =
+        model.views.iter().zip(&block.views).filter_map(|(m, b)| m.pose.zip(b.pose)).collect();
+    let mut tried: Vec<Similarity> = Vec::new();
+    let (mut source, mut target): (Vec<_>, Vec<_>) = points.iter().map(|(_, m, b)| (*m, *b)).unzip();
+    tried.extend(fit_robust(&source, &target, 0).ok().map(|(fit, _)| fit.transform));
+    for (m, b) in &photos {
+        source.push(m.centre);
+        target.push(b.centre);
+    }
+    tried.extend(fit_robust(&source, &target, 1).ok().map(|(fit, _)| fit.transform));
+    for (m, b) in &photos {
+        let others = points.iter().map(|(_, pm, pb)| (pb - b.centre).norm() / (pm - m.centre).norm());
+        let centres = photos.iter().map(|(om, ob)| (ob.centre - b.centre).norm() / (om.centre - m.centre).norm());
+        let ratios: Vec<f64> = others.chain(centres).filter(|r| r.is_finite() && *r > 0.0).collect();
+        if ratios.is_empty() {
+            continue;
+        }
+        let rotation = b.object_to_camera.tr_mul(&m.object_to_camera);
+        let scale = quantile(&ratios, 0.5);
+        tried.push(Similarity { scale, rotation, source_centroid: m.centre, target_centroid: b.centre });
+    }
+    let mut best: Option<(usize, usize, Block)> = None;
+    for similarity in tried {
+        let mut moved = model.clone();
+        transform(&mut moved, &similarity);
+        let (agreeing, compared) = agreement(block, &moved, &points.iter().map(|(k, ..)| *k).collect::<Vec<_>>());
+        if best.as_ref().is_none_or(|(most, ..)| agreeing > *most) {
+            best = Some((agreeing, compared, moved));
+        }
+    }
+    let (agreeing, compared, moved) = best?;
+    let enough = agreeing + photos.len() >= FEWEST_AGREEING && agreeing as f64 >= AGREEING * compared as f64;
+    enough.then(|| merged(block.clone(), moved))
+}
+
+/// Of the common points, those whose place in one model appears where a photo of the other shows it, both ways.
+fn agreement(block: &Block, moved: &Block, common: &[usize]) -> (usize, usize) {
+    let appears = |point: &Vector3<f64>, model: &Block, k: usize| {
+        let sights = model.marks[k].sights.iter().filter(|&&s| model.sights[s].taken);
+        let misfits = sights.filter_map(|&s| {
+            let (pose, ray) = (model.views[model.sights[s].photo].pose?, model.sights[s].ray?);
+            let photo = model.sights[s].photo;
+            Some(pose.misfit(point, ray) * model.pixels_per_unit(photo) / model.tolerance_px(photo))
+        });
+        let lengths: Vec<f64> = misfits.collect();
+        !lengths.is_empty() && quantile(&lengths, 0.5) <= WIDE
+    };
+    let agreeing = common.iter().filter(|&&k| {
+        let (Some(own), Some(other)) = (block.marks[k].xyz, moved.marks[k].xyz) else { return false };
+        appears(&other, block, k) && appears(&own, moved, k)
+    });
+    (agreeing.count(), common.len())
 }
 
 /// The block with what it lacks taken from a model in the same system.

@@ -22,6 +22,8 @@ pub(super) struct Sight {
     pub pixel: [f64; 2],
     /// Ideal coordinates with the camera's present parameters.
     pub ray: Option<[f64; 2]>,
+    /// A priori standard error, pixels.
+    pub sigma_px: f64,
     /// Whether it agrees with the rest, as far as known.
     pub taken: bool,
 }
@@ -63,6 +65,8 @@ pub(super) struct Block {
     pub cameras: Vec<Camera>,
     /// Whether a camera's principal distance may be changed: it is missing, or free and not observed.
     pub adjustable: Vec<bool>,
+    /// Principal distances given for adjustable cameras, pixels: information, though not exact.
+    pub given_px: Vec<Option<f64>>,
     /// Photos in the project's order.
     pub views: Vec<View>,
     /// Points in the project's order.
@@ -77,12 +81,17 @@ pub(super) struct Block {
     pub noise_px: Option<f64>,
 }
 
+/// Tolerances within which a ray is near the point of a pair: two rays place a point less well than all of them.
+const NEAR_A_PAIR: f64 = 4.0;
 /// Disagreement, as a share of the longer side of the photo, that unmodelled distortion and a rough principal distance
 /// may cause.
 const ROUGH: f64 = 4e-3;
 /// Robust standard deviations, and pixels in any case, within which a measurement agrees.
 const AGREEING: f64 = 6.5;
 const SMALLEST_LIMIT_PX: f64 = 0.25;
+/// Robust standard deviations, and pixels in any case, beyond which a measurement is called wrong.
+const WRONG: f64 = 15.0;
+const SMALLEST_WRONG_PX: f64 = 1.5;
 
 /// Principal distance in pixels.
 pub(super) fn principal_distance_px(camera: &Camera) -> Option<f64> {
@@ -171,21 +180,26 @@ impl Block {
                 sights: Vec::new(),
             })
             .collect();
+        let aside = super::aside::of(project);
         let mut sights: Vec<Sight> = Vec::new();
         for observation in &project.observations {
             let ids = photos.get(observation.photo.as_str()).zip(points.get(observation.point.as_str()));
-            let Some((&photo, &point)) =
-                ids.filter(|(photo, _)| observation.enabled && project.photos[**photo].enabled)
-            else {
+            // What an earlier orientation set aside is looked at anew.
+            let offered = super::aside::is_offered(&aside, observation);
+            let Some((&photo, &point)) = ids.filter(|(photo, _)| offered && project.photos[**photo].enabled) else {
                 continue;
             };
             views[photo].sights.push(sights.len());
             marks[point].sights.push(sights.len());
-            sights.push(Sight { photo, point, pixel: [observation.u, observation.v], ray: None, taken: true });
+            let [su, sv] = observation.sigma.both();
+            let sigma_px = (0.5 * (su * su + sv * sv)).sqrt();
+            let pixel = [observation.u, observation.v];
+            sights.push(Sight { photo, point, pixel, ray: None, sigma_px, taken: true });
         }
         let mut block = Self {
             cameras: project.cameras.clone(),
             adjustable: project.cameras.iter().map(adjustable).collect(),
+            given_px: project.cameras.iter().map(|c| principal_distance_px(c).filter(|_| adjustable(c))).collect(),
             views,
             marks,
             sights,
@@ -228,6 +242,17 @@ impl Block {
         self.views.iter().filter(|v| v.pose.is_some() && !v.sights.is_empty()).count()
     }
 
+    /// Measurements that agree with a pose and a point.
+    pub fn agreeing(&self) -> usize {
+        (0..self.sights.len()).filter(|&s| self.sights[s].taken && self.misfit_px(s).is_some()).count()
+    }
+
+    /// Measurements of points that are measured twice or known.
+    pub fn offered(&self) -> usize {
+        let useful = self.marks.iter().filter(|m| m.sights.len() > 1 || m.known.is_some());
+        useful.map(|m| m.sights.len()).sum()
+    }
+
     /// Takes the given coordinates as the points' own and is in their system from now on.
     pub fn anchor(&mut self) {
         self.anchored = true;
@@ -249,6 +274,15 @@ impl Block {
         (sights, object, image)
     }
 
+    /// Measurements of the points that both photos show.
+    pub fn common(&self, first: usize, second: usize) -> Vec<(usize, usize)> {
+        let measured = |s: &&usize| self.sights[**s].ray.is_some();
+        let mut of_point: BTreeMap<usize, usize> = BTreeMap::new();
+        of_point.extend(self.views[second].sights.iter().filter(measured).map(|&s| (self.sights[s].point, s)));
+        let firsts = self.views[first].sights.iter().filter(measured);
+        firsts.filter_map(|&a| of_point.get(&self.sights[a].point).map(|&b| (a, b))).collect()
+    }
+
     /// Residual of a measurement in pixels; none while its photo or point is not determined, infinite behind the
     /// camera.
     pub fn misfit_px(&self, sight: usize) -> Option<f64> {
@@ -263,7 +297,7 @@ impl Block {
         let mut rays = Vec::new();
         for &s in &self.marks[point].sights {
             let sight = &self.sights[s];
-            if let (true, Some(pose), Some(image)) = (sight.taken, self.views[sight.photo].pose, sight.ray) {
+            if let (Some(pose), Some(image)) = (self.views[sight.photo].pose, sight.ray) {
                 which.push(s);
                 rays.push(Ray { pose, image, weight: self.pixels_per_unit(sight.photo).powi(2) });
             }
@@ -271,37 +305,72 @@ impl Block {
         (which, rays)
     }
 
-    /// The intersection of a point's rays, without the worst rays as long as there are three and they disagree.
-    /// Returns the measurements left out, too.
+    /// The intersection of the largest set of a point's rays that meet, and the measurements that do not take part.
+    ///
+    /// Where not all rays meet, every pair that meets collects the rays that pass near its point. Two rays are enough of
+    /// a set only where there are two, or where one pair alone of three meets.
+    ///
+    /// # Errors
+    /// As [`intersect`]; [`Degeneracy::NoSolution`] where no set of rays stands out.
     pub fn intersection(&self, point: usize) -> Result<(Intersection, Vec<usize>), Degeneracy> {
-        let (mut which, mut rays) = self.rays(point);
-        let mut left_out = Vec::new();
-        loop {
-            let found = intersect(&rays);
-            let worst = match &found {
-                Ok(intersection) => {
-                    let excess = |k: usize| {
-                        let [x, y] = intersection.residuals[k];
-                        let photo = self.sights[which[k]].photo;
-                        x.hypot(y) * self.pixels_per_unit(photo) / self.tolerance_px(photo)
-                    };
-                    let Some(worst) = (0..rays.len()).max_by(|&a, &b| excess(a).total_cmp(&excess(b))) else {
-                        return found.map(|i| (i, left_out));
-                    };
-                    if excess(worst) <= 1.0 {
-                        return found.map(|i| (i, left_out));
-                    }
-                    worst
-                }
-                Err(Degeneracy::BehindCamera { ray }) => *ray,
-                Err(reason) => return Err(*reason),
-            };
-            if rays.len() < 3 {
-                return Err(found.err().unwrap_or(Degeneracy::NoSolution));
-            }
-            rays.remove(worst);
-            left_out.push(which.remove(worst));
+        let (which, rays) = self.rays(point);
+        let tolerance: Vec<f64> = which.iter().map(|&s| self.tolerance_px(self.sights[s].photo)).collect();
+        let chosen = |set: &[usize]| intersect(&set.iter().map(|&k| rays[k]).collect::<Vec<_>>());
+        let excess = |found: &Vector3<f64>, k: usize| {
+            rays[k].pose.misfit(found, rays[k].image) * rays[k].weight.sqrt() / tolerance[k]
+        };
+        let everything: Vec<usize> = (0..rays.len()).collect();
+        let all = chosen(&everything);
+        if let Ok(found) = &all
+            && everything.iter().all(|&k| excess(&found.point, k) <= 1.0)
+        {
+            return Ok((all?, Vec::new()));
         }
+        if rays.len() < 3 {
+            return Err(all.err().unwrap_or(Degeneracy::NoSolution));
+        }
+        let mut best: Option<(usize, f64, Intersection, Vec<usize>)> = None;
+        let mut distinct = 0;
+        for [a, b] in pairs_of(rays.len()) {
+            let Ok(seed) = chosen(&[a, b]) else { continue };
+            if excess(&seed.point, a).max(excess(&seed.point, b)) > 1.0 {
+                continue;
+            }
+            let mut set: Vec<usize> =
+                everything.iter().copied().filter(|&k| excess(&seed.point, k) <= NEAR_A_PAIR).collect();
+            let mut settled = None;
+            while set.len() >= 2 {
+                let Ok(found) = chosen(&set) else { break };
+                let worst = (0..set.len())
+                    .max_by(|&i, &j| excess(&found.point, set[i]).total_cmp(&excess(&found.point, set[j])));
+                match worst.filter(|&k| excess(&found.point, set[k]) > 1.0) {
+                    Some(k) => drop(set.remove(k)),
+                    None => {
+                        settled = Some(found);
+                        break;
+                    }
+                }
+            }
+            let Some(found) = settled else { continue };
+            let rms = set.iter().map(|&k| excess(&found.point, k).powi(2)).sum::<f64>() / set.len() as f64;
+            let better = best.as_ref().is_none_or(|(n, least, ..)| set.len() > *n || set.len() == *n && rms < *least);
+            let same = best.as_ref().is_some_and(|(.., other)| *other == set);
+            let as_large = best.as_ref().is_some_and(|(n, ..)| set.len() == *n);
+            if better && !as_large {
+                distinct = 1;
+            } else if as_large && !same {
+                distinct += 1;
+            }
+            if better {
+                best = Some((set.len(), rms, found, set));
+            }
+        }
+        let Some((size, _, found, set)) = best else { return Err(all.err().unwrap_or(Degeneracy::NoSolution)) };
+        if size == 2 && (rays.len() > 3 || distinct > 1) {
+            return Err(Degeneracy::NoSolution);
+        }
+        let out = everything.iter().filter(|k| !set.contains(k)).map(|&k| which[k]).collect();
+        Ok((found, out))
     }
 
     /// Intersects every point that has no coordinates yet; `smallest` is the least angle between rays to accept.
@@ -310,31 +379,92 @@ impl Block {
             if self.marks[point].xyz.is_some() || self.marks[point].sights.len() < 2 {
                 continue;
             }
-            if let Ok((found, _)) = self.intersection(point)
+            if let Ok((found, out)) = self.intersection(point)
                 && found.angle >= smallest
             {
                 self.marks[point].xyz = Some(found.point);
+                // One of them, a thousand pixels off, would carry the next adjustment away.
+                out.into_iter().for_each(|sight| self.sights[sight].taken = false);
             }
         }
     }
 
     /// Compares every measurement with the present poses and points: keeps the noise, and takes those measurements
-    /// that agree within [`AGREEING`] robust standard deviations.
+    /// that agree within [`AGREEING`] robust standard deviations. A point that some of its rays disagree with is
+    /// intersected anew from the largest set of rays that meet, since it may be the point that is wrong.
     pub fn review(&mut self) {
-        let misfits: Vec<Option<f64>> = (0..self.sights.len()).map(|s| self.misfit_px(s)).collect();
-        let lengths: Vec<f64> = misfits.iter().flatten().copied().collect();
+        let lengths: Vec<f64> = (0..self.sights.len()).filter_map(|s| self.misfit_px(s)).collect();
         if lengths.is_empty() {
             return;
         }
-        let noise = scale(&lengths, 0);
-        self.noise_px = Some(noise);
-        // Wide, because what a rough model leaves is systematic: it is the wrong names, tens of pixels off, that have
-        // to stay out.
-        let limit = (AGREEING * noise).max(SMALLEST_LIMIT_PX);
-        for (sight, misfit) in self.sights.iter_mut().zip(misfits) {
-            if let Some(misfit) = misfit {
-                sight.taken = misfit <= limit;
+        let noise = scale(&lengths, 0) * self.shrinkage();
+        let mut sigmas: Vec<f64> = self.sights.iter().map(|s| s.sigma_px).collect();
+        let middle = sigmas.len() / 2;
+        let a_priori = *sigmas.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let side = self.cameras.iter().map(longer_side).fold(0.0, f64::max);
+        // Residuals of few rays a point are small by themselves: the measurements are not better than stated.
+        self.noise_px = Some(noise.max(a_priori.min(0.1 * ROUGH * side)));
+        for point in 0..self.marks.len() {
+            let held = self.anchored && self.marks[point].known.is_some();
+            let agreeing = |block: &Self| {
+                let sights = block.marks[point].sights.iter();
+                sights.filter(|&&s| block.misfit_px(s).is_some_and(|misfit| misfit <= block.limit_px(s))).count()
+            };
+            let compared = self.marks[point].sights.iter().filter(|&&s| self.misfit_px(s).is_some()).count();
+            let before = agreeing(self);
+            if held || before == compared {
+                continue;
+            }
+            let old = self.marks[point].xyz;
+            self.marks[point].xyz = self.intersection(point).ok().map(|(found, _)| found.point);
+            if before >= 2 && agreeing(self) <= before {
+                self.marks[point].xyz = old;
+            }
+        }
+        for s in 0..self.sights.len() {
+            if let Some(misfit) = self.misfit_px(s) {
+                self.sights[s].taken = misfit <= self.limit_px(s);
             }
         }
     }
+
+    /// Largest misfit of a measurement that agrees. Wide, because what a rough model leaves is systematic: it is the
+    /// wrong names, tens of pixels off, that have to stay out.
+    pub fn limit_px(&self, sight: usize) -> f64 {
+        let own = self.sights[sight].sigma_px.min(ROUGH * longer_side(&self.cameras[0]));
+        (AGREEING * self.noise_px.unwrap_or(own).max(own)).max(SMALLEST_LIMIT_PX)
+    }
+
+    /// Whether a measurement is called wrong: it is far from its point, or its point's other rays leave no place to
+    /// compare it with. Tails of real measurements, which an adjustment's own tests judge, are not.
+    pub fn is_wrong(&self, sight: usize) -> bool {
+        let noise = self.noise_px.unwrap_or(0.0).max(self.sights[sight].sigma_px);
+        let limit = (WRONG * noise).max(SMALLEST_WRONG_PX);
+        !self.sights[sight].taken && self.misfit_px(sight).is_some_and(|misfit| misfit > limit)
+    }
+
+    /// What residuals have to be multiplied with, since the parameters take their share: √(n/(n - u)), up to 3.
+    fn shrinkage(&self) -> f64 {
+        let mut count = 0;
+        let mut points = 0;
+        for mark in self.marks.iter().filter(|m| m.xyz.is_some()) {
+            let rays = mark.sights.iter().filter(|&&s| self.views[self.sights[s].photo].pose.is_some()).count();
+            if rays >= 2 {
+                count += 2 * rays;
+                points += usize::from(!(self.anchored && mark.control));
+            }
+        }
+        let unknowns = 6 * self.views.iter().filter(|v| v.pose.is_some() && !v.given).count() + 3 * points;
+        let spare = count.saturating_sub(unknowns).max(1);
+        (count as f64 / spare as f64).sqrt().clamp(1.0, 3.0)
+    }
+}
+
+/// Pairs of `count` rays: all of few, the ones with every later distance in the list for many.
+fn pairs_of(count: usize) -> Vec<[usize; 2]> {
+    if count <= 8 {
+        return (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b])).collect();
+    }
+    let half = count / 2;
+    (0..count).flat_map(|a| [[a, (a + half) % count], [a, (a + half / 2 + 1) % count]]).collect()
 }

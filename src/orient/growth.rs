@@ -1,14 +1,20 @@
-//! Photo by photo: intersect what two oriented photos see, resect the photo that sees most of it, refine, repeat.
+//! Photo by photo: intersect what two oriented photos see, orient the photo that sees most of it, refine, repeat.
 
 use super::block::Block;
+use super::neighbour;
 use super::refine::{Freedom, refine};
 use crate::initial::resection::robust_resection;
 
 /// Rays that meet at 2° or more make points to resect from; smaller angles come last.
 const GOOD_ANGLE: f64 = 0.035;
-/// Fewest points a photo is oriented from, and the share of them that must agree.
+/// Fewest points a photo is oriented from.
 pub(super) const FEWEST: usize = 4;
-const AGREEING: f64 = 0.6;
+/// Poses by chance that are accepted, on average, in place of a photo's own.
+const CHANCE: f64 = 0.05;
+/// Poses a resection compares, at most.
+const POSES: f64 = 400.0;
+/// Share of a photo's determined points that has to agree with its pose; below it another pose may do as well.
+const AGREEING: f64 = 0.4;
 
 /// Photos up to which the model is refined after each one; from then on after a third more.
 const CAREFUL: usize = 6;
@@ -20,17 +26,34 @@ pub(super) fn grow(block: &mut Block) {
     let mut refined_at = block.oriented();
     block.intersect_new(GOOD_ANGLE);
     loop {
-        let Some(photo) = next_photo(block, &tried) else {
-            // The last resort before giving up: points from narrow rays.
-            let before = block.marks.iter().filter(|m| m.xyz.is_some()).count();
-            block.intersect_new(0.0);
-            if block.marks.iter().filter(|m| m.xyz.is_some()).count() == before {
-                break;
+        let oriented = match next_photo(block, &tried) {
+            Some(photo) => {
+                let oriented = resect(block, photo);
+                if !oriented {
+                    tried[photo] = block.determined(photo).0.len();
+                }
+                oriented
             }
-            continue;
+            None => {
+                if block.oriented() > refined_at {
+                    refine(block, Freedom::Distance);
+                    refined_at = block.oriented();
+                    tried.fill(0);
+                    continue;
+                }
+                // The last resorts before giving up: relative orientation to neighbours, points from narrow rays.
+                if !neighbour::orient_one(block) {
+                    let before = block.marks.iter().filter(|m| m.xyz.is_some()).count();
+                    block.intersect_new(0.0);
+                    if block.marks.iter().filter(|m| m.xyz.is_some()).count() == before {
+                        break;
+                    }
+                    continue;
+                }
+                true
+            }
         };
-        if !resect(block, photo) {
-            tried[photo] = block.determined(photo).0.len();
+        if !oriented {
             continue;
         }
         block.intersect_new(GOOD_ANGLE);
@@ -54,7 +77,7 @@ fn next_photo(block: &Block, tried: &[usize]) -> Option<usize> {
     enough.max_by_key(|&(count, k)| (count, std::cmp::Reverse(k))).map(|(_, k)| k)
 }
 
-/// Orients one photo from the points determined so far; whether most of them agree.
+/// Orients one photo from the points determined so far; whether there is evidence for its pose.
 pub(super) fn resect(block: &mut Block, photo: usize) -> bool {
     let (sights, object, image) = block.determined(photo);
     let units = block.pixels_per_unit(photo);
@@ -63,7 +86,7 @@ pub(super) fn resect(block: &mut Block, photo: usize) -> bool {
     let agreeing = found.inliers.iter().filter(|taken| **taken).count();
     // A pose that fits by a wide scatter only is no pose: ten times what is tolerated of a single point.
     let spread = (found.squares() / agreeing.max(1) as f64).sqrt();
-    if agreeing < FEWEST || (agreeing as f64) < AGREEING * object.len() as f64 || spread > 10.0 * tolerance {
+    if spread > 10.0 * tolerance || !evident(block, photo, agreeing, object.len(), spread * units) {
         return false;
     }
     block.views[photo].pose = Some(found.pose);
@@ -71,4 +94,34 @@ pub(super) fn resect(block: &mut Block, photo: usize) -> bool {
         block.sights[sight].taken = taken;
     }
     true
+}
+
+/// Whether so many of a photo's points would hardly agree with a pose by chance: with the share p of the photo within
+/// twice the scatter, poses·C(n - 3, k - 3)·p^(k - 3) wrong poses fit k of n points.
+pub(super) fn evident(block: &Block, photo: usize, agreeing: usize, of: usize, scatter_px: f64) -> bool {
+    if agreeing < FEWEST || (agreeing as f64) < AGREEING * of as f64 {
+        return false;
+    }
+    let camera = &block.cameras[block.views[photo].camera];
+    let radius = (2.0 * scatter_px).max(1.0);
+    let share =
+        (std::f64::consts::PI * radius * radius / (f64::from(camera.width) * f64::from(camera.height))).min(1.0);
+    let mut expected = POSES;
+    for k in 0..agreeing - 3 {
+        expected *= share * (of - 3 - k) as f64 / (k + 1) as f64;
+    }
+    expected < CHANCE
+}
+
+/// Whether a photo's measurements bear its pose out; given poses are not asked.
+pub(super) fn holds(block: &Block, photo: usize) -> bool {
+    let view = &block.views[photo];
+    if view.pose.is_none() || view.given {
+        return true;
+    }
+    let compared: Vec<usize> = view.sights.iter().copied().filter(|&s| block.misfit_px(s).is_some()).collect();
+    let agreeing = compared.iter().filter(|&&s| block.sights[s].taken).count();
+    // Points that lost their coordinates because the photo disagreed speak against it, too.
+    let asked = view.sights.iter().filter(|&&s| block.rays(block.sights[s].point).0.len() > 1).count();
+    agreeing >= FEWEST && 2 * agreeing >= asked
 }

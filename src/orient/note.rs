@@ -57,6 +57,11 @@ pub enum PhotoReason {
         /// Points that were tried.
         determined: usize,
     },
+    /// It belongs to a group of photos that shares too little with the others.
+    OtherGroup {
+        /// The group's number, from 2; the oriented photos are the first.
+        group: usize,
+    },
 }
 
 /// Why a point has no coordinates.
@@ -104,6 +109,40 @@ pub enum Note {
         /// Where it comes from.
         source: DistanceSource,
     },
+    /// The network determines a camera's principal distance badly.
+    PrincipalDistanceWeak {
+        /// The camera.
+        camera: String,
+        /// The value, in the camera's units.
+        value: f64,
+        /// Its standard error; null where the network does not determine it.
+        sigma: Option<f64>,
+    },
+    /// A principal distance is far from the one that was given.
+    PrincipalDistanceChanged {
+        /// The camera.
+        camera: String,
+        /// The value, in the camera's units.
+        value: f64,
+        /// The one given.
+        given: f64,
+    },
+    /// The photos fall into groups that share too little to be joined; the first, the largest, is oriented.
+    Groups {
+        /// The photos of each group.
+        groups: Vec<Vec<String>>,
+    },
+    /// Two orientations of a photo fit its known points alike.
+    PhotoAmbiguous {
+        /// The photo.
+        photo: String,
+        /// Projection centre of the one not taken.
+        position: [f64; 3],
+        /// Omega, phi, kappa of the one not taken, radians.
+        rotation: [f64; 3],
+        /// Root mean square residual of the one taken and the other, pixels.
+        rms_px: [f64; 2],
+    },
     /// The system of the result.
     System {
         /// Where it comes from.
@@ -149,25 +188,63 @@ pub(super) fn of_frame(block: &Block, frame: Option<Frame>, scaled: bool) -> Vec
     vec![Note::System { source, scale: if scaled { ScaleSource::Given } else { ScaleSource::Arbitrary } }]
 }
 
-pub(super) fn of_cameras(project: &Project, block: &Block, sources: &[Option<DistanceSource>]) -> Vec<Note> {
-    let given = project.cameras.iter().zip(&block.cameras).zip(sources);
-    given
-        .filter_map(|((camera, found), source)| {
-            let units =
-                if matches!(camera.interior, crate::project::Interior::Brown { .. }) { camera.pitch()[0] } else { 1.0 };
-            let value = principal_distance_px(found)? * units;
-            source.map(|source| Note::PrincipalDistance { camera: camera.id.clone(), value, source })
-        })
-        .collect()
+/// Relative standard error beyond which a principal distance is called badly determined, and change of a given one
+/// that is worth saying.
+const WEAK: f64 = 0.025;
+const CHANGED: f64 = 0.08;
+
+pub(super) fn of_cameras(
+    project: &Project,
+    block: &Block,
+    sources: &[Option<DistanceSource>],
+    sigmas_px: &[Option<f64>],
+) -> Vec<Note> {
+    let mut notes = Vec::new();
+    for (k, (camera, found)) in project.cameras.iter().zip(&block.cameras).enumerate() {
+        let units =
+            if matches!(camera.interior, crate::project::Interior::Brown { .. }) { camera.pitch()[0] } else { 1.0 };
+        let Some(px) = principal_distance_px(found) else { continue };
+        let (id, value) = (camera.id.clone(), px * units);
+        if let Some(source) = sources[k] {
+            notes.push(Note::PrincipalDistance { camera: id.clone(), value, source });
+        }
+        if let Some(given) = block.given_px[k].filter(|given| (px / given - 1.0).abs() > CHANGED) {
+            notes.push(Note::PrincipalDistanceChanged { camera: id.clone(), value, given: given * units });
+        }
+        let weak = sigmas_px[k].filter(|sigma| block.oriented() > 0 && *sigma > WEAK * px);
+        if let Some(sigma) = weak {
+            let sigma = Some(sigma * units).filter(|s| s.is_finite());
+            notes.push(Note::PrincipalDistanceWeak { camera: id, value, sigma });
+        }
+    }
+    notes
 }
 
-pub(super) fn of_photos(project: &Project, block: &Block) -> Vec<Note> {
+/// Photos of the models that could not be joined, each in the largest model that holds it.
+pub(super) fn group_of(block: &Block, apart: &[Block], photo: usize) -> Option<usize> {
+    let outside = block.views[photo].pose.is_none();
+    apart.iter().position(|model| outside && model.views[photo].pose.is_some()).map(|k| k + 2)
+}
+
+pub(super) fn of_groups(project: &Project, block: &Block, apart: &[Block]) -> Vec<Note> {
+    let id = |k: usize| project.photos[k].id.clone();
+    let all = 0..block.views.len();
+    let main: Vec<String> = all.clone().filter(|&k| block.views[k].pose.is_some()).map(id).collect();
+    let others = (0..apart.len())
+        .map(|n| all.clone().filter(|&k| group_of(block, apart, k) == Some(n + 2)).map(id).collect::<Vec<_>>());
+    let groups: Vec<Vec<String>> = std::iter::once(main).chain(others).filter(|g| !g.is_empty()).collect();
+    if groups.len() > 1 { vec![Note::Groups { groups }] } else { Vec::new() }
+}
+
+pub(super) fn of_photos(project: &Project, block: &Block, apart: &[Block]) -> Vec<Note> {
     let missing = project.photos.iter().enumerate().filter(|(k, p)| p.enabled && block.views[*k].pose.is_none());
     missing
         .map(|(k, photo)| {
             let determined = block.determined(k).0.len();
             let reason = if block.views[k].sights.is_empty() {
                 PhotoReason::NoPoints
+            } else if let Some(group) = group_of(block, apart, k) {
+                PhotoReason::OtherGroup { group }
             } else if determined < super::growth::FEWEST {
                 PhotoReason::TooFewPoints { determined, needed: super::growth::FEWEST }
             } else {
@@ -213,7 +290,7 @@ pub(super) fn of_points(project: &Project, block: &Block) -> Vec<Note> {
 }
 
 pub(super) fn of_observations(project: &Project, block: &Block) -> Vec<Note> {
-    let standing_out = (0..block.sights.len()).filter(|&s| !block.sights[s].taken);
+    let standing_out = (0..block.sights.len()).filter(|&s| block.is_wrong(s));
     standing_out
         .filter_map(|s| {
             let distance_px = block.misfit_px(s)?;

@@ -4,10 +4,13 @@ use std::collections::BTreeMap;
 
 use super::block::{Block, principal_distance_px};
 use crate::adjust::{adjust, apply};
-use crate::adjustment::{AdjustOptions, ResidualPlace, StatisticsChoice, Termination};
+use crate::adjustment::{AdjustOptions, Adjustment, ResidualPlace, StatisticsChoice, Termination};
 use crate::initial::Pose;
 use crate::project::{Camera, Datum, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
 use crate::rotation;
+
+/// Largest factor a principal distance may be off from a given one.
+const FARTHEST_FROM_GIVEN: f64 = 1.55;
 
 /// What of the cameras is estimated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,6 +56,34 @@ pub(super) fn refine(block: &mut Block, freedom: Freedom) {
     block.review();
 }
 
+/// Standard errors of the principal distances in pixels as the network alone determines them, per camera; infinite where
+/// it does not, none where a camera's is not estimated.
+pub(super) fn distance_sigmas_px(block: &Block) -> Vec<Option<f64>> {
+    let mut sigmas = vec![None; block.cameras.len()];
+    let Some(mut part) = part(block, Freedom::Everything) else { return sigmas };
+    // However weak the network: that is what is asked.
+    for camera in &mut part.cameras {
+        if let Some(k) = block.cameras.iter().position(|c| c.id == camera.id) {
+            *camera = freed(block, k, Freedom::Everything);
+        }
+    }
+    let distances = [Parameter::C, Parameter::F, Parameter::Fx, Parameter::Fy];
+    let options = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
+    let adjustment = adjust(&part, &options, &mut |_| true);
+    for camera in &part.cameras {
+        let Some(k) = block.cameras.iter().position(|c| c.id == camera.id) else { continue };
+        let Some(parameter) = distances.into_iter().find(|p| camera.free.contains(p)) else { continue };
+        let unit = if parameter == Parameter::C { camera.pitch()[0] } else { 1.0 };
+        let of = |a: &Adjustment| {
+            let found = a.cameras.iter().find(|c| c.camera.id == camera.id)?;
+            found.sigma.get(&parameter).map(|s| s / unit).filter(|s| s.is_finite())
+        };
+        let converged = adjustment.as_ref().ok().filter(|a| a.termination == Termination::Converged);
+        sigmas[k] = Some(converged.and_then(of).unwrap_or(f64::INFINITY));
+    }
+    sigmas
+}
+
 fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
     let part = part(block, freedom)?;
     let options = AdjustOptions {
@@ -70,7 +101,11 @@ fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
     for camera in adjusted.cameras {
         let place = next.cameras.iter_mut().find(|c| c.id == camera.id)?;
         let ratio = principal_distance_px(&camera)? / principal_distance_px(place)?;
-        if !(ratio < LARGEST_CHANGE && ratio > 1.0 / LARGEST_CHANGE) {
+        let camera_at = block.cameras.iter().position(|c| c.id == camera.id)?;
+        let from_given =
+            block.given_px[camera_at].map_or(Some(1.0), |px| Some(principal_distance_px(&camera)? / px))?;
+        let within = |ratio: f64, most: f64| ratio < most && ratio > 1.0 / most;
+        if !(within(ratio, LARGEST_CHANGE) && within(from_given, FARTHEST_FROM_GIVEN)) {
             return None;
         }
         place.interior = camera.interior;

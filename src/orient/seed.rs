@@ -4,8 +4,9 @@
 //! intersection angles become starts. Every start is grown over all photos, since only the whole network tells a true
 //! start from the mirror solution of a plane or from a wrong principal distance.
 
-use super::block::Block;
+use super::block::{Block, longer_side};
 use super::growth::grow;
+use super::refine::{Freedom, refine};
 use crate::initial::Pose;
 use crate::initial::relative::{Relative, relative_orientation};
 
@@ -22,35 +23,49 @@ struct Start {
     score: f64,
 }
 
-/// How good a grown network is: photos oriented, then the noise that remains in pixels.
+/// How good a grown network is: photos oriented, the noise that remains in pixels, measurements that agree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outcome {
     pub photos: usize,
     pub noise_px: f64,
+    pub agreeing: usize,
+    /// What the agreement tells: with every measurement that agrees, the logarithm of how much narrower the noise is than
+    /// the photo. Few photos that fit to a tenth of a pixel tell more than all of them at twenty.
+    told: f64,
 }
+
+/// Residuals, as a share of the photo, below which smaller ones tell nothing more.
+const FINEST: f64 = 3e-5;
+/// Share of the measurements that agree where nothing is wrong but names.
+const MOSTLY: f64 = 0.7;
 
 impl Outcome {
     pub fn of(block: &Block) -> Self {
-        Self { photos: block.oriented(), noise_px: block.noise_px.unwrap_or(f64::INFINITY) }
+        let (noise_px, agreeing) = (block.noise_px.unwrap_or(f64::INFINITY), block.agreeing());
+        let side = block.cameras.iter().map(longer_side).fold(0.0, f64::max);
+        let narrower = (side / noise_px.max(FINEST * side)).max(1.0).ln();
+        Self { photos: block.oriented(), noise_px, agreeing, told: agreeing as f64 * narrower }
     }
 
     pub fn better_than(&self, other: &Self) -> bool {
-        self.photos > other.photos || self.photos == other.photos && self.noise_px < other.noise_px
+        self.told > other.told
     }
 
     /// Everything that can be is oriented and the residuals are measuring noise: nothing better is to be expected.
-    pub fn is_final(&self, wanted: usize, fine_px: f64) -> bool {
-        self.photos >= wanted && self.noise_px <= fine_px
+    pub fn is_final(&self, wanted: usize, offered: usize, fine_px: f64) -> bool {
+        self.photos >= wanted && self.noise_px <= fine_px && self.agreeing as f64 >= MOSTLY * offered as f64
     }
 }
 
 /// The block grown from its best first pair among photos without pose; none when no pair can be oriented.
 ///
-/// `fine_px` is the noise below which a network that holds all photos is taken without looking further.
-pub(super) fn from_first_pair(block: &Block, fine_px: f64) -> Option<Block> {
+/// `fine_px` is the noise below which a network that holds all photos is taken without looking further; photos in `used`
+/// start no pair.
+pub(super) fn from_first_pair(block: &Block, used: &[bool], fine_px: f64) -> Option<Block> {
     let wanted = block.views.iter().filter(|v| !v.sights.is_empty()).count();
+    let offered = block.offered();
     let mut best: Option<(Outcome, Block)> = None;
-    for start in starts(block).into_iter().take(MOST_STARTS) {
+    for start in starts(block, used).into_iter().take(MOST_STARTS) {
         let mut trial = block.clone();
         // A model of its own: what is oriented already comes in again by growth.
         trial.anchored = false;
@@ -60,35 +75,27 @@ pub(super) fn from_first_pair(block: &Block, fine_px: f64) -> Option<Block> {
         let [first, second] = start.photos;
         trial.views[first].pose = Some(Pose::identity());
         trial.views[second].pose = Some(start.relative.pose);
-        for ((a, b), taken) in common(block, first, second).into_iter().zip(&start.relative.inliers) {
+        for ((a, b), taken) in block.common(first, second).into_iter().zip(&start.relative.inliers) {
             trial.sights[a].taken = *taken;
             trial.sights[b].taken = *taken;
         }
         grow(&mut trial);
+        if trial.noise_px.is_none_or(|noise| noise > fine_px) {
+            refine(&mut trial, Freedom::Everything);
+        }
         let outcome = Outcome::of(&trial);
         if best.as_ref().is_none_or(|(other, _)| outcome.better_than(other)) {
             best = Some((outcome, trial));
         }
-        if outcome.is_final(wanted, fine_px) {
+        if outcome.is_final(wanted, offered, fine_px) {
             break;
         }
     }
     best.map(|(_, block)| block).filter(|block| block.oriented() >= 2)
 }
 
-/// Measurements of the points that both photos show.
-fn common(block: &Block, first: usize, second: usize) -> Vec<(usize, usize)> {
-    let mut of_second: Vec<Option<usize>> = vec![None; block.marks.len()];
-    let measured = |s: usize| block.sights[s].ray.is_some();
-    for &s in block.views[second].sights.iter().filter(|&&s| measured(s)) {
-        of_second[block.sights[s].point] = Some(s);
-    }
-    let firsts = block.views[first].sights.iter().filter(|&&s| measured(s));
-    firsts.filter_map(|&a| of_second[block.sights[a].point].map(|b| (a, b))).collect()
-}
-
-/// Number of common points of every pair of photos without pose, most first.
-fn pairs(block: &Block) -> Vec<(usize, [usize; 2])> {
+/// Number of common points of every pair of unused photos, most first.
+fn pairs(block: &Block, used: &[bool]) -> Vec<(usize, [usize; 2])> {
     let n = block.views.len();
     let mut counts = vec![0usize; n * n];
     for mark in &block.marks {
@@ -99,7 +106,7 @@ fn pairs(block: &Block) -> Vec<(usize, [usize; 2])> {
             }
         }
     }
-    let free = |k: usize| block.views[k].pose.is_none();
+    let free = |k: usize| !used[k];
     let mut pairs: Vec<(usize, [usize; 2])> = Vec::new();
     for a in 0..n {
         for b in a + 1..n {
@@ -112,9 +119,9 @@ fn pairs(block: &Block) -> Vec<(usize, [usize; 2])> {
     pairs
 }
 
-fn starts(block: &Block) -> Vec<Start> {
+fn starts(block: &Block, used: &[bool]) -> Vec<Start> {
     let mut starts: Vec<Start> = Vec::new();
-    let pairs = pairs(block);
+    let pairs = pairs(block, used);
     // Pairs with nearly as many points as the best, spread over the list so that wide bases are among them.
     let most = pairs.first().map_or(0, |p| p.0);
     let rich = pairs.iter().take_while(|p| 10 * p.0 >= 6 * most).count();
@@ -123,7 +130,8 @@ fn starts(block: &Block) -> Vec<Start> {
     for k in spread {
         let (_, photos) = pairs[k];
         let [first, second] = photos;
-        let (a, b): (Vec<_>, Vec<_>) = common(block, first, second)
+        let (a, b): (Vec<_>, Vec<_>) = block
+            .common(first, second)
             .into_iter()
             .filter_map(|(a, b)| Some((block.sights[a].ray?, block.sights[b].ray?)))
             .unzip();

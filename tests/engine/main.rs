@@ -29,6 +29,7 @@ mod reports;
 mod round_trips;
 mod sample;
 mod scenes;
+mod seeded;
 mod sharp;
 mod slips;
 mod targets;

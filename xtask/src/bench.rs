@@ -7,12 +7,13 @@ use crate::{Outcome, build, suites};
 /// A part: its name on the command line and how it runs.
 type Part = (&'static str, fn() -> Outcome);
 
-const PARTS: [Part; 5] = [
+const PARTS: [Part; 6] = [
     ("detect", detect),
     ("border", || script("border")),
     ("growth", || script("growth")),
     ("field", suites::field),
     ("estimation", estimation),
+    ("orient", orient),
 ];
 
 /// `bench [part ...]`.
@@ -45,6 +46,12 @@ fn detect() -> Outcome {
 /// Seeded networks adjusted natively against their truth.
 fn estimation() -> Outcome {
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "estimation"]))
+}
+
+/// Seeded networks and bare dots, natively.
+fn orient() -> Outcome {
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "orient"]))?;
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "orient", "--", "dots"]))
 }
 
 fn script(name: &str) -> Outcome {

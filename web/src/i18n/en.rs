@@ -396,6 +396,21 @@ declare! { desk {
         "Only {determined} of its points are known from other photos or control; it takes {needed}.";
     photo_disagrees(determined):
         "Its {determined} {determined:point|points} do not fit together: look for wrong names, or another camera.";
+    photo_other_group(group):
+        "It belongs to group {group} of photos, which shares too little with the oriented ones.";
+    c_weak(camera, value): "The network hardly determines the principal distance of camera {camera} ({value})";
+    c_weak_body:
+        "Hold it, observe it with a standard error, or add photos that are tilted and rolled against each other.";
+    c_undetermined: "undetermined";
+    c_changed(camera, given, value):
+        "Principal distance of camera {camera}: {given} was given, the photos say {value}";
+    c_changed_body: "Another lens, zoom or picture size, most often; else look for wrong names.";
+    photo_groups(n): "The photos fall into {n} groups that are not tied to each other";
+    photo_groups_body(groups):
+        "Measure common points or add photos between them. Only the first group is oriented: {groups}";
+    photo_ambiguous(photo): "Two orientations of photo {photo} fit its known points alike";
+    photo_ambiguous_body:
+        "The one with the smaller residuals was taken. Measure another point outside the plane of the others.";
     point_not_determined(point): "Point {point} has no coordinates";
     point_not_measured: "It was measured in no photo.";
     point_too_few(photos): "It is measured in {photos} {photos:oriented photo|oriented photos}; it takes two.";

@@ -380,6 +380,16 @@ translate! { Korean desk {
     photo_no_points: "측정된 점이 없습니다. 다른 설정으로 검출하거나 점을 직접 지정하십시오.";
     photo_too_few(determined, needed): "다른 사진이나 기준점으로 알려진 점이 {determined}개뿐입니다. {needed}개가 필요합니다.";
     photo_disagrees(determined): "점 {determined}개가 서로 맞지 않습니다. 틀린 점번호나 다른 카메라가 아닌지 확인하십시오.";
+    photo_other_group(group): "표정된 사진들과 공통점이 부족한 사진 묶음 {group}에 속합니다.";
+    c_weak(camera, value): "망이 카메라 {camera}의 주점거리({value})를 거의 정하지 못합니다";
+    c_weak_body: "고정하거나 표준오차와 함께 관측값으로 주거나, 서로 기울이고 돌려 찍은 사진을 더하십시오.";
+    c_undetermined: "정해지지 않음";
+    c_changed(camera, given, value): "카메라 {camera}의 주점거리: 주어진 값 {given}, 사진에서 구한 값 {value}";
+    c_changed_body: "대개 렌즈, 줌, 사진 크기가 다른 경우입니다. 아니면 틀린 점번호가 있는지 확인하십시오.";
+    photo_groups(n): "사진이 서로 이어지지 않은 {n}개 묶음으로 나뉩니다";
+    photo_groups_body(groups): "공통점을 측정하거나 사이의 사진을 더하십시오. 첫 묶음만 표정되었습니다: {groups}";
+    photo_ambiguous(photo): "사진 {photo}의 알려진 점에 두 가지 표정이 똑같이 맞습니다";
+    photo_ambiguous_body: "잔차가 작은 쪽을 택했습니다. 다른 점들의 평면 밖에 있는 점을 더 측정하십시오.";
     point_not_determined(point): "점 {point}의 좌표를 정하지 못했습니다";
     point_not_measured: "어느 사진에서도 측정되지 않았습니다.";
     point_too_few(photos): "표정된 사진 {photos}매에서만 측정되었습니다. 두 매가 필요합니다.";

@@ -393,6 +393,24 @@ fn note_item(note: &Note) -> Option<Item> {
             evidence: String::new(),
             target: Target::Step(Step::Photos),
         },
+        Note::PrincipalDistanceWeak { camera, value, sigma } => Item {
+            evidence: sigma
+                .map_or_else(|| text::c_undetermined().to_owned(), |sigma| format!("± {}", format::compact(sigma))),
+            ..item(text::c_weak(camera, format::compact(*value)), text::c_weak_body().to_owned(), Target::None)
+        },
+        Note::PrincipalDistanceChanged { camera, value, given } => item(
+            text::c_changed(camera, format::compact(*given), format::compact(*value)),
+            text::c_changed_body().to_owned(),
+            Target::None,
+        ),
+        Note::Groups { groups } => {
+            let lists = groups.iter().map(|group| listed(group.iter().map(String::as_str))).collect::<Vec<_>>();
+            item(text::photo_groups(groups.len()), text::photo_groups_body(lists.join(" | ")), Target::None)
+        }
+        Note::PhotoAmbiguous { photo, rms_px: [taken, other], .. } => Item {
+            evidence: format!("{} / {} px", format::fixed(*taken, 2), format::fixed(*other, 2)),
+            ..item(text::photo_ambiguous(photo), text::photo_ambiguous_body().to_owned(), Target::Photo(photo.clone()))
+        },
         Note::System { source: SystemSource::Own, scale: ScaleSource::Given } => return None,
         Note::System { scale: ScaleSource::Given, .. } => return None,
         Note::System { scale: ScaleSource::Arbitrary, .. } => return None,
@@ -401,6 +419,7 @@ fn note_item(note: &Note) -> Option<Item> {
                 PhotoReason::NoPoints => text::photo_no_points().to_owned(),
                 PhotoReason::TooFewPoints { determined, needed } => text::photo_too_few(determined, needed),
                 PhotoReason::Disagrees { determined } => text::photo_disagrees(determined),
+                PhotoReason::OtherGroup { group } => text::photo_other_group(group),
             };
             item(text::photo_not_oriented(photo), why, Target::Photo(photo.clone()))
         }

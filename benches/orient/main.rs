@@ -1,0 +1,113 @@
+//! Orientation over seeded networks: `cargo bench --bench orient -- [first] [count] [most photos] [-v]`;
+//! `-- dots` for the matching of bare dots.
+
+mod dots;
+mod network;
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use network::{Case, KINDS, judged};
+use sightline::orient::orient;
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    if words.iter().any(|w| w == "dots") {
+        println!("photos dots seconds wanted found share wrong");
+        for (photos, dots, tolerance) in [
+            (3, 600, None),
+            (4, 600, None),
+            (3, 2500, None),
+            (4, 2500, None),
+            (8, 2500, None),
+            (15, 2500, None),
+            (30, 2500, None),
+            (30, 2500, Some(10.0)),
+        ] {
+            let m = dots::matched(1, photos, dots, tolerance);
+            let share = 100.0 * m.found as f64 / m.wanted.max(1) as f64;
+            println!(
+                "{photos:6} {dots:5} {:6.2} {:6} {:5} {share:5.1}% {:4} {tolerance:?}",
+                m.seconds, m.wanted, m.found, m.wrong
+            );
+        }
+        return;
+    }
+    let numbers: Vec<u64> = words.iter().filter_map(|a| a.parse().ok()).collect();
+    let first = numbers.first().copied().unwrap_or(0);
+    let count = numbers.get(1).copied().unwrap_or(1500);
+    let most = numbers.get(2).map_or(60, |n| *n as usize);
+    let wordy = words.iter().any(|w| w == "-v");
+    // Per group: networks, solvable, right, missing photos, silent, silent c, falsely wrong networks (clean only), seconds.
+    let mut groups: BTreeMap<String, [f64; 8]> = BTreeMap::new();
+    for seed in first..first + count {
+        let case = Case::of(seed, most);
+        let network = network::network(&case);
+        let began = Instant::now();
+        let oriented = match orient(&network.given) {
+            Ok(oriented) => oriented,
+            Err(error) => {
+                println!("{seed}: {error}");
+                continue;
+            }
+        };
+        let seconds = began.elapsed().as_secs_f64();
+        let verdict = judged(&network, &oriented);
+        let rays = network.given.observations.len() as f64 / network.given.points.len() as f64;
+        let bad = verdict.solvable && (!verdict.right || verdict.silent > 0) || verdict.silent_c;
+        let clean = case.wrong == 0.0;
+        if bad || clean && verdict.falsely_wrong > 0 || wordy {
+            println!(
+                "{seed} {} {} photos, {rays:.1} rays, c {:?}, wrong {}: solvable {}, right {}, missing {}, silent {}, \
+                 silent c {}, falsely wrong {}, {:.2} s {}",
+                KINDS[case.kind],
+                case.photos,
+                case.distance,
+                case.wrong,
+                verdict.solvable,
+                verdict.right,
+                verdict.missing,
+                verdict.silent,
+                verdict.silent_c,
+                verdict.falsely_wrong,
+                seconds,
+                verdict.failure.as_deref().unwrap_or("")
+            );
+        }
+        let (a, b, c) =
+            (KINDS[case.kind].to_string(), format!("c {:?}", case.distance), format!("wrong {}", case.wrong));
+        for group in ["all".to_string(), a, b, c] {
+            let sums = groups.entry(group).or_default();
+            let flag = |yes: bool| f64::from(u8::from(yes));
+            let one = [
+                1.0,
+                flag(verdict.solvable),
+                flag(verdict.solvable && verdict.right),
+                flag(verdict.solvable && verdict.missing > 0),
+                flag(verdict.silent > 0),
+                flag(verdict.silent_c),
+                flag(clean && verdict.falsely_wrong > 0),
+                seconds,
+            ];
+            sums.iter_mut().zip(one).for_each(|(sum, x)| *sum += x);
+        }
+    }
+    println!(
+        "{:14} networks solvable right  share missing silent c-silent falsely mean s",
+        format!("seeds {first}+{count}")
+    );
+    for (name, s) in groups {
+        let share = 100.0 * s[2] / s[1].max(1.0);
+        println!(
+            "{name:14} {:8} {:8} {:5} {share:5.1}% {:7} {:6} {:8} {:7} {:6.2}",
+            s[0],
+            s[1],
+            s[2],
+            s[3],
+            s[4],
+            s[5],
+            s[6],
+            s[7] / s[0]
+        );
+    }
+}

@@ -1,0 +1,139 @@
+//! Models of photos from image points alone, and how they are joined to each other and to what is known.
+
+use super::DistanceSource;
+use super::absolute::{self, Frame};
+use super::block::{Block, longer_side, set_principal_distance_px};
+use super::growth::grow;
+use super::principal_distance;
+use super::refine::{Freedom, refine};
+use super::seed::{Outcome, from_first_pair};
+
+/// Principal distances tried, as multiples of the assumed one or of the given one, when the first leaves large
+/// residuals.
+const OTHER_ASSUMED: [f64; 4] = [1.6, 0.65, 2.8, 0.45];
+const OTHER_GIVEN: [f64; 2] = [1.25, 0.8];
+/// Models built, at most.
+const MOST_MODELS: usize = 8;
+
+/// The photos oriented together, and those that could not be joined to them.
+pub(super) struct Models {
+    /// The main model.
+    pub block: Block,
+    /// Where its system comes from; none while nothing is oriented.
+    pub frame: Option<Frame>,
+    /// Models of other photos, largest first.
+    pub apart: Vec<Block>,
+}
+
+impl Models {
+    /// What given coordinates and orientations orient.
+    pub fn new(block: Block) -> Self {
+        let known = if block.anchored { Frame::Known } else { Frame::GivenPhotos };
+        Self { frame: (block.oriented() > 0).then_some(known), block, apart: Vec::new() }
+    }
+
+    /// Orients the other photos, model by model.
+    pub fn build(&mut self, sources: &[Option<DistanceSource>], fine_px: f64) {
+        let mut given_up = vec![false; self.block.views.len()];
+        for _ in 0..MOST_MODELS {
+            let used: Vec<bool> = (0..given_up.len()).map(|k| given_up[k] || self.holds(k)).collect();
+            let left = (0..used.len()).filter(|&k| !used[k] && !self.block.views[k].sights.is_empty()).count();
+            if left < 2 {
+                break;
+            }
+            let Some(model) = from_images(&self.block, sources, &used, fine_px) else { break };
+            let new: Vec<usize> = (0..used.len()).filter(|&k| !used[k] && model.views[k].pose.is_some()).collect();
+            new.iter().for_each(|&k| given_up[k] = true);
+            if new.is_empty() {
+                break;
+            }
+            self.take(model);
+            self.join_those_apart();
+        }
+        if self.frame == Some(Frame::Own) {
+            // The largest leads.
+            if let Some(k) = (0..self.apart.len()).max_by_key(|&k| (self.apart[k].oriented(), std::cmp::Reverse(k)))
+                && self.apart[k].oriented() > self.block.oriented()
+            {
+                std::mem::swap(&mut self.block, &mut self.apart[k]);
+                self.join_those_apart();
+            }
+        }
+        let main = &self.block;
+        let own = |model: &Block| {
+            (0..main.views.len()).any(|k| model.views[k].pose.is_some() && main.views[k].pose.is_none())
+        };
+        self.apart.retain(own);
+        self.apart.sort_by_key(|model| std::cmp::Reverse(model.oriented()));
+    }
+
+    fn holds(&self, photo: usize) -> bool {
+        std::iter::once(&self.block).chain(&self.apart).any(|model| model.views[photo].pose.is_some())
+    }
+
+    fn take(&mut self, mut model: Block) {
+        let empty = self.block.oriented() == 0;
+        if absolute::to_known(&mut model) {
+            self.block = if empty { model } else { absolute::merged(self.block.clone(), model) };
+            self.block.anchor();
+            self.frame = Some(Frame::Known);
+            grow(&mut self.block);
+        } else if empty {
+            self.block = model;
+            self.frame = Some(Frame::Own);
+        } else {
+            self.apart.push(model);
+        }
+    }
+
+    /// Joins what can be joined, as long as anything can.
+    fn join_those_apart(&mut self) {
+        while let Some((k, mut joined)) =
+            (0..self.apart.len()).find_map(|k| Some((k, absolute::joined(&self.block, &self.apart[k])?)))
+        {
+            self.apart.remove(k);
+            refine(&mut joined, Freedom::Distance);
+            grow(&mut joined);
+            self.block = joined;
+        }
+    }
+}
+
+/// A model of the photos from image points alone, started among those not used yet; where the principal distance is not
+/// certain, several are tried.
+fn from_images(block: &Block, sources: &[Option<DistanceSource>], used: &[bool], fine_px: f64) -> Option<Block> {
+    let fresh = block.oriented() == 0;
+    let assumed: Vec<usize> =
+        (0..sources.len()).filter(|&k| fresh && sources[k] == Some(DistanceSource::Assumed)).collect();
+    let given: Vec<usize> = (0..sources.len()).filter(|&k| fresh && block.given_px[k].is_some()).collect();
+    let others = if !assumed.is_empty() {
+        &OTHER_ASSUMED[..]
+    } else if !given.is_empty() {
+        &OTHER_GIVEN[..]
+    } else {
+        &[][..]
+    };
+    let wanted = block.views.iter().filter(|v| !v.sights.is_empty()).count();
+    let mut best: Option<(Outcome, Block)> = None;
+    for factor in std::iter::once(&1.0).chain(others) {
+        let mut trial = block.clone();
+        for &camera in &assumed {
+            let px = principal_distance::ASSUMED * longer_side(&trial.cameras[camera]) * factor;
+            set_principal_distance_px(&mut trial.cameras[camera], px);
+        }
+        for &camera in given.iter().filter(|_| assumed.is_empty()) {
+            let px = trial.given_px[camera].unwrap_or(1.0) * factor;
+            set_principal_distance_px(&mut trial.cameras[camera], px);
+        }
+        trial.refresh_rays();
+        let Some(model) = from_first_pair(&trial, used, fine_px) else { continue };
+        let outcome = Outcome::of(&model);
+        if best.as_ref().is_none_or(|(other, _)| outcome.better_than(other)) {
+            best = Some((outcome, model));
+        }
+        if outcome.is_final(wanted, block.offered(), fine_px) {
+            break;
+        }
+    }
+    best.map(|(_, model)| model)
+}

@@ -1,0 +1,133 @@
+//! A photo that sees too few determined points is oriented relative to oriented neighbours.
+//!
+//! The relative orientation to a neighbour leaves one number open, the length of the base. Every determined point in the
+//! photo gives a value of it, and so does the line to a second neighbour; the value that most measurements agree with is
+//! taken. Measurements of points that are not determined yet vote by the distance from their epipolar lines.
+
+use nalgebra::Vector3;
+
+use super::block::Block;
+use crate::initial::Pose;
+use crate::initial::intersection::{Ray, intersect};
+use crate::initial::relative::relative_orientation;
+
+/// Fewest common points with a neighbour, and neighbours that are tried.
+const FEWEST_COMMON: usize = 5;
+const MOST_NEIGHBOURS: usize = 4;
+/// Share of the photo's comparable measurements that has to agree.
+const AGREEING: f64 = 0.5;
+/// Equations a pose takes, and those beyond them that must agree. Each agrees by chance with a probability of some
+/// thousandths: the band of the tolerance over the photo.
+const UNKNOWNS: usize = 6;
+const SPARE: usize = 2;
+
+/// Orients the photo for which there is most evidence; whether there is one.
+pub(super) fn orient_one(block: &mut Block) -> bool {
+    let mut best: Option<(usize, usize, Pose)> = None;
+    for photo in (0..block.views.len()).filter(|&k| block.views[k].pose.is_none()) {
+        if let Some((votes, pose)) = best_pose(block, photo)
+            && best.as_ref().is_none_or(|(most, ..)| votes > *most)
+        {
+            best = Some((votes, photo, pose));
+        }
+    }
+    let Some((_, photo, pose)) = best else { return false };
+    block.views[photo].pose = Some(pose);
+    for s in block.views[photo].sights.clone() {
+        let limit = 3.0 * block.tolerance_px(photo);
+        block.sights[s].taken = block.misfit_px(s).is_none_or(|misfit| misfit <= limit);
+    }
+    true
+}
+
+/// A direction from a neighbour's projection centre in which the photo's lies, with its attitude.
+struct Bearing {
+    attitude: nalgebra::Matrix3<f64>,
+    from: Vector3<f64>,
+    direction: Vector3<f64>,
+}
+
+fn best_pose(block: &Block, photo: usize) -> Option<(usize, Pose)> {
+    let units = block.pixels_per_unit(photo);
+    let mut neighbours: Vec<(usize, usize)> = (0..block.views.len())
+        .filter(|&k| block.views[k].pose.is_some())
+        .map(|k| (block.common(k, photo).len(), k))
+        .filter(|&(count, _)| count >= FEWEST_COMMON)
+        .collect();
+    neighbours.sort_by_key(|&(count, k)| (std::cmp::Reverse(count), k));
+    let mut bearings = Vec::new();
+    for &(_, neighbour) in neighbours.iter().take(MOST_NEIGHBOURS) {
+        let Some(own) = block.views[neighbour].pose else { continue };
+        let common = block.common(neighbour, photo).into_iter();
+        let (a, b): (Vec<_>, Vec<_>) =
+            common.filter_map(|(a, b)| Some((block.sights[a].ray?, block.sights[b].ray?))).unzip();
+        let seed = (photo * block.views.len() + neighbour) as u64;
+        let Ok(found) = relative_orientation(&a, &b, block.tolerance_px(photo) / units, seed) else { continue };
+        for relative in found.iter().filter(|r| 5 * r.inliers.iter().filter(|i| **i).count() >= 3 * a.len()) {
+            bearings.push(Bearing {
+                attitude: relative.pose.object_to_camera * own.object_to_camera,
+                from: own.centre,
+                direction: own.object_to_camera.tr_mul(&relative.pose.centre),
+            });
+        }
+    }
+    let mut poses: Vec<Pose> = Vec::new();
+    let (_, object, image) = block.determined(photo);
+    for (k, bearing) in bearings.iter().enumerate() {
+        let bases = object.iter().zip(&image).filter_map(|(xyz, m)| base_to_point(bearing, xyz, *m));
+        let lines = bearings.iter().enumerate().filter(|(other, _)| *other != k);
+        let lines = lines.filter_map(|(_, other)| base_to_line(bearing, other));
+        for base in bases.chain(lines).filter(|base| base.is_finite() && *base > 0.0) {
+            let centre = bearing.from + bearing.direction * base;
+            poses.push(Pose { object_to_camera: bearing.attitude, centre });
+        }
+    }
+    let judged = poses.into_iter().map(|pose| (votes(block, photo, &pose), pose));
+    let ((agreeing, compared), pose) = judged.max_by(|a, b| a.0.0.cmp(&b.0.0))?;
+    let enough = agreeing >= UNKNOWNS + SPARE && agreeing as f64 >= AGREEING * compared as f64;
+    enough.then_some((agreeing, pose))
+}
+
+/// Length of the base with which a determined point appears where it was measured, least squares of its two equations.
+fn base_to_point(bearing: &Bearing, xyz: &Vector3<f64>, [x, y]: [f64; 2]) -> Option<f64> {
+    let p = bearing.attitude * (xyz - bearing.from);
+    let t = bearing.attitude * bearing.direction;
+    let rows = [(p.x + x * p.z, t.x + x * t.z), (p.y + y * p.z, t.y + y * t.z)];
+    let (up, down) = rows.iter().fold((0.0, 0.0), |(u, d), (a, b)| (u + a * b, d + b * b));
+    (down > 1e-12).then(|| up / down)
+}
+
+/// Length of the base to the point nearest to the line from a second neighbour, where they cross at 3° or more.
+fn base_to_line(bearing: &Bearing, other: &Bearing) -> Option<f64> {
+    let cosine = bearing.direction.dot(&other.direction);
+    let determinant = 1.0 - cosine * cosine;
+    let between = other.from - bearing.from;
+    let (a, b) = (between.dot(&bearing.direction), between.dot(&other.direction));
+    (determinant > 0.0027).then(|| (a - cosine * b) / determinant)
+}
+
+/// Equations of the photo that agree with the pose, among those that can be compared: two a determined point, one a
+/// point that one oriented photo shows.
+fn votes(block: &Block, photo: usize, pose: &Pose) -> (usize, usize) {
+    let units = block.pixels_per_unit(photo);
+    let tolerance = 3.0 * block.tolerance_px(photo);
+    let (mut agreeing, mut compared) = (0, 0);
+    for &s in &block.views[photo].sights {
+        let sight = &block.sights[s];
+        let Some(image) = sight.ray else { continue };
+        if let Some(xyz) = block.marks[sight.point].xyz {
+            compared += 2;
+            agreeing += 2 * usize::from(pose.misfit(&xyz, image) * units <= tolerance);
+            continue;
+        }
+        let (_, others) = block.rays(sight.point);
+        if let [other] = others[..] {
+            compared += 1;
+            let own = Ray { pose: *pose, image, weight: units * units };
+            let meets = intersect(&[other, own])
+                .is_ok_and(|found| found.residuals.iter().all(|r| r[0].hypot(r[1]) * units <= tolerance));
+            agreeing += usize::from(meets);
+        }
+    }
+    (agreeing, compared)
+}

@@ -1,0 +1,104 @@
+//! Orientation over seeded networks and single photos with a truth: the short form of `cargo xtask bench orient`.
+
+#[path = "../../benches/orient/network.rs"]
+mod network;
+
+use nalgebra::Vector3;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use sightline::camera::{ideal_from_pixel, pixel_from_camera_point};
+use sightline::initial::Pose;
+use sightline::orient::{Note, orient};
+use sightline::project::{Camera, DatumKind, Interior, Observation, Photo, Point, Project, Role, Sigma};
+use sightline::rotation;
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use network::{Case, both, gauss, judged, unit};
+
+/// One photo of `count` control points, in space or in a plane; its truth.
+fn single(seed: u64, count: usize, plane: bool, noise_px: f64) -> (Project, Pose) {
+    let mut g = ChaCha8Rng::seed_from_u64(seed);
+    let camera = Camera::new("k", 3000, 2000, Interior::brown(3000.0));
+    let mut project = Project { cameras: vec![camera.clone()], ..Project::default() };
+    let direction = Vector3::new(0.7 * both(&mut g), 0.7 * both(&mut g), 1.0).normalize();
+    let x = Vector3::y().cross(&direction).normalize();
+    let level = nalgebra::Matrix3::from_rows(&[x.transpose(), direction.cross(&x).transpose(), direction.transpose()]);
+    let m = rotation::object_to_camera([0.0, 0.0, 3.1 * both(&mut g)]) * level;
+    let pose = Pose { object_to_camera: m, centre: direction * (4.5 + unit(&mut g)) };
+    for k in 0..count {
+        let (point, depth) = (format!("p{k}"), if plane { 0.0 } else { 0.7 * both(&mut g) });
+        let xyz = Vector3::new(both(&mut g), 0.8 * both(&mut g), depth);
+        let [u, v] = pixel_from_camera_point(&camera, pose.to_camera(&xyz)).expect("in front");
+        let (u, v) = (u + noise_px * gauss(&mut g), v + noise_px * gauss(&mut g));
+        let sigma = Sigma::One(noise_px);
+        project.observations.push(Observation {
+            photo: "f".into(),
+            point: point.clone(),
+            u,
+            v,
+            sigma,
+            enabled: true,
+            target: None,
+        });
+        let role = Role::Control;
+        project.points.push(Point { id: point, role, xyz: Some(xyz.into()), ..Point::default() });
+    }
+    project.photos.push(Photo { id: "f".into(), camera: "k".into(), enabled: true, ..Photo::default() });
+    project.datum.kind = DatumKind::Control;
+    (project, pose)
+}
+
+/// A single photo ends in the best minimum, or both are named. The comparison is the minimum next to the truth, which the
+/// resection does not know.
+#[test]
+fn few_control_points_give_the_best_pose_or_both() {
+    let (mut right, mut ambiguous, mut runs) = (0, 0, 0);
+    let mut failed = Vec::new();
+    for seed in 0..600 {
+        let (count, plane, noise) = (4 + seed as usize % 3, seed / 3 % 2 == 1, [0.1, 0.3, 0.5][seed as usize / 6 % 3]);
+        let (project, truth) = single(seed, count, plane, noise);
+        let oriented = orient(&project).expect("a valid project");
+        runs += 1;
+        let Some(found) = Pose::of_photo(&oriented.project.photos[0]) else {
+            failed.push((seed, count, plane, "not oriented"));
+            continue;
+        };
+        let object: Vec<Vector3<f64>> = project.points.iter().filter_map(|p| p.xyz.map(Into::into)).collect();
+        let rays = project.observations.iter().map(|o| ideal_from_pixel(&project.cameras[0], [o.u, o.v]));
+        let image: Vec<[f64; 2]> = rays.map(|ray| ray.expect("a ray")).collect();
+        let best = truth.refined(&object, &image).expect("in front").cost(&object, &image);
+        let said = oriented.notes.iter().any(|n| matches!(n, Note::PhotoAmbiguous { .. }));
+        ambiguous += usize::from(said);
+        if found.cost(&object, &image) <= best * 1.001 {
+            right += 1;
+        } else if !said {
+            failed.push((seed, count, plane, "a worse minimum"));
+        }
+    }
+    println!("single photos: {right} of {runs} in the best minimum, {ambiguous} said to be ambiguous");
+    assert!(failed.len() * 200 <= runs, "{failed:?}");
+}
+
+/// Seeds 0 to 41 up to 10 photos: every kind, every knowledge of c, clean and with 2 % of wrong names.
+#[test]
+fn seeded_networks_are_oriented_and_none_is_wrong_in_silence() {
+    let (mut solvable, mut right) = (0, 0);
+    let mut lost = Vec::new();
+    for seed in 0..42 {
+        let case = Case::of(seed, 10);
+        let network = network::network(&case);
+        let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
+        assert_eq!(verdict.silent, 0, "seed {seed}: {verdict:?}");
+        assert!(!verdict.silent_c, "seed {seed}: {verdict:?}");
+        assert!(!verdict.solvable || case.wrong > 0.0 || verdict.falsely_wrong == 0, "seed {seed}: {verdict:?}");
+        solvable += usize::from(verdict.solvable);
+        if verdict.solvable && verdict.right {
+            right += 1;
+        } else if verdict.solvable {
+            lost.push((seed, case, verdict));
+        }
+    }
+    println!("seeded networks: {right} right of {solvable} that can be solved");
+    assert!(100 * right >= 97 * solvable, "{lost:?}");
+}
