@@ -1,6 +1,8 @@
 //! Who is who across photos: names for targets, by code, by geometry, or by marks from an earlier measurement.
 
+mod cluster;
 mod coded;
+mod epipolar;
 mod gross;
 mod photo;
 mod snap;

@@ -68,7 +68,11 @@ pub(super) fn distance_sigmas_px(block: &Block) -> Vec<Option<f64>> {
         }
     }
     let distances = [Parameter::C, Parameter::F, Parameter::Fx, Parameter::Fy];
-    let options = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
+    let options = AdjustOptions {
+        statistics: StatisticsChoice::Precision,
+        residuals: ResidualPlace::Corrected,
+        ..AdjustOptions::default()
+    };
     let adjustment = adjust(&part, &options, &mut |_| true);
     for camera in &part.cameras {
         let Some(k) = block.cameras.iter().position(|c| c.id == camera.id) else { continue };

@@ -1,5 +1,7 @@
 //! Orientation over seeded networks and single photos with a truth: the short form of `cargo xtask bench orient`.
 
+#[path = "../../benches/orient/dots.rs"]
+mod dots;
 #[path = "../../benches/orient/network.rs"]
 mod network;
 
@@ -101,4 +103,15 @@ fn seeded_networks_are_oriented_and_none_is_wrong_in_silence() {
     }
     println!("seeded networks: {right} right of {solvable} that can be solved");
     assert!(100 * right >= 97 * solvable, "{lost:?}");
+}
+
+/// 600 bare dots in three to twelve photos: at least 98 % are found, none wrong, at the noise's own tolerance and at a wide one.
+#[test]
+fn bare_dots_get_their_own_names_or_none() {
+    for (seed, photos, tolerance) in [(1, 3, None), (2, 5, None), (3, 12, None), (4, 12, Some(10.0))] {
+        let matched = dots::matched(seed, photos, 600, tolerance);
+        println!("{photos} photos in {:.1} s: {matched:?}", matched.seconds);
+        assert_eq!(matched.wrong, 0, "{photos} photos: {matched:?}");
+        assert!(100 * matched.found >= 98 * matched.wanted, "{photos} photos: {matched:?}");
+    }
 }
