@@ -60,8 +60,16 @@ test('projects are listed, renamed, duplicated, downloaded, deleted and got back
   const waitFor = (wanted) => page.waitForFunction((list) => JSON.stringify([...document.querySelectorAll('[data-project] .name')].map((one) => one.textContent).sort()) === list, JSON.stringify([...wanted].sort()));
   const verb = async (name, label) => {
     const row = page.locator(`tr[data-project]:has(.name:text-is("${name}"))`);
-    if ((await row.locator('.icon-button').getAttribute('aria-expanded')) !== 'true') await row.locator('.icon-button').click();
-    await page.locator(`tr[data-project]:has(.name:text-is("${name}")) + tr.verbs`).getByRole('button', { name: label }).click();
+    const button = page.locator(`tr[data-project]:has(.name:text-is("${name}")) + tr.verbs`).getByRole('button', { name: label });
+    // The list may be read anew between the two clicks, which closes the row of verbs.
+    for (let tries = 0; ; tries++) {
+      if ((await row.locator('.icon-button').getAttribute('aria-expanded')) !== 'true') await row.locator('.icon-button').click();
+      try {
+        return await button.click({ timeout: 3000 });
+      } catch (error) {
+        if (tries === 5) throw error;
+      }
+    }
   };
   try {
     await drop(page, [scratch('one.json', named('One'))]);
