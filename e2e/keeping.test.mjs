@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { open } from './browser.mjs';
 import { downloads, drop, go, idle, notice, sample, scratch, unzipped } from './desk.mjs';
 
-const written = (page) => page.waitForFunction(() => /^saved \d/.test(document.querySelector('.project span').textContent), undefined, { timeout: 60_000 });
+const written = (page) => page.waitForFunction(() => /^saved \d/.test(document.querySelector('.project span')?.textContent), undefined, { timeout: 60_000 });
 const figure = (page, step) => page.textContent(`[data-step=${step}] .figure`);
 const named = (name) => JSON.stringify({ format: 'sightline', version: 1, name });
 
@@ -35,7 +35,7 @@ test('a reloaded page has the project as it was, with its result, its photos and
     assert.equal(await page.inputValue('.project-name'), 'Panel');
     assert.equal((await figure(page, 'results')).trim(), 'out of date');
     const undo = page.locator('.tools .icon-button').first();
-    await page.waitForFunction(() => !document.querySelector('.tools .icon-button').disabled);
+    await page.waitForFunction(() => document.querySelector('.tools .icon-button')?.disabled === false);
     assert.match(await undo.getAttribute('aria-label'), /role/i);
     await undo.click();
     assert.match(await figure(page, 'results'), /σ₀/);
@@ -123,21 +123,21 @@ test('a second window reads along, and can take over', { timeout: 300_000 }, asy
     // What the first does is seen in the second, which cannot change anything.
     await page.fill('.project-name', 'Changed');
     await page.press('.project-name', 'Enter');
-    await second.waitForFunction(() => document.querySelector('.project-name').value === 'Changed');
+    await second.waitForFunction(() => document.querySelector('.project-name')?.value === 'Changed');
     await go(second, 'control');
     await second.fill('[name=unit]', 'm');
     await second.press('[name=unit]', 'Enter');
     assert.match(await second.textContent('.notices'), /only reads along/);
     await second.getByRole('button', { name: 'Take over' }).click();
     await page.waitForSelector('.notice:has-text("open in another window")');
-    await second.waitForFunction(() => !document.querySelector('.notices').textContent.includes('open in another window'));
+    await second.waitForFunction(() => document.querySelector('.notices')?.textContent.includes('open in another window') === false);
     await second.fill('.project-name', 'Taken');
     await second.press('.project-name', 'Enter');
-    await page.waitForFunction(() => document.querySelector('.project-name').value === 'Taken');
+    await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Taken');
     // A window that is gone holds nothing.
     await second.close();
     await page.getByRole('button', { name: 'Take over' }).click();
-    await page.waitForFunction(() => !document.querySelector('.notices').textContent.includes('open in another window'));
+    await page.waitForFunction(() => document.querySelector('.notices')?.textContent.includes('open in another window') === false);
     assert.equal(await page.inputValue('.project-name'), 'Taken');
     assert.deepEqual(errors, []);
   } finally {
@@ -150,7 +150,7 @@ test('a browser that keeps nothing says so, and asks before anything is lost', {
   try {
     await context.route('**/storage.js', (route) => route.abort());
     await page.reload();
-    await page.waitForFunction(() => /keeps nothing here/.test(document.querySelector('.foot .storage').textContent));
+    await page.waitForFunction(() => /keeps nothing here/.test(document.querySelector('.foot .storage')?.textContent));
     // A sample that nobody has worked on is no work.
     await sample(page);
     await drop(page, [scratch('other.json', named('Other'))]);

@@ -58,7 +58,7 @@ test(`killed ${KILLS} times, a project is there again each time`, { timeout: 120
   try {
     let page = first;
     await sample(page);
-    await page.waitForFunction(() => /saved|Saved/.test(document.querySelector('.project span').textContent), undefined, { timeout: 60_000 });
+    await page.waitForFunction(() => /saved|Saved/.test(document.querySelector('.project span')?.textContent), undefined, { timeout: 60_000 });
     let lastName = 'Sample';
     const lost = [];
     for (let round = 0; round < KILLS; round++) {
@@ -92,7 +92,7 @@ test(`killed ${KILLS} times, a project is there again each time`, { timeout: 120
     await go(page, 'targets');
     await page.waitForSelector('.strip canvas.thumbnail');
     assert.equal(await page.locator('.strip canvas.thumbnail').count(), 8);
-    await page.waitForFunction(() => !document.querySelector('.tools .icon-button').disabled);
+    await page.waitForFunction(() => document.querySelector('.tools .icon-button')?.disabled === false);
     await page.click('.tools .icon-button');
   } finally {
     await close();

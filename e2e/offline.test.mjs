@@ -110,7 +110,7 @@ test('one file does the same from a disk', { timeout: 600_000 }, async () => {
   const { page, errors, close } = await open({ address, width: 1366, height: 768 });
   try {
     await page.waitForSelector('.sample');
-    await page.waitForFunction(() => document.querySelector('.foot .storage').textContent !== '');
+    await page.waitForFunction(() => (document.querySelector('.foot .storage')?.textContent ?? '') !== '');
     await fromDropToExport(page);
     assert.deepEqual(errors, []);
   } finally {

@@ -58,7 +58,7 @@ test('a photo without targets and a point seen once take no part and are named',
   try {
     await sample(page);
     await drop(page, [scratch('empty-wall.png', plainPng(1632, 1224))]);
-    await page.waitForFunction(() => document.querySelector('[data-step=photos] .figure').textContent.trim() === '9');
+    await page.waitForFunction(() => document.querySelector('[data-step=photos] .figure')?.textContent.trim() === '9');
     await idle(page);
     // A point that only one photo has: a free click, measured or placed, gets a name of its own.
     await go(page, 'identities');
