@@ -20,15 +20,12 @@ mod rendered;
 mod search;
 mod whole;
 
-use edges::edge;
 pub(crate) use ellipse::{conic, outline};
 
-use crate::detection::{
-    Codes, DetectOptions, Detection, Method, MethodResult, PictureReport, Polarity, Reason, Rejected, Target,
-};
+use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, PictureReport, Reason, Target};
 use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
-use code::{DotLevels, Family, Reading};
+use code::outline_of;
 use measure::Measure;
 use outline::Outline;
 use picture::character::{APART, Character};
@@ -81,6 +78,15 @@ pub fn measure_all(image: &GreyView, u: f64, v: f64, options: &DetectOptions) ->
     })
 }
 
+/// Reads the ring codes of targets that are measured already, with this choice of families.
+pub fn read_codes(image: &GreyView, targets: &mut [Target], codes: Codes) {
+    let (width, height) = (image.width(), image.height());
+    match image.samples() {
+        SamplesView::U8(samples) => code::read_all(&Plane::new(width, height, samples), targets, codes),
+        SamplesView::U16(samples) => code::read_all(&Plane::new(width, height, samples), targets, codes),
+    }
+}
+
 fn check_place(image: &GreyView, u: f64, v: f64) -> Result<()> {
     for (name, value, size) in [("u", u, image.width()), ("v", v, image.height())] {
         if !(value >= 0.0 && value <= size as f64) {
@@ -125,13 +131,18 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     picture.noise_correlation = passed.correlate();
     if processed {
         let mut first = std::mem::take(&mut passed.detection.targets);
+        let mut grounds = std::mem::take(&mut passed.grounds);
         passed = soften(&plane, &levels, options, &mut first, &mut picture);
         passed.detection.targets.append(&mut first);
+        passed.grounds.append(&mut grounds);
         passed.detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
     }
     let mut detection = passed.detection;
-    read_codes(&plane, &mut detection, options.codes);
-    drop_ring_parts(&mut detection);
+    let found = detection.targets.len();
+    detection.targets.append(&mut passed.grounds);
+    code::read_all(&plane, &mut detection.targets, options.codes);
+    code::settle_grounds(&mut detection, found);
+    code::drop_parts(&mut detection);
     let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);
     Detection { width: size(plane.width), height: size(plane.height), picture, ..detection }
 }
@@ -169,6 +180,7 @@ fn soften<T: Sample>(
     picture.noise_correlation = restored.correlate();
     softened.correlate();
     known.append(&mut restored.detection.targets);
+    softened.grounds.append(&mut restored.grounds);
     let is_new = |target: &Target| {
         let outline = outline_of(target);
         !known.iter().any(|other| {
@@ -201,7 +213,7 @@ fn pass_softened<T: Sample>(
     let levels =
         Levels { saturation: f64::from(u16::MAX), noise: levels.noise.max(0.3 * soft.scale), stairs: false, ..levels };
     let mut passed = pass(soft.plane(), levels, options, true, known);
-    for target in &mut passed.detection.targets {
+    for target in passed.detection.targets.iter_mut().chain(&mut passed.grounds) {
         target.contrast /= soft.scale;
         target.quality.noise /= soft.scale;
         if options.method == Method::LeastSquares {
@@ -214,6 +226,8 @@ fn pass_softened<T: Sample>(
 /// What one pass over a picture found.
 struct Pass {
     detection: Detection,
+    /// Targets that may be the ground of a code's ring, to be settled when codes are read.
+    grounds: Vec<Target>,
     /// What neighbouring pixels share, of the targets at these places.
     colours: Vec<([f64; 2], Colour)>,
 }
@@ -239,7 +253,7 @@ impl Pass {
 /// One pass: what is found beyond the targets that are known.
 fn pass<T: Sample>(plane: Plane<T>, levels: Levels, options: &DetectOptions, coloured: bool, known: &[Target]) -> Pass {
     let blobs = search::search(&plane, &levels, options);
-    let mut census = Census::new(plane.width, plane.height);
+    let mut census = Census::new(plane.width, plane.height, code::have_spots(options.codes));
     known.iter().for_each(|target| census.know(target));
     census.expect(blobs.iter().map(|blobs| blobs.shapeless.len() + blobs.unlike.len()).sum());
     for Blobs { shapeless, unlike, too_small, too_large, .. } in &blobs {
@@ -265,61 +279,6 @@ fn pass<T: Sample>(plane: Plane<T>, levels: Levels, options: &DetectOptions, col
             Err(reason) => census.reject(*outline, *bright, reason),
         }
     }
-    Pass { detection: census.finish(), colours }
-}
-
-/// Reads the codes of all targets; under "auto" the family that reads most rings is everyone's.
-fn read_codes<T: Sample>(plane: &Plane<T>, detection: &mut Detection, codes: Codes) {
-    let mut best: Option<(usize, Vec<Reading>)> = None;
-    for family in Family::of(codes) {
-        let readings: Vec<Reading> = detection.targets.iter().map(|target| read_code(plane, target, &family)).collect();
-        let count = readings.iter().filter(|reading| matches!(reading, Reading::Code { .. })).count();
-        if best.as_ref().is_none_or(|(most, _)| count > *most) {
-            best = Some((count, readings));
-        }
-    }
-    let Some((_, readings)) = best else { return };
-    for (target, reading) in detection.targets.iter_mut().zip(readings) {
-        match reading {
-            Reading::Plain => {}
-            Reading::Code { number, margin } => {
-                target.code = Some(number);
-                target.quality.code_margin = Some(margin);
-            }
-            Reading::Unsafe { margin, note } => {
-                target.quality.code_margin = Some(margin);
-                target.quality.code_note = Some(note);
-            }
-        }
-    }
-}
-
-/// Takes out what lies in the ring of a code that was read.
-fn drop_ring_parts(detection: &mut Detection) {
-    let coded = detection.targets.iter().filter(|target| target.code.is_some());
-    let dots: Vec<Outline> = coded.map(outline_of).collect();
-    let in_ring = |target: &Target| {
-        let part = |dot: &Outline| {
-            let [c, s] = dot.normalised(target.u, target.v);
-            (code::RING.0 - 0.2..code::RING.1 + 0.2).contains(&c.hypot(s))
-        };
-        target.code.is_none() && dots.iter().any(part)
-    };
-    let (parts, targets) = std::mem::take(&mut detection.targets).into_iter().partition(in_ring);
-    detection.targets = targets;
-    for Target { u, v, major, .. } in parts {
-        *detection.rejected.entry(Reason::CodeRing).or_default() += 1;
-        detection.rejected_blobs.push(Rejected { u, v, diameter: major, reason: Reason::CodeRing });
-    }
-}
-
-fn outline_of(target: &Target) -> Outline {
-    Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle)
-}
-
-fn read_code<T: Sample>(plane: &Plane<T>, target: &Target, family: &Family) -> Reading {
-    let dot = outline_of(target);
-    let middle = f64::from(plane.sample(target.u as f32, target.v as f32));
-    let sign = if target.polarity == Polarity::Bright { 1.0 } else { -1.0 };
-    code::read(plane, &dot, DotLevels { dot: middle, background: middle - sign * target.contrast }, family)
+    let grounds = std::mem::take(&mut census.grounds);
+    Pass { detection: census.finish(), grounds, colours }
 }

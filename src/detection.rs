@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
+use crate::ring_code::Family;
+
 /// How a centre is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -57,28 +59,73 @@ pub enum Channel {
     Blue,
 }
 
-/// Family of ring codes.
+/// Which ring codes are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Codes {
     /// Codes are not read.
     #[default]
     #[serde(rename = "none")]
     None,
-    /// 12 bits.
+    /// Schneider / AICON, 12 bits.
     #[serde(rename = "ring-12")]
     Ring12,
-    /// 14 bits.
+    /// Schneider / AICON, 14 bits.
     #[serde(rename = "ring-14")]
     Ring14,
-    /// 16 bits.
+    /// Schneider / AICON, 16 bits.
     #[serde(rename = "ring-16")]
     Ring16,
-    /// 20 bits.
+    /// Schneider / AICON, 20 bits.
     #[serde(rename = "ring-20")]
     Ring20,
-    /// The family that most of the picture's rings belong to.
+    /// Metashape circular, 12 bits.
+    #[serde(rename = "metashape-12")]
+    Metashape12,
+    /// Metashape circular, 14 bits.
+    #[serde(rename = "metashape-14")]
+    Metashape14,
+    /// Metashape circular, 16 bits.
+    #[serde(rename = "metashape-16")]
+    Metashape16,
+    /// Metashape circular, 20 bits.
+    #[serde(rename = "metashape-20")]
+    Metashape20,
+    /// The one family that explains every ring that was read.
     #[serde(rename = "auto")]
     Auto,
+}
+
+impl Codes {
+    /// The families that are read.
+    pub fn families(self) -> &'static [Family] {
+        match self {
+            Self::None => &[],
+            Self::Ring12 => &[Family::Ring12],
+            Self::Ring14 => &[Family::Ring14],
+            Self::Ring16 => &[Family::Ring16],
+            Self::Ring20 => &[Family::Ring20],
+            Self::Metashape12 => &[Family::Metashape12],
+            Self::Metashape14 => &[Family::Metashape14],
+            Self::Metashape16 => &[Family::Metashape16],
+            Self::Metashape20 => &[Family::Metashape20],
+            Self::Auto => &Family::ALL,
+        }
+    }
+}
+
+impl From<Family> for Codes {
+    fn from(family: Family) -> Self {
+        match family {
+            Family::Ring12 => Self::Ring12,
+            Family::Ring14 => Self::Ring14,
+            Family::Ring16 => Self::Ring16,
+            Family::Ring20 => Self::Ring20,
+            Family::Metashape12 => Self::Metashape12,
+            Family::Metashape14 => Self::Metashape14,
+            Family::Metashape16 => Self::Metashape16,
+            Family::Metashape20 => Self::Metashape20,
+        }
+    }
 }
 
 /// Options of the detection; every default works without tuning.
@@ -134,6 +181,17 @@ pub struct Quality {
     pub code_note: Option<String>,
 }
 
+/// One way to read a ring.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CodeCandidate {
+    /// Family of the code.
+    pub family: Family,
+    /// Its number there.
+    pub number: u32,
+    /// Safety of this reading; 0 where it is doubtful within its family.
+    pub margin: f64,
+}
+
 /// One target of a photo. Pixels, radians.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Target {
@@ -163,6 +221,13 @@ pub struct Target {
     pub polarity: Polarity,
     /// Number of the ring code, where one was read.
     pub code: Option<u32>,
+    /// Family of that code.
+    #[serde(default)]
+    pub code_family: Option<Family>,
+    /// What else the ring may be: every reading of a ring that is not safely one code, and under "auto" the readings of a ring
+    /// that is a code of several families. Empty otherwise.
+    #[serde(default)]
+    pub code_candidates: Vec<CodeCandidate>,
     /// How good the image is.
     pub quality: Quality,
 }
@@ -171,6 +236,29 @@ impl Target {
     /// What an observation of it refers to.
     pub fn number(&self) -> Option<u32> {
         Some(self.id).filter(|id| *id > 0)
+    }
+
+    /// Number of its code in a family, where it reads safely as one.
+    pub fn code_in(&self, family: Family) -> Option<u32> {
+        let safe = |c: &&CodeCandidate| c.family == family && c.margin > 0.0;
+        // a code without its family says nothing of others
+        let own = self.code.filter(|_| self.code_family.is_none_or(|own| own == family));
+        self.code_candidates.iter().find(safe).map(|c| c.number).or(own)
+    }
+
+    /// Takes its code as one of this family, or as none; how else it was read stays among its candidates.
+    pub fn settle_code(&mut self, family: Family) {
+        let code = self.code_in(family);
+        if let (Some(number), Some(own)) = (self.code, self.code_family.filter(|own| *own != family)) {
+            let margin = self.quality.code_margin.unwrap_or(1.0);
+            if !self.code_candidates.iter().any(|c| c.family == own && c.number == number) {
+                self.code_candidates.push(CodeCandidate { family: own, number, margin });
+            }
+        }
+        if let Some(c) = self.code_candidates.iter().find(|c| c.family == family && c.margin > 0.0) {
+            (self.quality.code_margin, self.quality.code_note) = (Some(c.margin), None);
+        }
+        (self.code, self.code_family) = (code, code.map(|_| family));
     }
 }
 

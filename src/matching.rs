@@ -51,6 +51,10 @@ pub struct Doubtful {
 pub enum Doubt {
     /// The same code was read more than once in the photo.
     DuplicateCode,
+    /// The rings are codes of several families, or of different ones.
+    CodeFamily,
+    /// Its ring is not safely one code.
+    CodeUnclear,
     /// Rays of other photos fit it in more than one way.
     Ambiguous,
     /// It disagrees with the other rays of its point.
@@ -94,6 +98,8 @@ pub(crate) fn target(u: f64, v: f64, code: Option<u32>) -> Target {
         contrast: 100.0,
         polarity: crate::detection::Polarity::Bright,
         code,
+        code_family: None,
+        code_candidates: Vec::new(),
         quality: crate::detection::Quality::default(),
     }
 }

@@ -121,8 +121,13 @@ fn layers(camera: &Camera, pose: &Pose, scene: &Scene, disc: &Disc, psf: f64) ->
     outlines.push((circle(radius), under, disc.grey));
     if let Some(ring) = disc.ring {
         let per_unit = plane.scale().unwrap_or(1.0);
-        let sectors = sectors(ring).map(|turn| plane.sector(turn, [2.0 * radius, 3.0 * radius], spacing / per_unit));
+        let radii = ring.design.ring().map(|r| r * radius);
+        let sectors = sectors(ring).map(|turn| plane.sector(turn, radii, spacing / per_unit));
         outlines.extend(sectors.map(|nodes| (nodes, under, disc.grey)));
+        let spot = ring.design.spot();
+        if let (true, Some(ground)) = (spot > 0.0, under) {
+            outlines.push((circle(spot * radius), Some(disc.grey), ground));
+        }
     }
     let drawable = |nodes: Option<Vec<Node>>| {
         nodes.filter(|nodes| nodes.iter().any(|n| inside(camera, n)) && nodes.iter().all(|n| near(camera, n)))

@@ -11,7 +11,7 @@ use crate::exif::PhotoInfo;
 use crate::network::{Bar, Network, NetworkPoint, Source, Station, photo, simulate};
 use crate::project::{Camera, Interior, Parameter, Photo, Project, Role, Sigma};
 use crate::render::{Exposure, png};
-use crate::ring_code::valid_codes;
+use crate::ring_code::{Design, valid_codes};
 use crate::scene::{Face, Patch, Ring};
 
 /// Block on the plate: two corners, mm.
@@ -161,7 +161,7 @@ fn coded() -> Vec<NetworkPoint> {
             xyz,
             normal: Some(up),
             diameter: Some(CODED_MM),
-            ring: Some(Ring { sectors: 14, code: codes[k] }),
+            ring: Some(Ring { sectors: 14, code: codes[k], design: Design::Schneider }),
             patch: Some(Patch { ratio: 4.0, grey: 0.04 }),
             id,
             ..NetworkPoint::default()

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Place, Reason, Result};
 use crate::initial::Pose;
+use crate::ring_code::Design;
 
 /// A parallelogram that fills the view and hides what lies behind it. Greys are shares of full scale.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -60,13 +61,16 @@ fn white() -> f64 {
     0.85
 }
 
-/// A code ring around a disc, from twice to three times its radius.
+/// A code ring around a disc.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Ring {
     /// Number of sectors.
     pub sectors: u32,
     /// Set sectors, clockwise as seen, the first being the most significant bit.
     pub code: u32,
+    /// Radii of the ring, and whether the disc has a spot in its centre.
+    #[serde(default)]
+    pub design: Design,
 }
 
 /// Round ground of a target.

@@ -139,11 +139,46 @@ pub fn photo_info(#[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffe
     found().map(|description| value::write(&description)).map_err(|error: Error| thrown(&error))
 }
 
-/// Names coded targets after their codes and gathers their measurements; doubtful ones are listed, not used.
+/// Names coded targets after their codes and gathers their measurements; doubtful ones are listed, not used. Codes are of
+/// the family that alone explains all rings, or of the one in `options.family`.
 #[wasm_bindgen(js_name = nameCoded, unchecked_return_type = "Coded")]
-pub fn name_coded(#[wasm_bindgen(unchecked_param_type = "PhotoTargets[]")] photos: JsValue) -> Thrown {
-    let photos = value::read::<Vec<matching::PhotoTargets>>(&photos, "photos");
-    photos.map(|photos| value::write(&matching::name_coded(&photos))).map_err(|error| thrown(&error))
+pub fn name_coded(
+    #[wasm_bindgen(unchecked_param_type = "PhotoTargets[]")] photos: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "NameCodedOptions")] options: JsValue,
+) -> Thrown {
+    #[derive(Default, Serialize, serde::Deserialize)]
+    #[serde(default)]
+    struct Options {
+        family: Option<sightline::ring_code::Family>,
+    }
+    let named = || {
+        let photos = value::read::<Vec<matching::PhotoTargets>>(&photos, "photos")?;
+        let Options { family } = value::options(&options, &[])?;
+        Ok(matching::name_coded(&photos, family))
+    };
+    named().map(|coded| value::write(&coded)).map_err(|error: Error| thrown(&error))
+}
+
+/// The codes of a family, those with the largest mutual distance first: numbers, and how many of the first have which distance.
+#[wasm_bindgen(js_name = spreadCodes, unchecked_return_type = "CodeSpread")]
+pub fn spread_codes(#[wasm_bindgen(unchecked_param_type = "CodeFamily")] family: JsValue) -> Thrown {
+    #[derive(Serialize)]
+    struct Spread {
+        numbers: Vec<u32>,
+        counts: Vec<Count>,
+    }
+    #[derive(Serialize)]
+    struct Count {
+        distance: u32,
+        codes: usize,
+    }
+    let family = value::read::<sightline::ring_code::Family>(&family, "family");
+    let spread = family.map(|family| {
+        let sightline::ring_code::Spread { numbers, counts } = sightline::ring_code::spread(family);
+        let counts = counts.into_iter().map(|(distance, codes)| Count { distance, codes }).collect();
+        value::write(&Spread { numbers, counts })
+    });
+    spread.map_err(|error| thrown(&error))
 }
 
 /// Moves approximate marks of an earlier measurement onto the targets that were found within a radius in pixels.

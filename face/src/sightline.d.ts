@@ -395,6 +395,26 @@ export interface Adjustment {
   covariance?: { points: string[]; matrix: number[][] };
 }
 
+/** Ring codes by maker and bits: ring-12 to ring-20 are Schneider / AICON's, metashape-12 to metashape-20 Metashape's circular ones. */
+export type CodeFamily =
+  | "ring-12" | "ring-14" | "ring-16" | "ring-20"
+  | "metashape-12" | "metashape-14" | "metashape-16" | "metashape-20";
+
+/** One way to read a ring; its margin is 0 where the reading is doubtful within its family. */
+export interface CodeCandidate {
+  family: CodeFamily;
+  number: number;
+  margin: number;
+}
+
+/** A family's codes in the order in which they should be used. */
+export interface CodeSpread {
+  /** All numbers of the family, those with the largest mutual distance first. */
+  numbers: number[];
+  /** How many of the first numbers differ from each other, however they are turned, in at least so many sectors; descending. */
+  counts: { distance: number; codes: number }[];
+}
+
 export interface DetectOptions {
   /** ["least_squares"] */
   method?: "least_squares" | "ellipse" | "intensity" | "gradient";
@@ -402,8 +422,8 @@ export interface DetectOptions {
   polarity?: "auto" | "bright" | "dark";
   /** ["grey"] the luma plane of a colour JPEG as stored; of other colour pictures 0.2126 R + 0.7152 G + 0.0722 B */
   channel?: "grey" | "red" | "green" | "blue";
-  /** ["none"] */
-  codes?: "none" | "ring-12" | "ring-14" | "ring-16" | "ring-20" | "auto";
+  /** Which ring codes are read; "auto": those of the one family that explains every ring of the photo ["none"] */
+  codes?: "none" | CodeFamily | "auto";
   /** Smallest full axis of a target in pixels [5]. */
   min_diameter?: number;
   /** Largest full axis of a target in pixels [400]. */
@@ -437,6 +457,10 @@ export interface Target {
   contrast: number;
   polarity: "bright" | "dark";
   code: number | null;
+  /** Family of the code. */
+  code_family: CodeFamily | null;
+  /** The codes that the ring may be where it is not safely one, and the readings of a ring that is a code of several families. */
+  code_candidates: CodeCandidate[];
   quality: Quality;
 }
 
@@ -504,13 +528,22 @@ export interface Doubtful {
   /** Number of the target in its photo, where it has one. */
   target?: number;
   points: string[];
-  reason: "duplicate_code" | "ambiguous" | "disagrees";
+  reason: "duplicate_code" | "code_family" | "code_unclear" | "ambiguous" | "disagrees";
+}
+
+export interface NameCodedOptions {
+  /** Family of the codes [null: the one that alone explains every ring of all photos]. */
+  family?: CodeFamily | null;
 }
 
 export interface Coded {
   points: Point[];
   observations: Observation[];
   doubtful: Doubtful[];
+  /** The family whose codes were taken. */
+  family: CodeFamily | null;
+  /** The families that explain every ring; several when one has to be chosen, none when the rings are of different ones. */
+  families: CodeFamily[];
 }
 
 /** An approximate measurement: a point seen at a place of a photo. */

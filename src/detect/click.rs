@@ -2,8 +2,8 @@
 
 use super::measure::{Found, Measure};
 use super::picture::noise;
-use super::{Outline, Plane, read_codes, search};
-use crate::detection::{DetectOptions, Detection, Method, MethodResult, Target};
+use super::{Outline, Plane, code, search};
+use crate::detection::{DetectOptions, Method, MethodResult, Target};
 use crate::image::Sample;
 
 /// Sizes of the window in pixels; the next one is tried when the click hits no target in the last.
@@ -14,10 +14,9 @@ const BESIDE: f64 = 4.0;
 /// The target under the click, or the nearest one within a few pixels of it.
 pub(super) fn measure<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Option<Target> {
     let method = options.method;
-    let target = at(plane, u, v, options, |measure, found| measure.finish(found, method).ok())?;
-    let mut detection = Detection { targets: vec![target], ..Detection::default() };
-    read_codes(&plane, &mut detection, options.codes);
-    detection.targets.pop()
+    let mut target = at(plane, u, v, options, |measure, found| measure.finish(found, method).ok())?;
+    code::read_all(&plane, std::slice::from_mut(&mut target), options.codes);
+    Some(target)
 }
 
 /// Every method's measurement of the target under the click.

@@ -1,139 +1,221 @@
 //! Reading ring codes.
 //!
-//! Around the dot of radius 1 lies a gap to radius 2 and a ring from 2 to 3, divided into n equal sectors of the dot's grey
-//! (1) or the background's (0). The dot's ellipse maps the circle of each radius into the photo, so that tilt and rotation
-//! do not matter. The ring is sampled at radii around 2.5 in many directions; the division into n sectors whose
-//! levels are purest is the code's phase. A bit's margin is its distance from the half-way level, 1 when it is as clear as
-//! dot and background; the code's margin is that of its worst bit.
+//! A ring is read as a picture of a model: dot, gap, n equal sectors of one of two levels, and clear ground outside, all
+//! blurred as the dot's own rim is. [`polar`] samples it, [`radial`] separates gap, ring and outside in each direction,
+//! [`sectors`] divides the ring into sectors; here it is decided what that is.
+//!
+//! A ring is a code when every sector is clearly one of two levels and the same at its inner and its outer half, when the
+//! gap is clear, and the ground outside beside each set sector, when sectors end on the grid of n and not better on that of
+//! another family, and when the family has the code. Where a few sectors only leave a doubt, the codes that remain are its
+//! candidates. A margin is a level's distance from half-way, 1 when it is as clear as dot and background; the code's
+//! margin is that of its worst sector.
 
-use std::sync::OnceLock;
+mod parts;
+mod polar;
+mod radial;
+mod sectors;
+mod vote;
+
+use std::cell::OnceCell;
 
 use super::outline::Outline;
-use crate::detection::Codes;
+use crate::detection::{Codes, Polarity, Target};
 use crate::image::{Plane, Sample};
-use crate::ring_code::{smallest_rotation, valid_codes};
+use crate::ring_code::{Design, Family, smallest_rotation};
+use polar::Frame;
+use radial::Radial;
+use sectors::Division;
 
-/// Directions in which the ring is sampled: a multiple of 12, 14, 16 and 20.
-const DIRECTIONS: usize = 1680 / 4;
-/// Inner and outer radius of the ring, in radii of the dot.
-pub(crate) const RING: (f64, f64) = (2.0, 3.0);
-/// Smallest margin that is safe.
-const SAFE: f64 = 0.3;
+pub(super) use parts::{drop_parts, settle_grounds};
+pub(super) use vote::read_all;
 
-/// A family of ring codes: the number of bits, and the valid codes in the order of their numbers.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Family {
-    pub bits: u32,
-    codes: &'static [u32],
-}
-
-impl Family {
-    /// Families that a choice allows.
-    pub fn of(codes: Codes) -> Vec<Self> {
-        // the list of 20 bits takes a while: it is made once
-        static LISTS: [OnceLock<Vec<u32>>; 4] = [const { OnceLock::new() }; 4];
-        let all = [12, 14, 16, 20];
-        let wanted: &[u32] = match codes {
-            Codes::None => &[],
-            Codes::Ring12 => &[12],
-            Codes::Ring14 => &[14],
-            Codes::Ring16 => &[16],
-            Codes::Ring20 => &[20],
-            Codes::Auto => &all,
-        };
-        all.into_iter()
-            .zip(&LISTS)
-            .filter(|(bits, _)| wanted.contains(bits))
-            .map(|(bits, list)| Self { bits, codes: list.get_or_init(|| valid_codes(bits)) })
-            .collect()
-    }
-
-    /// Number of a code given as its smallest rotation; none when it is not valid.
-    fn number(&self, code: u32) -> Option<u32> {
-        self.codes.iter().position(|&c| c == code).map(|place| place as u32 + 1)
-    }
-}
+/// Smallest margin of a sector that is safe, and how many of its standard errors it must be.
+const SAFE: f64 = 0.42;
+const SIGMAS: f64 = 4.5;
+/// Levels of set and unset sectors, as shares of the dot's contrast.
+const HIGH: std::ops::Range<f64> = 0.6..1.5;
+const LOW: f64 = 0.25;
+/// Largest share of the contrast that may stand in the gap and outside of a set sector, and by which the halves of a
+/// sector may differ.
+const CLEAR: f64 = 0.38;
+const HALVES: f64 = 0.45;
+/// The same on the mean over the set sectors: what a ring of another size leaves there.
+const MEAN_CLEAR: f64 = 0.22;
+const MEAN_HALVES: f64 = 0.3;
+/// How far, as a share of the contrast, a sector may be from the level it has; further only by chance.
+const OFF: f64 = 0.24;
+/// Largest rms of what the sectors leave unexplained, over their contrast.
+const MISFIT: f64 = 0.2;
+/// Ratio of the squares of two divisions' misfits from which the other one is the right one, and from which it may be.
+const BETTER: f64 = 1.6;
+const AS_GOOD: f64 = 0.8;
+/// Most sectors that may be in doubt.
+const DOUBTFUL: usize = 3;
 
 /// What was read around a dot.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Reading {
+enum Reading {
     /// No ring there.
     Plain,
     /// A ring that is safely one code.
     Code { number: u32, margin: f64 },
-    /// A ring that is not safely read, and why.
-    Unsafe { margin: f64, note: String },
+    /// A ring that may be one of these codes, and why it is not safely read.
+    Doubtful { numbers: Vec<u32>, margin: f64, note: &'static str },
+    /// A ring, and why it is no code.
+    NoCode { margin: f64, note: &'static str },
 }
 
-/// Grey levels of a dot: inside and outside.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct DotLevels {
-    pub dot: f64,
-    pub background: f64,
+/// Whether the dots of these codes have spots in their centres.
+pub(super) fn have_spots(codes: Codes) -> bool {
+    codes.families().iter().any(|family| family.design().spot() > 0.0)
 }
 
-/// Reads the ring around a dot as a code of the family.
-pub(crate) fn read<T: Sample>(plane: &Plane<T>, dot: &Outline, levels: DotLevels, family: &Family) -> Reading {
-    let share = |level: f64| (level - levels.background) / (levels.dot - levels.background);
-    let ring = |radius: f64| -> Option<Vec<f64>> {
-        let ellipse = dot.scaled(radius);
-        super::edge::rim_points(&ellipse, DIRECTIONS)
-            .map(|rim| {
-                plane.holds(rim.x, rim.y, 0.0).then(|| share(f64::from(plane.sample(rim.x as f32, rim.y as f32))))
-            })
-            .collect()
-    };
-    let radii = [2.3, 2.5, 2.7].map(ring);
-    let [Some(inner), Some(middle), Some(outer)] = radii else {
-        return Reading::Plain;
-    };
-    let profile: Vec<f64> =
-        inner.iter().zip(&middle).zip(&outer).map(|((a, b), c)| a.max(b.min(*c)).min(b.max(*c))).collect();
-    let set = profile.iter().filter(|&&level| level > 0.5).count();
-    if set * 2 < DIRECTIONS / family.bits as usize {
-        return Reading::Plain;
-    }
-    let unsafe_ = |margin: f64, note: &str| Reading::Unsafe { margin, note: note.to_owned() };
-    let gap =
-        ring(1.5).map_or(1.0, |gap| gap.iter().filter(|level| level.abs() > 0.5).count() as f64 / DIRECTIONS as f64);
-    if gap > 0.15 {
-        return unsafe_(0.0, "the gap between dot and ring is not clear");
-    }
-    let (bits, margin) = divide(&profile, family.bits as usize);
-    let code = smallest_rotation(bits, family.bits);
-    if margin < SAFE {
-        return unsafe_(margin, "a bit lies between light and dark");
-    }
-    match family.number(code) {
-        Some(number) => Reading::Code { number, margin },
-        None => unsafe_(margin, "the bits are no code of the family"),
-    }
+/// Ellipse of a target.
+pub fn outline_of(target: &Target) -> Outline {
+    Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle)
 }
 
-/// The purest division into `bits` sectors: the bits, the first direction's sector first, and the margin.
-fn divide(profile: &[f64], bits: usize) -> (u32, f64) {
-    let width = profile.len() / bits;
-    // sectors are judged without their ends, where blur mixes neighbours
-    let trim = width / 5;
-    let mut best = (0, -1.0, -1.0);
-    for phase in 0..width {
-        let (mut code, mut margin, mut purity) = (0u32, 1.0f64, 0.0);
-        for sector in 0..bits {
-            let from = phase + sector * width;
-            let mut sum = 0.0;
-            for k in trim..width - trim {
-                let level = profile[(from + k) % profile.len()].clamp(0.0, 1.0);
-                sum += level;
-                purity += (2.0 * level - 1.0).abs();
+/// Reads the ring around a target as a code of each of the families.
+fn read<T: Sample>(plane: &Plane<T>, target: &Target, families: &[Family]) -> Vec<Reading> {
+    let mut readings = vec![Reading::Plain; families.len()];
+    if !radial::may_have_ring(plane, target) {
+        return readings;
+    }
+    for design in [Design::Schneider, Design::Metashape] {
+        if families.iter().all(|family| family.design() != design) {
+            continue;
+        }
+        let Some(radial) = straightest(plane, target, design) else { continue };
+        let divisions = Divisions::default();
+        for (family, reading) in families.iter().zip(&mut readings) {
+            if family.design() == design {
+                *reading = judge(*family, &radial, &divisions);
             }
-            let mean = sum / (width - 2 * trim) as f64;
-            margin = margin.min((2.0 * mean - 1.0).abs());
-            code = code << 1 | u32::from(mean > 0.5);
-        }
-        let score = purity / profile.len() as f64 + margin;
-        if score > best.2 {
-            best = (code, margin, score);
         }
     }
-    (best.0, best.1)
+    readings
+}
+
+/// Numbers of sectors that families have, and others that may be mistaken for them.
+const DIVISIONS: [u32; 8] = [12, 14, 16, 20, 13, 15, 18, 22];
+
+/// Divisions of a ring into each of these numbers, made when they are needed.
+#[derive(Default)]
+struct Divisions([OnceCell<Option<Division>>; 8]);
+
+impl Divisions {
+    fn of(&self, radial: &Radial, bits: u32) -> Option<&Division> {
+        let at = DIVISIONS.iter().position(|n| *n == bits)?;
+        self.0[at].get_or_init(|| radial.divide(bits)).as_ref()
+    }
+}
+
+/// Shift of the ring's middle, in radii, above which the perspective of a target matters.
+const SHIFT: f64 = 0.1;
+
+/// The ring under the perspective that explains it best.
+///
+/// A plane tilted by t at a distance that a target of semi-axis a px sees under a/f has a boost of a sin t / f along its slope; the
+/// slope is that of the minor axis, and f at least 0.6 picture widths.
+fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, design: Design) -> Option<Radial> {
+    let outline = outline_of(target);
+    let (a, b) = outline.semi_axes();
+    let sine = (1.0 - (b / a) * (b / a)).max(0.0).sqrt();
+    let largest = a * sine / (0.6 * plane.width.max(plane.height) as f64);
+    let [inner, outer] = design.ring();
+    let moves = inner * outer - 1.0;
+    if largest * moves < SHIFT {
+        return Radial::of(plane, target, &Frame::new(outline, 0.0), design);
+    }
+    let steps = (largest * moves / SHIFT).ceil().min(4.0);
+    let of = |size: f64| Radial::of(plane, target, &Frame::new(outline, size), design).map(|radial| (size, radial));
+    let better = |a: (f64, Radial), b: (f64, Radial)| if b.1.misfit < a.1.misfit { b } else { a };
+    let all = (-(steps as i32)..=steps as i32).map(|k| largest * f64::from(k) / steps);
+    let mut best = all.filter_map(of).reduce(better)?;
+    for half in [0.5, 0.25] {
+        let step = half * largest / steps;
+        let around = [best.0 - step, best.0 + step].into_iter().filter_map(of);
+        best = around.fold(best, better);
+    }
+    Some(best.1)
+}
+
+/// What a ring is as a code of a family, given its divisions into the sectors of every family of its design.
+fn judge(family: Family, radial: &Radial, divisions: &Divisions) -> Reading {
+    let Some(division) = divisions.of(radial, family.bits()) else { return Reading::Plain };
+    let (low, high) = (division.low, division.high);
+    let scale = high - low;
+    if !HIGH.contains(&high) || low.abs() > LOW {
+        return Reading::Plain;
+    }
+    let middle = (low + high) / 2.0;
+    let n = family.bits() as usize;
+    let margin_of = |k: usize| ((division.levels[k] - middle).abs() / (scale / 2.0)).min(1.0);
+    let margin = (0..n).map(margin_of).fold(1.0, f64::min);
+    let [gap, halves, outside] =
+        [&radial.gap, &radial.halves, &radial.outside].map(|levels| division.sectors(&radial.polar, levels));
+    let disturbed = |k: usize| {
+        gap[k].abs() > CLEAR * scale
+            || halves[k].abs() > HALVES * scale
+            || division.is_set(k) && outside[k] > CLEAR * scale
+    };
+    let off = |k: usize| (division.levels[k] - if division.is_set(k) { high } else { low }).abs();
+    let unclear = |k: usize| {
+        off(k) > (OFF * scale).max(SIGMAS * division.sigmas[k])
+            || margin_of(k) < SAFE
+            || (division.levels[k] - middle).abs() < SIGMAS * division.sigmas[k]
+            || disturbed(k)
+    };
+    let in_doubt: Vec<usize> = (0..n).filter(|k| unclear(*k)).collect();
+    if in_doubt.len() > DOUBTFUL || division.misfit > MISFIT {
+        return Reading::Plain;
+    }
+    let set: Vec<usize> = (0..n).filter(|k| division.is_set(*k)).collect();
+    let mean = |levels: &[f64]| set.iter().map(|k| levels[*k]).sum::<f64>() / set.len().max(1) as f64 / scale;
+    if mean(&gap).abs() > MEAN_CLEAR || mean(&outside) > MEAN_CLEAR || mean(&halves).abs() > MEAN_HALVES {
+        return Reading::Plain;
+    }
+    // a ring shows in sectors that are beyond doubt
+    if set.iter().filter(|k| !in_doubt.contains(k)).count() < 2 {
+        return Reading::Plain;
+    }
+    let others = DIVISIONS.into_iter().filter(|bits| *bits != family.bits()).filter_map(|n| divisions.of(radial, n));
+    let best =
+        others.filter(|other| !other.same_arcs(division)).map(|other| other.misfit).fold(f64::INFINITY, f64::min);
+    let ratio = (division.misfit / best).powi(2);
+    if ratio > BETTER {
+        return Reading::Plain;
+    }
+    let number = |bits: u32| family.number(smallest_rotation(bits, family.bits()));
+    let mut numbers: Vec<u32> = (0..1u32 << in_doubt.len())
+        .filter_map(|choice| {
+            let flips = in_doubt.iter().enumerate().filter(|(i, _)| choice >> i & 1 == 1);
+            number(flips.fold(division.bits, |bits, (_, k)| bits ^ 1 << (n - 1 - k)))
+        })
+        .collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    if numbers.is_empty() {
+        let note = if division.bits.count_ones() as usize == n {
+            "the ring is set all around"
+        } else {
+            "the bits are no code of the family"
+        };
+        return Reading::NoCode { margin, note };
+    }
+    let note = if in_doubt.iter().any(|k| disturbed(*k)) {
+        "something lies beside the ring or on it"
+    } else if !in_doubt.is_empty() {
+        "a sector lies between light and dark"
+    } else if ratio > AS_GOOD {
+        "the sectors may be those of another family"
+    } else {
+        return Reading::Code { number: numbers[0], margin };
+    };
+    Reading::Doubtful { numbers, margin, note }
+}
+
+/// Sign of a target's contrast: inside less outside.
+fn sign(target: &Target) -> f64 {
+    if target.polarity == Polarity::Bright { 1.0 } else { -1.0 }
 }

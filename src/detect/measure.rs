@@ -1,10 +1,9 @@
 //! One target: from a rough outline to a centre with its covariance, or the reason why there is none.
 
 use super::centroid::{self, Centre};
-use super::code::DotLevels;
 use super::edges::blur::{self, BLURRED, DEFOCUSED, SHARP, SOFT};
 use super::edges::edge::{self, Edges};
-use super::edges::look;
+use super::edges::look::{self, DotLevels};
 use super::edges::propagation;
 use super::edges::quality;
 use super::edges::surround::{self, Surround};
@@ -327,6 +326,8 @@ impl<'a, T: Sample> Measure<'a, T> {
             contrast,
             polarity: if found.bright { Polarity::Bright } else { Polarity::Dark },
             code: None,
+            code_family: None,
+            code_candidates: Vec::new(),
             quality: Quality {
                 fit_rms,
                 noise: surround.noise,

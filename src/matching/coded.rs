@@ -1,11 +1,13 @@
-//! Coded targets name themselves.
+//! Coded targets name themselves, when it is known which family they are of.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
 use super::{Doubt, Doubtful, PhotoTargets, observed};
+use crate::detection::Target;
 use crate::project::{Observation, Point};
+use crate::ring_code::Family;
 
 /// What the codes say.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -14,34 +16,94 @@ pub struct Coded {
     pub points: Vec<Point>,
     /// Their observations, photo by photo in the order given.
     pub observations: Vec<Observation>,
-    /// Targets whose code occurs more than once in their photo: at most one of them can be right.
+    /// Targets whose code occurs more than once in their photo: at most one of them can be right. And rings whose family is
+    /// not known.
     pub doubtful: Vec<Doubtful>,
+    /// The family whose codes were taken: the one asked for, or the only one that explains every ring of every photo.
+    #[serde(default)]
+    pub family: Option<Family>,
+    /// The families that explain every ring. Several: somebody has to choose. None although rings were read: they are of
+    /// different families.
+    #[serde(default)]
+    pub families: Vec<Family>,
 }
 
-/// Points and observations of the coded targets.
+/// How a target's ring reads in a family.
+enum Reading {
+    Safe(u32),
+    Doubtful,
+    Nothing,
+}
+
+fn reading(target: &Target, family: Family) -> Reading {
+    match target.code_in(family) {
+        Some(number) => Reading::Safe(number),
+        None if target.code_candidates.iter().any(|c| c.family == family) => Reading::Doubtful,
+        None => Reading::Nothing,
+    }
+}
+
+/// The families that read, or leave in doubt, every ring that any family reads safely, and the number of such rings.
+fn explaining(photos: &[PhotoTargets]) -> (Vec<Family>, usize) {
+    let safe = |target: &&Target| target.code.is_some() || target.code_candidates.iter().any(|c| c.margin > 0.0);
+    let rings: Vec<&Target> = photos.iter().flat_map(|photo| &photo.targets).filter(safe).collect();
+    let named: BTreeSet<Family> = rings
+        .iter()
+        .flat_map(|ring| ring.code_family.into_iter().chain(ring.code_candidates.iter().map(|c| c.family)))
+        .collect();
+    let explains = |family: &Family| rings.iter().all(|ring| !matches!(reading(ring, *family), Reading::Nothing));
+    (named.into_iter().filter(explains).collect(), rings.len())
+}
+
+/// Points and observations of the coded targets, with the family that alone explains the rings of all photos together, or with
+/// the one that is asked for.
 ///
 /// A code that occurs more than once in a photo names none of its targets there. A point is listed once it has an
 /// observation, even a single one: the later steps say what is missing.
-pub fn name_coded(photos: &[PhotoTargets]) -> Coded {
-    let mut coded = Coded::default();
+pub fn name_coded(photos: &[PhotoTargets], family: Option<Family>) -> Coded {
+    let (families, rings) = explaining(photos);
+    let single = if let [family] = families[..] { Some(family) } else { None };
+    let taken = family.or(single);
+    let mut coded = Coded { family: taken, families, ..Coded::default() };
+    // numbers of targets that come without a family stand for themselves
+    let bare = photos
+        .iter()
+        .flat_map(|photo| &photo.targets)
+        .all(|target| target.code_family.is_none() && target.code_candidates.is_empty());
+    let number = |target: &Target| match taken {
+        Some(family) => match reading(target, family) {
+            Reading::Safe(number) => Some(number),
+            _ => None,
+        },
+        None => target.code.filter(|_| bare),
+    };
     let mut codes: BTreeMap<u32, ()> = BTreeMap::new();
     for photo in photos {
         let mut count: BTreeMap<u32, usize> = BTreeMap::new();
-        for code in photo.targets.iter().filter_map(|t| t.code) {
+        for code in photo.targets.iter().filter_map(number) {
             *count.entry(code).or_default() += 1;
         }
         for target in &photo.targets {
-            let Some(code) = target.code else { continue };
+            let doubt = |points: Vec<String>, reason| Doubtful {
+                photo: photo.photo.clone(),
+                u: target.u,
+                v: target.v,
+                target: target.number(),
+                points,
+                reason,
+            };
+            let Some(code) = number(target) else {
+                if rings > 0 && taken.is_none() && (target.code.is_some() || !target.code_candidates.is_empty()) {
+                    coded.doubtful.push(doubt(Vec::new(), Doubt::CodeFamily));
+                } else if taken.is_some_and(|family| matches!(reading(target, family), Reading::Doubtful)) {
+                    let mine = target.code_candidates.iter().filter(|c| Some(c.family) == taken);
+                    coded.doubtful.push(doubt(mine.map(|c| c.number.to_string()).collect(), Doubt::CodeUnclear));
+                }
+                continue;
+            };
             let point = code.to_string();
             if count[&code] > 1 {
-                coded.doubtful.push(Doubtful {
-                    photo: photo.photo.clone(),
-                    u: target.u,
-                    v: target.v,
-                    target: target.number(),
-                    points: vec![point],
-                    reason: Doubt::DuplicateCode,
-                });
+                coded.doubtful.push(doubt(vec![point], Doubt::DuplicateCode));
                 continue;
             }
             codes.insert(code, ());
@@ -55,22 +117,61 @@ pub fn name_coded(photos: &[PhotoTargets]) -> Coded {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::detection::CodeCandidate;
     use crate::matching::target;
-    #[cfg(target_arch = "wasm32")]
-    use wasm_bindgen_test::wasm_bindgen_test as test;
-
     #[test]
     fn codes_name_targets_and_duplicates_are_doubtful() {
         let photo = |id: &str, codes: &[Option<u32>]| PhotoTargets {
             photo: id.into(),
             targets: codes.iter().enumerate().map(|(k, c)| target(10.0 * k as f64, 5.0, *c)).collect(),
         };
-        let coded = name_coded(&[photo("a", &[Some(12), None, Some(3), Some(12)]), photo("b", &[Some(12)])]);
+        let coded = name_coded(&[photo("a", &[Some(12), None, Some(3), Some(12)]), photo("b", &[Some(12)])], None);
         let ids: Vec<&str> = coded.points.iter().map(|p| p.id.as_str()).collect();
         assert_eq!(ids, ["3", "12"]);
         let seen: Vec<(&str, &str)> = coded.observations.iter().map(|o| (o.photo.as_str(), o.point.as_str())).collect();
         assert_eq!(seen, [("a", "3"), ("b", "12")]);
         assert_eq!(coded.doubtful.len(), 2);
         assert_eq!((coded.doubtful[1].u, coded.doubtful[1].reason), (30.0, Doubt::DuplicateCode));
+    }
+
+    fn ring(readings: &[(Family, u32, f64)]) -> Target {
+        let candidate = |&(family, number, margin): &(Family, u32, f64)| CodeCandidate { family, number, margin };
+        Target { code_candidates: readings.iter().map(candidate).collect(), ..target(1.0, 2.0, None) }
+    }
+
+    fn photos(rings: Vec<Vec<Target>>) -> Vec<PhotoTargets> {
+        let photo = |(k, targets): (usize, Vec<Target>)| PhotoTargets { photo: k.to_string(), targets };
+        rings.into_iter().enumerate().map(photo).collect()
+    }
+
+    #[test]
+    fn the_rings_of_all_photos_together_show_their_family() {
+        use Family::{Ring12, Ring20};
+        // alone the first photo could be of two families; the second tells them apart, its last ring is half hidden
+        let either = ring(&[(Ring12, 5, 0.9), (Ring20, 77, 0.9)]);
+        let twelve = ring(&[(Ring12, 9, 0.8)]);
+        let unclear = ring(&[(Ring12, 3, 0.0), (Ring12, 4, 0.0)]);
+        let alone = name_coded(&photos(vec![vec![either.clone()]]), None);
+        assert_eq!((alone.family, &alone.families[..]), (None, &[Ring12, Ring20][..]));
+        assert_eq!((alone.observations.len(), alone.doubtful[0].reason), (0, Doubt::CodeFamily));
+        let asked = name_coded(&photos(vec![vec![either.clone()]]), Some(Ring20));
+        assert_eq!(asked.observations[0].point, "77");
+        let together = name_coded(&photos(vec![vec![either.clone()], vec![twelve.clone(), unclear]]), None);
+        assert_eq!((together.family, &together.families[..]), (Some(Ring12), &[Ring12][..]));
+        let points: Vec<_> = together.observations.iter().map(|o| o.point.as_str()).collect();
+        assert_eq!(points, ["5", "9"]);
+        assert_eq!((together.doubtful.len(), together.doubtful[0].reason), (1, Doubt::CodeUnclear));
+        assert_eq!(together.doubtful[0].points, ["3", "4"]);
+    }
+
+    #[test]
+    fn rings_of_two_families_name_nothing_until_one_is_chosen() {
+        let mixed = photos(vec![vec![ring(&[(Family::Ring12, 9, 0.8)])], vec![ring(&[(Family::Ring14, 9, 0.8)])]]);
+        let coded = name_coded(&mixed, None);
+        assert!(coded.family.is_none() && coded.families.is_empty() && coded.observations.is_empty());
+        assert_eq!(coded.doubtful.len(), 2);
+        let chosen = name_coded(&mixed, Some(Family::Ring14));
+        assert_eq!(chosen.observations.len(), 1);
+        assert_eq!(chosen.observations[0].photo, "1");
     }
 }

@@ -4,6 +4,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 use super::*;
 use crate::detection::Channel;
 use crate::project::{Interior, Parameter};
+use crate::ring_code::Design;
 use crate::scene::{Face, Patch};
 
 fn camera() -> Camera {
@@ -108,7 +109,7 @@ fn ring_sectors_have_the_area_and_the_place_of_their_bits() {
     let mut coded = disc([0.0; 3]);
     coded.normal = [0.0, 0.0, 1.0];
     coded.patch = Some(Patch { ratio: 4.0, grey: 0.1 });
-    coded.ring = Some(Ring { sectors: 4, code: 0b1000 });
+    coded.ring = Some(Ring { sectors: 4, code: 0b1000, design: Design::Schneider });
     let mut camera = camera();
     camera.interior = Interior::brown(4.0);
     let scene = |discs| Scene { discs, background: 0.1, ..Scene::default() };
@@ -130,7 +131,7 @@ fn ring_sectors_have_the_area_and_the_place_of_their_bits() {
 
 #[test]
 fn bits_run_clockwise_as_seen() {
-    let count = |code: u32| sectors(Ring { sectors: 8, code }).collect::<Vec<_>>();
+    let count = |code: u32| sectors(Ring { sectors: 8, code, design: Design::Schneider }).collect::<Vec<_>>();
     assert_eq!(count(0b1000_0001), [[0.0, 0.125], [0.875, 1.0]]);
     // In the picture a growing turn goes from right to down when a1 points right.
     let (camera, pose, disc) = (camera(), pose(), Disc { normal: [0.0, 0.0, 1.0], ..disc([0.0; 3]) });

@@ -1,14 +1,15 @@
 //! Ring codes of every family, turned, tilted, blurred, in uneven light: read rightly or not at all.
 
+use crate::coded_patch::{Kind, coded_patch};
+use crate::data::data;
 use crate::painter::Uniform;
+use sightline::decode;
 use sightline::detect::detect;
-use sightline::detection::{Codes, DetectOptions, Detection, Reason};
+use sightline::detection::{Channel, Codes, DetectOptions, Detection, Reason};
 use sightline::image::{GreyView, SamplesView};
 use sightline::noise::Noise;
-use sightline::ring_code::valid_codes;
+use sightline::ring_code::Family;
 
-const FAMILIES: [(u32, Codes); 4] =
-    [(12, Codes::Ring12), (14, Codes::Ring14), (16, Codes::Ring16), (20, Codes::Ring20)];
 /// Targets a row and a column of a picture, and their distance in pixels.
 const COUNT: usize = 6;
 const PITCH: usize = 110;
@@ -32,23 +33,25 @@ struct Coded {
 
 impl Coded {
     /// Narrowest width of a bit in the middle of the ring, in pixels.
-    fn bit_px(&self, bits: u32) -> f64 {
-        2.5 * self.radius * self.squeeze * std::f64::consts::TAU / f64::from(bits)
+    fn bit_px(&self, family: Family) -> f64 {
+        let ([inner, outer], bits) = (family.design().ring(), family.bits());
+        (inner + outer) / 2.0 * self.radius * self.squeeze * std::f64::consts::TAU / f64::from(bits)
     }
 
     /// Whether a place shows the dot's colour.
-    fn is_marked(&self, x: f64, y: f64, bits: u32) -> bool {
+    fn is_marked(&self, x: f64, y: f64, family: Family) -> bool {
+        let ([inner, outer], bits) = (family.design().ring(), family.bits());
         let (sine, cosine) = self.axis.sin_cos();
         let (dx, dy) = (x - self.u, y - self.v);
         let (along, across) = (dx * cosine + dy * sine, (dy * cosine - dx * sine) / self.squeeze);
         let radius = along.hypot(across) / self.radius;
         if radius < 1.0 {
-            return true;
+            return radius >= family.design().spot();
         }
         // clockwise as seen: v points down
         let turn = (across.atan2(along) - self.start).rem_euclid(std::f64::consts::TAU) / std::f64::consts::TAU;
         let sector = ((turn * f64::from(bits)) as u32).min(bits - 1);
-        (2.0..3.0).contains(&radius) && self.code >> (bits - 1 - sector) & 1 == 1
+        (inner..outer).contains(&radius) && self.code >> (bits - 1 - sector) & 1 == 1
     }
 }
 
@@ -58,7 +61,12 @@ struct Plate {
     samples: Vec<u8>,
 }
 
-fn plate(bits: u32, codes: &[u32], blur: f64, dark: bool, random: &mut Uniform, seed: u64) -> Plate {
+fn plate(family: Family, blur: f64, dark: bool, random: &mut Uniform, seed: u64) -> Plate {
+    plate_of(family, family.codes(), blur, dark, random, seed)
+}
+
+/// The same of these codes only.
+fn plate_of(family: Family, codes: &[u32], blur: f64, dark: bool, random: &mut Uniform, seed: u64) -> Plate {
     let size = COUNT * PITCH;
     let coded: Vec<Coded> = (0..COUNT * COUNT)
         .map(|k| {
@@ -68,12 +76,12 @@ fn plate(bits: u32, codes: &[u32], blur: f64, dark: bool, random: &mut Uniform, 
             Coded {
                 u: place(k % COUNT, random),
                 v: place(k / COUNT, random),
-                radius: random.within(5.0, 16.0),
+                radius: random.within(5.0, 14.0),
                 squeeze,
                 axis: random.within(0.0, std::f64::consts::PI),
                 start: random.within(0.0, std::f64::consts::TAU),
                 code: codes[index],
-                number: index as u32 + 1,
+                number: family.number(codes[index]).expect("a code"),
             }
         })
         .collect();
@@ -84,7 +92,7 @@ fn plate(bits: u32, codes: &[u32], blur: f64, dark: bool, random: &mut Uniform, 
         for y in top..top + PITCH * FINE {
             for x in left..left + PITCH * FINE {
                 let [px, py] = [x, y].map(|i| (i as f64 + 0.5) / FINE as f64);
-                marked[y * fine + x] = f32::from(u8::from(target.is_marked(px, py, bits)));
+                marked[y * fine + x] = f32::from(u8::from(target.is_marked(px, py, family)));
             }
         }
     }
@@ -132,19 +140,21 @@ fn read(plate: &Plate, codes: Codes) -> Detection {
 fn every_family_is_read_rightly_or_not_at_all() {
     let mut random = Uniform(1);
     let (mut legible, mut read_of_all, mut parts) = (0, 0, 0);
-    for (bits, family) in FAMILIES {
-        let codes = valid_codes(bits);
-        for (seed, blur, dark) in [(1, 0.6, false), (2, 0.9, true), (3, 1.2, false)] {
-            let plate = plate(bits, &codes, blur, dark, &mut random, seed);
-            let found = read(&plate, family);
-            assert_eq!(read(&plate, Codes::Auto), found, "auto reads another family than {bits}");
+    for family in Family::ALL {
+        for (seed, blur, dark) in [(1, 0.6, false), (2, 1.1, true)] {
+            let plate = plate(family, blur, dark, &mut random, seed);
+            let found = read(&plate, family.into());
+            let codes = |detection: &Detection| -> Vec<_> {
+                detection.targets.iter().map(|t| (t.u, t.v, t.code, t.code_family)).collect()
+            };
+            assert_eq!(codes(&read(&plate, Codes::Auto)), codes(&found), "auto reads another family than {family:?}");
             parts += found.rejected.get(&Reason::CodeRing).copied().unwrap_or(0);
             let dot =
                 |target: &&Coded| found.targets.iter().find(|dot| (dot.u - target.u).hypot(dot.v - target.v) < 2.0);
             for target in &plate.coded {
                 let number = dot(&target).and_then(|dot| dot.code);
                 assert!(number.is_none_or(|number| number == target.number), "{number:?} for {}", target.number);
-                if target.bit_px(bits) >= 2.5 {
+                if target.bit_px(family) >= 2.5 {
                     legible += 1;
                     read_of_all += usize::from(number.is_some());
                 }
@@ -153,12 +163,98 @@ fn every_family_is_read_rightly_or_not_at_all() {
             let lost = plate.coded.iter().filter(|target| dot(target).and_then(|dot| dot.code).is_none());
             let lost: Vec<_> = lost.collect();
             for target in found.targets.iter().filter(|target| target.code.is_none()) {
-                let beside = lost.iter().any(|dot| (dot.u - target.u).hypot(dot.v - target.v) < 3.2 * dot.radius);
-                assert!(beside, "{bits} bits: a part of a ring at {} {}", target.u, target.v);
+                let beside = lost.iter().any(|dot| (dot.u - target.u).hypot(dot.v - target.v) < 3.8 * dot.radius);
+                assert!(beside, "{family:?}: a part of a ring at {} {}", target.u, target.v);
             }
         }
     }
     println!("{read_of_all} of {legible} codes read, {parts} parts of rings left out");
     assert!(100 * read_of_all >= 97 * legible, "{read_of_all} of {legible}");
-    assert!(legible > 400 && parts > 0, "{legible} {parts}");
+    assert!(legible > 300 && parts > 0, "{legible} {parts}");
+}
+
+/// Pictures of the short form; `cargo xtask bench codes` draws 200 000.
+const PICTURES: usize = 1200;
+
+#[test]
+fn nothing_that_looks_like_a_code_is_read_as_one() {
+    let mut random = Uniform(42);
+    let (mut legible, mut read_of_all) = (0, 0);
+    for k in 0..PICTURES {
+        let kind = if k % 2 == 0 { Kind::Code } else { Kind::ALL[1 + k / 2 % (Kind::ALL.len() - 1)] };
+        let family = Family::ALL[(random.next() * 8.0) as usize];
+        let patch = coded_patch(kind, family, &mut random);
+        let options = DetectOptions { codes: family.into(), ..DetectOptions::default() };
+        let found = detect(&patch.view(), &options).expect("valid options").targets;
+        let dot = found.iter().find(|t| (t.u - patch.u).hypot(t.v - patch.v) < 1.5 && t.major > 0.6 * patch.diameter);
+        for target in found.iter().filter(|target| target.code.is_some()) {
+            let right = Some(target) == dot && target.code == patch.number && target.code_family == Some(family);
+            assert!(right, "picture {k}, {kind:?} {family:?}: {:?} for {:?}", target.code, patch.number);
+        }
+        // what detection does not find, sharpened pictures above all, is another test's subject
+        if let (Kind::Code, Some(dot)) = (kind, dot.filter(|_| patch.diameter >= 12.0)) {
+            legible += 1;
+            read_of_all += usize::from(dot.code.is_some());
+        }
+    }
+    println!("{read_of_all} of {legible} codes read");
+    assert!(legible > 180 && 100 * read_of_all >= 98 * legible, "{read_of_all} of {legible}");
+}
+
+#[test]
+fn a_ring_of_two_families_is_asked_about_and_another_ring_answers() {
+    // quarters set in turn: a code of 12, of 16 and of 20 sectors
+    let both: Vec<Family> = [Family::Ring12, Family::Ring16, Family::Ring20].into();
+    let quarters = |bits: u32| {
+        let quarter = (1u32 << (bits / 4)) - 1;
+        quarter | quarter << (bits / 2)
+    };
+    let numbers: Vec<_> = both.iter().map(|family| family.number(quarters(family.bits()))).collect();
+    assert!(numbers.iter().all(Option::is_some), "{numbers:?}");
+    let picture = |codes: [u32; 2]| plate_of(Family::Ring12, &codes, 0.7, false, &mut Uniform(5), 1);
+    let alone = read(&picture([quarters(12); 2]), Codes::Auto);
+    let rings: Vec<_> = alone.targets.iter().filter(|t| !t.code_candidates.is_empty()).collect();
+    assert!(!rings.is_empty() && rings.iter().all(|t| t.code.is_none()), "{rings:?}");
+    for ring in &rings {
+        let families: Vec<_> = ring.code_candidates.iter().map(|c| c.family).collect();
+        assert_eq!(families, both);
+    }
+    let answered = read(&picture([quarters(12), Family::Ring12.codes()[70]]), Codes::Auto);
+    let numbers: std::collections::BTreeSet<_> = answered.targets.iter().filter_map(|t| t.code).collect();
+    assert!(numbers.contains(&71) && numbers.contains(&Family::Ring12.number(quarters(12)).expect("a code")));
+    assert!(answered.targets.iter().all(|t| t.code_family.is_none_or(|family| family == Family::Ring12)));
+}
+
+#[test]
+fn photos_of_dots_and_of_anything_have_no_code() {
+    let dots = ["acircles1", "acircles2", "acircles4", "acircles7", "circles1", "circles5", "circles13", "circlesgrid"];
+    let others = [
+        "IMG_0191.jpg",
+        "bark_img4.png",
+        "boat_img4.png",
+        "chelsea.png",
+        "class57.png",
+        "clock_motion.png",
+        "coffee.png",
+        "graf_img2.png",
+        "larroquette.png",
+        "leuven_img4.png",
+        "moon.png",
+        "page.png",
+        "rocket.jpg",
+        "text.png",
+    ];
+    let names =
+        dots.iter().map(|name| format!("{name}.png")).chain(others.iter().map(|name| format!("no-targets/{name}")));
+    for name in names {
+        let Some(bytes) = data(&format!("photos/{name}")) else { return };
+        let grey = decode::grey(&bytes, Channel::Grey).expect("a photo");
+        let view = grey.view().expect("a picture");
+        let with =
+            detect(&view, &DetectOptions { codes: Codes::Auto, ..DetectOptions::default() }).expect("valid options");
+        let without = detect(&view, &DetectOptions::default()).expect("valid options");
+        let read: Vec<_> = with.targets.iter().filter(|t| !t.code_candidates.is_empty() || t.code.is_some()).collect();
+        assert!(read.is_empty(), "{name}: {read:?}");
+        assert_eq!(with.targets.len(), without.targets.len(), "{name}: codes took targets away");
+    }
 }

@@ -3,6 +3,8 @@
 mod aerial;
 mod behaviour;
 mod camera_model;
+#[allow(dead_code, reason = "the benchmark uses the rest")]
+mod coded_patch;
 mod codes;
 mod curved;
 mod damage;

@@ -14,6 +14,7 @@ use sightline::initial::similarity::fit;
 use sightline::matching::{MatchOptions, PhotoTargets, match_uncoded, name_coded, without_gross_errors};
 use sightline::orient::orient;
 use sightline::project::{Camera, DatumKind, Distance, Interior, Parameter, Photo, Project};
+use sightline::ring_code::Family;
 
 const PHOTOS: [&str; 8] =
     ["043_0005", "043_0013", "043_0021", "043_0029", "043_0035", "043_0041", "671_0021", "671_0041"];
@@ -29,8 +30,8 @@ fn reference() -> Option<BTreeMap<u32, Vector3<f64>>> {
     Some(list.lines().filter_map(row).collect())
 }
 
-fn targets() -> Option<Vec<PhotoTargets>> {
-    let options = DetectOptions { codes: Codes::Ring14, ..DetectOptions::default() };
+fn targets(codes: Codes) -> Option<Vec<PhotoTargets>> {
+    let options = DetectOptions { codes, ..DetectOptions::default() };
     let mut all = Vec::new();
     for id in PHOTOS {
         let grey = decode::grey(&data(&format!("panel/{id}_Scaled.tif"))?, Channel::Grey).expect("a TIFF");
@@ -41,7 +42,7 @@ fn targets() -> Option<Vec<PhotoTargets>> {
 }
 
 fn project(targets: &[PhotoTargets], reference: &BTreeMap<u32, Vector3<f64>>) -> Project {
-    let coded = name_coded(targets);
+    let coded = name_coded(targets, None);
     let camera = |id: &str| {
         let unknown = Interior::Brown {
             c: None,
@@ -87,7 +88,7 @@ fn against(project: &Project, reference: &BTreeMap<u32, Vector3<f64>>) -> (usize
 
 #[test]
 fn the_panel_is_measured_from_its_photos() {
-    let (Some(reference), Some(targets)) = (reference(), targets()) else { return };
+    let (Some(reference), Some(targets)) = (reference(), targets(Codes::Ring14)) else { return };
     let project = project(&targets, &reference);
     let oriented = orient(&project).expect("a valid project");
     assert!(oriented.project.photos.iter().all(|p| p.position.is_some()), "{:?}", oriented.notes);
@@ -128,6 +129,15 @@ fn the_panel_is_measured_from_its_photos() {
         println!("{photo}: {named} of {visible} coded targets named");
         assert!(named as f64 >= 0.9 * visible as f64, "{photo}: {named} of {visible}");
     }
+}
+
+#[test]
+fn the_panel_shows_by_itself_which_family_its_codes_are_of() {
+    let (Some(known), Some(open)) = (targets(Codes::Ring14), targets(Codes::Auto)) else { return };
+    let (known, open) = (name_coded(&known, None), name_coded(&open, None));
+    println!("{} codes, {} doubtful", open.observations.len(), open.doubtful.len());
+    assert_eq!((open.family, known.family), (Some(Family::Ring14), Some(Family::Ring14)));
+    assert_eq!(open.observations, known.observations);
 }
 
 /// Reference points carried into the project's system, by number.

@@ -24,7 +24,7 @@ fn the_sample_passes_the_global_test() {
     };
     let photos: Vec<PhotoTargets> = sample::files().into_iter().map(photo).collect();
     let mut project = sample::project().unwrap();
-    let coded = name_coded(&photos);
+    let coded = name_coded(&photos, None);
     project.observations = coded.observations;
     add(&mut project, coded.points);
     let ready = orient(&project).unwrap().project;

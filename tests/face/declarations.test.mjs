@@ -89,6 +89,7 @@ test('every field that the engine returns is declared, and every declared field 
     literal('project', 'S.Project', sightline.importProject('sightline', { 'project.json': text })),
     literal('detection', 'S.Detection', found),
     literal('coded', 'S.Coded', sightline.nameCoded([{ photo: 'a', targets: [...targets, ...targets] }, { photo: 'b', targets }])),
+    literal('spread', 'S.CodeSpread', sightline.spreadCodes('ring-12')),
     literal('snapped', 'S.Snapped', sightline.snapMarks(marks, photos, 3)),
   ];
   assert.equal(complaints(literals.join('\n')), '');
@@ -107,6 +108,7 @@ test('the options that are declared are those that exist', () => {
     ['AdjustOptions', (options) => sightline.adjust(sightline.simulate(network()), options)],
     ['DetectOptions', (options) => sightline.detectGray(1, 1, new Uint8Array(1), options)],
     ['ExperimentOptions', (options) => sightline.runExperiment('film', options)],
+    ['NameCodedOptions', (options) => sightline.nameCoded([], options)],
     ['MatchOptions', (options) => sightline.matchUncoded(sightline.simulate(network()), [], options)],
   ]) {
     const body = declared.split(`export interface ${name} {`)[1].split('\n}')[0];

@@ -7,8 +7,9 @@ use crate::{Outcome, build, suites};
 /// A part: its name on the command line and how it runs.
 type Part = (&'static str, fn() -> Outcome);
 
-const PARTS: [Part; 6] = [
+const PARTS: [Part; 7] = [
     ("detect", detect),
+    ("codes", codes),
     ("border", || script("border")),
     ("growth", || script("growth")),
     ("field", suites::field),
@@ -52,6 +53,11 @@ fn estimation() -> Outcome {
 fn orient() -> Outcome {
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "orient"]))?;
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "orient", "--", "dots"]))
+}
+
+/// Ring codes are drawn and read natively.
+fn codes() -> Outcome {
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "codes"]))
 }
 
 fn script(name: &str) -> Outcome {

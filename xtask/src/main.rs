@@ -23,7 +23,7 @@ cargo xtask <command>
                        leave the page in dist/ and the engine with its JavaScript face in pkg/; with --single-file also
                        dist/sightline.html, the whole page in one file that opens from a disk
   test [suite ...]     run everything, or only the suites named: native wasm face types page
-  bench [part ...]     measure the engine, or only the parts named: detect border growth estimation orient field;
+  bench [part ...]     measure the engine, or only the parts named: detect codes border growth estimation orient field;
                        field kills the page 200 times while it works
   check                licences of the dependency tree, invariants of the code, the code map; works offline";
 

@@ -8,7 +8,6 @@ use wide::f32x4;
 
 use super::edge::rim_points;
 use super::quality;
-use crate::detect::code::DotLevels;
 use crate::detect::ellipse::outline::{Outline, RimPoint};
 use crate::detect::ellipse::rays::Rays;
 use crate::detect::picture::noise::Levels;
@@ -22,6 +21,13 @@ pub(crate) const OUTSIDE: f64 = 2.5;
 
 /// Step, in units of the noise, from which chance hardly hides it in a direction: there two pixels differ by 0.4 of it.
 const CLEAR: f64 = 6.0;
+
+/// Grey levels of a dot: inside and outside.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DotLevels {
+    pub dot: f64,
+    pub background: f64,
+}
 
 /// What was seen.
 #[derive(Clone, Copy, Debug)]

@@ -9,6 +9,9 @@ use crate::detect::ellipse::outline::Outline;
 use crate::detect::search::Candidate;
 use crate::detection::{Detection, Polarity, Reason, Rejected, Target};
 
+/// Largest size of the spot in the centre of a code's dot, in radii of the dot.
+pub(crate) const SPOT: f64 = 0.16;
+
 /// Side of a cell in pixels.
 const CELL: f64 = 64.0;
 
@@ -37,6 +40,9 @@ fn encloses(outer: &Outline, inner: &Outline) -> bool {
 /// Targets and decided places.
 pub(crate) struct Census {
     pub targets: Vec<Target>,
+    /// Discs that were given up for a spot in their centre, where codes may have such.
+    pub grounds: Vec<Target>,
+    spots: bool,
     pub detection: Detection,
     entries: Vec<Entry>,
     /// For each cell the last link of its list of entries, if any.
@@ -47,11 +53,13 @@ pub(crate) struct Census {
 }
 
 impl Census {
-    /// Of a picture of this size, with nothing in it yet.
-    pub fn new(width: usize, height: usize) -> Self {
+    /// Of a picture of this size, with nothing in it yet; `spots` where codes may have spots in their dots.
+    pub fn new(width: usize, height: usize, spots: bool) -> Self {
         let [columns, rows] = [width, height].map(|size| size / CELL as usize + 1);
         Self {
             targets: Vec::new(),
+            grounds: Vec::new(),
+            spots,
             detection: Detection::default(),
             entries: Vec::new(),
             cells: vec![None; columns * rows],
@@ -93,19 +101,33 @@ impl Census {
             return;
         }
         let other = |entry: &&Entry| entry.accepted && entry.bright != bright;
-        if self.near(&outline).filter(other).any(|entry| encloses(&outline, &entry.outline)) {
+        let inner = self.near(&outline).filter(other).find(|entry| encloses(&outline, &entry.outline));
+        if let Some(spot) = inner.map(|entry| entry.outline) {
+            if self.is_spot(&spot, &outline) {
+                self.grounds.push(target);
+                return self.enter(Entry { outline, bright, accepted: false });
+            }
             return self.reject(outline, bright, Reason::NotAnEllipse);
         }
         let grounds: Vec<Outline> = self.near(&outline).filter(other).map(|entry| entry.outline).collect();
         for ground in grounds.iter().filter(|ground| encloses(ground, &outline)) {
-            self.targets.retain(|target| (target.u, target.v) != (ground.u, ground.v));
+            let at = self.targets.iter().position(|target| (target.u, target.v) == (ground.u, ground.v));
+            let given_up = at.map(|at| self.targets.remove(at));
             for entry in self.entries.iter_mut().filter(|entry| entry.outline == *ground) {
                 entry.accepted = false;
             }
-            self.count(&NoBlob::of(ground, Reason::NotAnEllipse));
+            match given_up {
+                Some(disc) if self.is_spot(&outline, ground) => self.grounds.push(disc),
+                _ => self.count(&NoBlob::of(ground, Reason::NotAnEllipse)),
+            }
         }
         self.enter(Entry { outline, bright, accepted: true });
         self.targets.push(target);
+    }
+
+    /// Whether codes are read and one outline is small enough to be the spot in the other's centre.
+    fn is_spot(&self, inner: &Outline, outer: &Outline) -> bool {
+        self.spots && inner.semi_axes().0 < SPOT * outer.semi_axes().0
     }
 
     /// Enters a target that was found before, so that it is not found again.

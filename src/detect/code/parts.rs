@@ -1,0 +1,78 @@
+//! What detection finds in a coded target besides its dot: parts of the ring, and the spot in the dot's centre.
+
+use super::outline_of;
+use crate::detect::outline::Outline;
+use crate::detect::search::census::SPOT;
+use crate::detection::{Detection, Reason, Rejected, Target};
+use crate::ring_code::Design;
+
+/// How far beyond the ring a part of it may reach, in radii.
+const BEYOND: f64 = 0.25;
+
+/// A coded dot with the ring it has.
+fn coded(target: &Target) -> Option<(Outline, Design)> {
+    target.code.and(target.code_family).map(|family| (outline_of(target), family.design()))
+}
+
+/// Takes out what lies within the ring of a code that was read: nothing but its sectors and what they leave fits there.
+pub(crate) fn drop_parts(detection: &mut Detection) {
+    let dots: Vec<_> = detection.targets.iter().filter_map(coded).collect();
+    if dots.is_empty() {
+        return;
+    }
+    let is_part = |target: &Target| {
+        let outline = outline_of(target);
+        let within = |(dot, design): &(Outline, Design)| {
+            let [inner, outer] = design.ring();
+            // centre and both ends of both axes
+            let (a, b, angle) = outline.axes();
+            let (s, c) = angle.sin_cos();
+            let ends = [[0.0, 0.0], [a * c, a * s], [-a * c, -a * s], [-b * s, b * c], [b * s, -b * c]];
+            ends.iter().all(|[x, y]| {
+                let [x, y] = dot.normalised(outline.u + x, outline.v + y);
+                (inner - BEYOND..outer + BEYOND).contains(&x.hypot(y))
+            })
+        };
+        target.code.is_none() && dots.iter().any(within)
+    };
+    take_out(detection, is_part);
+}
+
+/// Puts discs into the place of the spots in their centres, where a code shows that the disc is the target.
+///
+/// Of concentric outlines detection takes the inner one. The outer ones of tiny ones come here as `grounds`: they were read
+/// together with the targets, which they follow from index `from` on.
+pub(crate) fn settle_grounds(detection: &mut Detection, from: usize) {
+    let grounds = detection.targets.split_off(from.min(detection.targets.len()));
+    if grounds.is_empty() {
+        return;
+    }
+    let has_spot = |target: &Target| {
+        let families = target.code_family.into_iter().chain(target.code_candidates.iter().map(|c| c.family));
+        families.into_iter().any(|family| family.design().spot() > 0.0)
+    };
+    let (discs, others): (Vec<_>, Vec<_>) = grounds.into_iter().partition(has_spot);
+    let outlines: Vec<_> = discs.iter().map(outline_of).collect();
+    take_out(detection, |target| {
+        let in_centre = |disc: &Outline| {
+            let [c, s] = disc.normalised(target.u, target.v);
+            c.hypot(s) < SPOT && target.major < 2.0 * SPOT * disc.semi_axes().0
+        };
+        outlines.iter().any(in_centre)
+    });
+    detection.targets.extend(discs);
+    detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
+    for Target { u, v, major, .. } in others {
+        *detection.rejected.entry(Reason::NotAnEllipse).or_default() += 1;
+        detection.rejected_blobs.push(Rejected { u, v, diameter: major, reason: Reason::NotAnEllipse });
+    }
+}
+
+fn take_out(detection: &mut Detection, which: impl Fn(&Target) -> bool) {
+    let (parts, targets) = std::mem::take(&mut detection.targets).into_iter().partition(which);
+    detection.targets = targets;
+    for Target { u, v, major, .. } in parts {
+        *detection.rejected.entry(Reason::CodeRing).or_default() += 1;
+        detection.rejected_blobs.push(Rejected { u, v, diameter: major, reason: Reason::CodeRing });
+    }
+}

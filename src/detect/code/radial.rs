@@ -1,0 +1,207 @@
+//! Gap, ring and outside of a target, separated in each direction.
+//!
+//! Along a ray the levels above the background, as shares of the dot's contrast, are a sum of blurred bands,
+//!
+//! ```text
+//! y(r) = Φ((1 - r) m / s) + gap B[1, r1] + ring B[r1, r2] + halves (B[r1, rm] - B[rm, r2]) / 2 + outside B[r2, r2 + w]
+//! ```
+//!
+//! with m pixels a radius across the rim; least squares over the four. The background is a plane through what dot and ring
+//! leave of each direction.
+
+use nalgebra::{Matrix2, Matrix3, Matrix4, Vector2, Vector3, Vector4};
+
+use super::polar::{Frame, Polar, between, radius, step};
+use super::sectors::{self, Division};
+use super::{outline_of, sign};
+use crate::detection::Target;
+use crate::image::{Plane, Sample};
+use crate::ring_code::Design;
+
+/// Radii of the dot where its level is taken: clear of a spot in its centre and of its rim.
+const INSIDE: [f64; 3] = [0.3, 0.5, 0.7];
+/// Where the first sample lies, and how far outside of the ring the ground must be clear.
+const START: f64 = 1.2;
+const GROUND: f64 = 0.42;
+/// Holds bands that blur has hidden, against the weight of one that is seen.
+const RIDGE: f64 = 0.02;
+/// Directions of the first look, and the share of the contrast that is a set sector there.
+const LOOKS: usize = 60;
+const SET: f64 = 0.35;
+
+/// What lies around a dot, direction by direction.
+#[derive(Clone, Debug)]
+pub(super) struct Radial {
+    pub polar: Polar,
+    middle: f64,
+    pub ring: Vec<f64>,
+    pub gap: Vec<f64>,
+    pub halves: Vec<f64>,
+    pub outside: Vec<f64>,
+    /// Rms of what the bands leave.
+    pub misfit: f64,
+}
+
+/// Median level of the dot between its centre and its rim.
+fn inside<T: Sample>(plane: &Plane<T>, frame: &Frame) -> f64 {
+    const AROUND: usize = 24;
+    let mut levels = Vec::with_capacity(INSIDE.len() * AROUND);
+    for k in 0..AROUND {
+        let (s, c) = (std::f64::consts::TAU * k as f64 / AROUND as f64).sin_cos();
+        levels.extend(INSIDE.map(|radius| {
+            let [x, y] = frame.place(radius, [c, s]);
+            plane.sample(x as f32, y as f32)
+        }));
+    }
+    let half = levels.len() / 2;
+    f64::from(*levels.select_nth_unstable_by(half, f32::total_cmp).1)
+}
+
+/// Whether anything of the dot's colour stands where a ring would be.
+pub(super) fn may_have_ring<T: Sample>(plane: &Plane<T>, target: &Target) -> bool {
+    let frame = Frame::new(outline_of(target), 0.0);
+    let dot = inside(plane, &frame);
+    let limit = (1.0 - SET) * target.contrast.min(f64::from(T::MAX));
+    let sign = sign(target);
+    let mut set = 0;
+    for k in 0..LOOKS {
+        let (s, c) = (std::f64::consts::TAU * k as f64 / LOOKS as f64).sin_cos();
+        let like_dot = |radius: f64| {
+            let [x, y] = frame.place(radius, [c, s]);
+            plane.holds(x, y, 0.0) && sign * (dot - f64::from(plane.sample(x as f32, y as f32))) < limit
+        };
+        set += u32::from([2.5, 2.9].into_iter().any(like_dot));
+    }
+    // two sectors of twenty, less what blur takes
+    set as usize * 20 >= LOOKS
+}
+
+impl Radial {
+    /// Of a target with this design; none where the ring leaves the picture or the dot has no contrast.
+    pub fn of<T: Sample>(plane: &Plane<T>, target: &Target, frame: &Frame, design: Design) -> Option<Self> {
+        let ring = design.ring();
+        let mut polar = Polar::sample(plane, frame, target.quality.edge_width);
+        let whole = between([START, ring[1] + 0.1]);
+        if (0..polar.directions.len()).any(|j| polar.row(j)[whole.clone()].iter().any(|level| level.is_nan())) {
+            return None;
+        }
+        let dot = inside(plane, frame);
+        let mut contrast = sign(target) * target.contrast;
+        let mut background = [0.0; 3];
+        for _ in 0..2 {
+            background = ground(&polar, contrast, ring)?;
+            contrast = (dot - background[0]) / seen_inside(&polar);
+        }
+        if !(contrast * sign(target) > 1.0) {
+            return None;
+        }
+        polar.normalise(background, contrast);
+        Some(Self::separate(polar, ring))
+    }
+
+    fn separate(polar: Polar, [inner, outer]: [f64; 2]) -> Self {
+        let middle = (inner + outer) / 2.0;
+        let bands = [[1.0, inner], [inner, middle], [middle, outer], [outer, outer + GROUND]];
+        let samples = between([START, outer + GROUND]);
+        let count = polar.directions.len();
+        let [mut ring, mut gap, mut halves, mut outside] = [(); 4].map(|()| Vec::with_capacity(count));
+        let (mut squares, mut number) = (0.0, 0);
+        let mut seen = Vec::with_capacity(samples.len());
+        for j in 0..count {
+            let mut normal = Matrix4::<f64>::zeros();
+            let mut right = Vector4::<f64>::zeros();
+            let row = polar.row(j);
+            let model = |k: usize| {
+                let r = radius(k);
+                let [gap, first, second, outside] = bands.map(|band| polar.band(r, band, j));
+                (Vector4::new(gap, first + second, (first - second) / 2.0, outside), polar.dot(r, j))
+            };
+            seen.clear();
+            seen.extend(samples.clone().filter(|k| !row[*k].is_nan()).map(|k| {
+                let (basis, dot) = model(k);
+                (basis, f64::from(row[k]) - dot)
+            }));
+            for (basis, level) in &seen {
+                normal += basis * basis.transpose();
+                right += basis * *level;
+            }
+            let ridge = RIDGE * samples.len() as f64;
+            for k in 0..4 {
+                normal[(k, k)] += ridge * if k == 2 { 0.5 } else { 0.1 };
+            }
+            let found = normal.cholesky().map_or_else(Vector4::zeros, |factor| factor.solve(&right));
+            gap.push(found[0]);
+            ring.push(found[1]);
+            halves.push(found[2]);
+            outside.push(found[3]);
+            squares += seen.iter().map(|(basis, level)| (level - basis.dot(&found)).powi(2)).sum::<f64>();
+            number += seen.len() as u32;
+        }
+        Self { polar, middle, ring, gap, halves, outside, misfit: (squares / f64::from(number.max(1))).sqrt() }
+    }
+
+    /// The ring's division into sectors.
+    pub fn divide(&self, bits: u32) -> Option<Division> {
+        sectors::divide(&self.polar, &self.ring, self.middle, bits)
+    }
+}
+
+/// Share of the dot's contrast that blur leaves where its level is taken.
+fn seen_inside(polar: &Polar) -> f64 {
+    let count = polar.directions.len();
+    let share = |j: usize, r: f64| {
+        let scale = polar.across[j] / polar.blur;
+        step((1.0 - r) * scale) + step((1.0 + r) * scale) - 1.0
+    };
+    let sum: f64 = (0..count).flat_map(|j| INSIDE.map(|r| share(j, r))).sum();
+    (sum / (INSIDE.len() * count) as f64).max(0.5)
+}
+
+/// Background at the dot's centre and its slope along x and y of the target's plane, in levels a radius.
+///
+/// Each direction gives the level that a dot of this contrast and a ring of any level leave; the plane goes through those that
+/// agree.
+fn ground(polar: &Polar, contrast: f64, ring: [f64; 2]) -> Option<[f64; 3]> {
+    let samples = between([START, ring[1] + GROUND]);
+    let middle = (START + ring[1] + GROUND) / 2.0;
+    let count = polar.directions.len();
+    let levels: Vec<f64> = (0..count)
+        .map(|j| {
+            let mut normal = Matrix2::<f64>::zeros();
+            let mut right = Vector2::<f64>::zeros();
+            for k in samples.clone() {
+                let level = f64::from(polar.row(j)[k]);
+                if level.is_nan() {
+                    continue;
+                }
+                let basis = Vector2::new(1.0, polar.band(radius(k), ring, j));
+                normal += basis * basis.transpose();
+                right += basis * (level - contrast * polar.dot(radius(k), j));
+            }
+            normal.cholesky().map_or(f64::NAN, |factor| factor.solve(&right)[0])
+        })
+        .collect();
+    let mut kept: Vec<bool> = levels.iter().map(|level| level.is_finite()).collect();
+    let mut plane = Vector3::zeros();
+    for round in 0..4 {
+        let mut normal = Matrix3::<f64>::zeros();
+        let mut right = Vector3::<f64>::zeros();
+        let basis = |j: usize| {
+            let [c, s] = polar.directions[j];
+            Vector3::new(1.0, middle * c, middle * s)
+        };
+        for j in (0..count).filter(|j| kept[*j]) {
+            normal += basis(j) * basis(j).transpose();
+            right += basis(j) * levels[j];
+        }
+        plane = normal.cholesky()?.solve(&right);
+        let limit = contrast.abs() * [0.5, 0.3, 0.2, 0.2][round];
+        for j in 0..count {
+            kept[j] = (levels[j] - basis(j).dot(&plane)).abs() < limit;
+        }
+        if kept.iter().filter(|kept| **kept).count() * 2 < count {
+            return None;
+        }
+    }
+    Some([plane[0], plane[1], plane[2]])
+}

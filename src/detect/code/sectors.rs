@@ -1,0 +1,209 @@
+//! The division of a ring into n sectors.
+//!
+//! Around the ring the levels y(t) are a sum of sectors, each a box between two rays from the centre, blurred:
+//!
+//! ```text
+//! y(t) = Σ x_k (Φ(d(t, t_k) / s) - Φ(d(t, t_k+1) / s)),    t_k = phase + 2π k / n
+//! ```
+//!
+//! with the distance d in pixels of the place from the ray. Least squares over x gives each sector its level freed of its
+//! neighbours' blur, together with its standard error; narrow sectors of a tilted ring could not be told apart otherwise. The phase
+//! starts at that of the n-th harmonic of the edges, Σ |dy|² exp(i n t), and is refined where the binary model misfits least.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::polar::{Polar, step};
+
+/// Steps of the phase, as shares of a sector: a coarse and a fine search.
+const PHASES: [&[f64]; 2] = [&[-0.16, -0.08, 0.0, 0.08, 0.16], &[-0.04, -0.02, 0.02, 0.04]];
+
+/// Sectors whose blur reaches a direction, on either side and with its own.
+const NEAR: usize = 3;
+
+/// Distance of two ends of arcs, in sectors, up to which they are the same.
+const SAME: f64 = 0.15;
+
+/// What holds sectors that blur has hidden, against the weight of one that is seen.
+const RIDGE: f64 = 0.01;
+
+/// A division of a ring.
+#[derive(Clone, Debug)]
+pub(super) struct Division {
+    /// Level of each sector, clockwise.
+    pub levels: Vec<f64>,
+    /// Standard error of each.
+    pub sigmas: Vec<f64>,
+    /// Bits, the first sector's the most significant.
+    pub bits: u32,
+    /// Levels of unset and of set sectors.
+    pub low: f64,
+    pub high: f64,
+    /// Rms of what two levels leave unexplained, over their difference.
+    pub misfit: f64,
+    /// Direction of the first sector's beginning.
+    phase: f64,
+    shares: Vec<Shares>,
+    inverse: DMatrix<f64>,
+}
+
+/// The best division into `n` sectors of levels around a ring whose middle is at `radius`; none where nothing stands out.
+pub(super) fn divide(polar: &Polar, levels: &[f64], radius: f64, n: u32) -> Option<Division> {
+    let sector = std::f64::consts::TAU / f64::from(n);
+    let mut phase = first_phase(polar, levels, n);
+    let mut best: Option<Division> = None;
+    for steps in PHASES {
+        let around = phase;
+        for share in steps {
+            let tried = around + share * sector;
+            let Some(division) = at_phase(polar, levels, radius, n, tried) else { continue };
+            if best.as_ref().is_none_or(|best| division.misfit < best.misfit) {
+                best = Some(division);
+                phase = tried;
+            }
+        }
+    }
+    best
+}
+
+/// Phase of the n-th harmonic of the edges.
+fn first_phase(polar: &Polar, levels: &[f64], n: u32) -> f64 {
+    let count = levels.len();
+    let turn = std::f64::consts::TAU / count as f64;
+    let mut sums = [0.0; 2];
+    for k in 0..count {
+        let rise = levels[(k + 1) % count] - levels[k];
+        let (s, c) = (f64::from(n) * turn * (k as f64 + 0.5)).sin_cos();
+        // blurred over more directions where the arc is short
+        let weight = rise * rise / polar.arc[k];
+        sums[0] += weight * c;
+        sums[1] += weight * s;
+    }
+    sums[1].atan2(sums[0]) / f64::from(n)
+}
+
+fn at_phase(polar: &Polar, levels: &[f64], radius: f64, n: u32, phase: f64) -> Option<Division> {
+    let count = n as usize;
+    let shares = shares(polar, radius, n, phase);
+    let weights = &polar.arc;
+    let mut normal = DMatrix::<f64>::zeros(count, count);
+    let mut right = DVector::<f64>::zeros(count);
+    for ((row, level), weight) in shares.iter().zip(levels).zip(weights) {
+        for (k, share) in row.of(count) {
+            right[k] += weight * share * level;
+            for (l, other) in row.of(count) {
+                normal[(k, l)] += weight * share * other;
+            }
+        }
+    }
+    let ridge = RIDGE * weights.iter().sum::<f64>() / f64::from(n);
+    for k in 0..count {
+        normal[(k, k)] += ridge;
+        right[k] += 0.5 * ridge;
+    }
+    let inverse: DMatrix<f64> = normal.cholesky()?.inverse();
+    let found: DVector<f64> = &inverse * right;
+    let top = found.max();
+    let half = top / 2.0;
+    let mean = |set: bool| {
+        let of = || found.iter().filter(|x| (**x > half) == set);
+        of().sum::<f64>() / of().count().max(1) as f64
+    };
+    let (low, high) = (mean(false), mean(true));
+    if !(high - low > 0.1) {
+        return None;
+    }
+    let middle = (low + high) / 2.0;
+    let bits = found.iter().fold(0u32, |bits, x| bits << 1 | u32::from(*x > middle));
+    let binary = DVector::from_iterator(count, found.iter().map(|x| if *x > middle { high } else { low }));
+    let rest = |model: &DVector<f64>| {
+        let explained = |row: &Shares| row.of(count).map(|(k, share)| share * model[k]).sum::<f64>();
+        levels.iter().zip(&shares).zip(weights).map(|((y, row), w)| w * (y - explained(row)).powi(2)).sum::<f64>()
+            / weights.iter().sum::<f64>()
+    };
+    let misfit = rest(&binary).sqrt() / (high - low);
+    // what the free levels leave is noise, of so many independent places
+    let mean_weight = weights.iter().sum::<f64>() / weights.len() as f64;
+    let variance = rest(&found) * mean_weight * levels.len() as f64 / (levels.len() as f64 - f64::from(n)).max(1.0);
+    let sigmas: Vec<f64> = (0..count).map(|k| (variance * inverse[(k, k)]).sqrt()).collect();
+    Some(Division { levels: found.iter().copied().collect(), sigmas, bits, low, high, misfit, phase, shares, inverse })
+}
+
+/// How much of each sector reaches a direction: of the sectors from `first` on.
+#[derive(Clone, Copy, Debug)]
+struct Shares {
+    first: usize,
+    shares: [f64; 2 * NEAR],
+}
+
+impl Shares {
+    /// Sectors of `count` with their shares.
+    #[inline]
+    fn of(&self, count: usize) -> impl Iterator<Item = (usize, f64)> {
+        let sector = move |k: usize| if k < count { k } else { k - count };
+        self.shares.iter().enumerate().map(move |(k, share)| (sector(self.first + k), *share))
+    }
+}
+
+fn shares(polar: &Polar, radius: f64, n: u32, phase: f64) -> Vec<Shares> {
+    let sector = std::f64::consts::TAU / f64::from(n);
+    let count = n as usize;
+    // direction of each ray, and what turns a sine into a distance in blurs
+    let rays: Vec<([f64; 2], f64)> = (0..n)
+        .map(|k| {
+            let (s, c) = (phase + sector * f64::from(k)).sin_cos();
+            ([c, s], radius * polar.area / (polar.ray(c, s) * polar.blur))
+        })
+        .collect();
+    let turn = std::f64::consts::TAU / polar.directions.len() as f64;
+    let of = |(j, [c, s]): (usize, &[f64; 2])| {
+        let angle = (j as f64 * turn - phase).rem_euclid(std::f64::consts::TAU);
+        let first = ((angle / sector) as usize + 1 + count - NEAR) % count;
+        // 1 behind the rays that are passed, 0 before those to come
+        let mut before = 1.0;
+        let mut shares = [0.0; 2 * NEAR];
+        for (k, share) in shares.iter_mut().enumerate() {
+            let ([rc, rs], scale) = rays[(first + k + 1) % count];
+            let here = if k + 1 < 2 * NEAR { step((s * rc - c * rs) * scale) } else { 0.0 };
+            *share = before - here;
+            before = here;
+        }
+        Shares { first, shares }
+    };
+    polar.directions.iter().enumerate().map(of).collect()
+}
+
+impl Division {
+    /// Other levels around the same ring, sector by sector.
+    pub fn sectors(&self, polar: &Polar, levels: &[f64]) -> Vec<f64> {
+        let count = self.levels.len();
+        let mut right = DVector::<f64>::zeros(count);
+        for ((row, level), weight) in self.shares.iter().zip(levels).zip(&polar.arc) {
+            row.of(count).for_each(|(k, share)| right[k] += weight * share * level);
+        }
+        let found: DVector<f64> = &self.inverse * right;
+        found.iter().copied().collect()
+    }
+
+    /// Whether a sector is set.
+    pub fn is_set(&self, sector: usize) -> bool {
+        self.bits >> (self.levels.len() - 1 - sector) & 1 == 1
+    }
+
+    /// Directions in which the level changes, as shares of a turn.
+    fn changes(&self) -> Vec<f64> {
+        let n = self.levels.len();
+        let changes = (0..n).filter(|k| self.is_set(*k) != self.is_set((k + n - 1) % n));
+        changes.map(|k| (self.phase / std::f64::consts::TAU + k as f64 / n as f64).rem_euclid(1.0)).collect()
+    }
+
+    /// Whether two divisions have the same arcs: then no picture tells them apart.
+    pub fn same_arcs(&self, other: &Self) -> bool {
+        let (a, b) = (self.changes(), other.changes());
+        let limit = SAME / self.levels.len().max(other.levels.len()) as f64;
+        let near = |x: &f64, y: &f64| {
+            let d = (x - y).rem_euclid(1.0);
+            d.min(1.0 - d) < limit
+        };
+        a.len() == b.len() && a.iter().all(|x| b.iter().any(|y| near(x, y)))
+    }
+}
