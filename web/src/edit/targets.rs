@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sightline::detection::{Detection, Target};
-use sightline::matching::{Mark, Matching, PhotoTargets, Snapped, name_coded, snap};
+use sightline::matching::{Doubt, Mark, Matching, PhotoTargets, Snapped, name_coded, snap};
 use sightline::project::{Observation, Point, Project};
+use sightline::ring_code::Family;
 
 use super::points::{target_of, tidy};
 use crate::store::document::Document;
@@ -24,17 +25,63 @@ pub fn by_photo(document: &Document) -> Vec<PhotoTargets> {
     document.detections.iter().map(of).collect()
 }
 
-/// Takes a new detection of a photo: names follow their targets, codes name the rest.
-pub fn take_detection(document: &mut Document, photo: &str, detection: Detection) {
+/// What the rings of all photos are codes of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Rings {
+    /// Of one family, where there are any.
+    Of(Option<Family>),
+    /// Of any of these.
+    OfSeveral(Vec<Family>),
+    /// Of different families.
+    Different,
+}
+
+impl Default for Rings {
+    fn default() -> Self {
+        Self::Of(None)
+    }
+}
+
+/// Takes a new detection of a photo: names follow their targets, codes name the rest. They are codes of the family asked for, or
+/// of the one that all photos show together: photos whose rings left it open then get theirs too.
+pub fn take_detection(document: &mut Document, photo: &str, detection: Detection, family: Option<Family>) {
+    if let Some(family) = take_one(document, photo, detection, family) {
+        take_family(document, family);
+    }
+}
+
+/// Names the rings of all photos as codes of a family.
+pub fn take_family(document: &mut Document, family: Family) {
+    let open = |t: &Target| t.code != t.code_in(family) || t.code.is_some() && t.code_family != Some(family);
+    let photos = document.detections.iter().filter(|(_, d)| d.targets.iter().any(open));
+    for (id, detection) in photos.map(|(id, d)| (id.clone(), (**d).clone())).collect::<Vec<_>>() {
+        take_one(document, &id, detection, Some(family));
+    }
+}
+
+/// Takes one detection; the family that is known then.
+fn take_one(document: &mut Document, photo: &str, mut detection: Detection, family: Option<Family>) -> Option<Family> {
+    let mut all = by_photo(document);
+    all.retain(|targets| targets.photo != photo);
     let new = [PhotoTargets { photo: photo.to_owned(), targets: detection.targets.clone() }];
+    all.extend_from_slice(&new);
+    let coded = name_coded(&all, family);
+    if let Some(family) = coded.family {
+        detection.targets.iter_mut().for_each(|target| target.settle_code(family));
+    }
     let old = document.detections.get(photo).cloned();
     let (before, others): (Vec<_>, Vec<_>) =
         document.project.observations.iter().cloned().partition(|o: &Observation| o.photo == photo);
-    let coded = name_coded(&new);
     let mut doubtful = (*document.doubtful).clone();
-    doubtful.retain(|d| d.photo != photo);
-    doubtful.extend(coded.doubtful);
+    doubtful.retain(|d| d.photo != photo && d.reason != Doubt::CodeFamily);
+    doubtful.extend(coded.doubtful.into_iter().filter(|d| d.photo == photo || d.reason == Doubt::CodeFamily));
     document.doubtful = Arc::new(doubtful);
+    let ring = |t: &Target| t.code_candidates.iter().any(|c| c.margin > 0.0);
+    document.rings = match coded.family {
+        None if coded.families.len() > 1 => Rings::OfSeveral(coded.families),
+        None if coded.families.is_empty() && all.iter().flat_map(|p| &p.targets).any(ring) => Rings::Different,
+        family => Rings::Of(family),
+    };
     let project = document.project_mut();
     let marks = before.iter().map(|o| Mark {
         photo: photo.to_owned(),
@@ -44,7 +91,7 @@ pub fn take_detection(document: &mut Document, photo: &str, detection: Detection
         sigma: o.sigma.both()[0],
     });
     let snapped = snap(&marks.collect::<Vec<_>>(), &new, FOLLOW);
-    let mut now = coded.observations;
+    let mut now = coded.observations.into_iter().filter(|o| o.photo == photo).collect::<Vec<_>>();
     let named = now.iter().map(|o| (o.point.clone(), o.target)).collect::<Vec<_>>();
     let free = |o: &Observation| !named.iter().any(|(point, target)| *point == o.point || *target == o.target);
     now.extend(snapped.observations.into_iter().filter(free));
@@ -60,6 +107,7 @@ pub fn take_detection(document: &mut Document, photo: &str, detection: Detection
     project.observations.append(&mut now);
     tidy(project);
     document.detections_mut().insert(photo.to_owned(), Arc::new(detection));
+    coded.family
 }
 
 /// Adds a target measured on request to the photo's list, or finds it there; its place in the list.

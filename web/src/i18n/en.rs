@@ -111,6 +111,10 @@ declare! { desk {
     codes: "ring codes";
     codes_auto: "automatic";
     codes_none: "none";
+    codes_of(family): "Codes: {family}.";
+    codes_of_several: "The rings can be read as codes of several families. Which are they?";
+    codes_different: "The rings are not all codes of one family, and none was named: choose the family under ring codes.";
+    code_candidates: "code unclear, perhaps";
     method: "method";
     method_least_squares: "least squares";
     method_ellipse: "ellipse on edges";
@@ -236,6 +240,8 @@ declare! { desk {
     role_check: "check";
     doubt: "doubt";
     doubt_duplicate(photo): "code read twice in photo {photo}";
+    doubt_code_family(photo): "family of the code not known in photo {photo}";
+    doubt_code_unclear(photo): "code not clear in photo {photo}";
     doubt_ambiguous(photo): "fits more than one way in photo {photo}";
     doubt_disagrees(photo): "disagrees with the other rays in photo {photo}";
     one_ray: "seen in one photo only";

@@ -105,6 +105,10 @@ translate! { Korean desk {
     codes: "링 코드";
     codes_auto: "자동";
     codes_none: "없음";
+    codes_of(family): "코드: {family}.";
+    codes_of_several: "링을 여러 종류의 코드로 읽을 수 있습니다. 어느 종류입니까?";
+    codes_different: "모든 링이 한 종류의 코드는 아니어서 이름을 붙이지 않았습니다. 링 코드에서 종류를 고르십시오.";
+    code_candidates: "코드 불명확, 후보";
     method: "방법";
     method_least_squares: "최소제곱 정합";
     method_ellipse: "경계 타원 적합";
@@ -228,6 +232,8 @@ translate! { Korean desk {
     role_check: "검사점";
     doubt: "의심 사유";
     doubt_duplicate(photo): "사진 {photo}에서 코드가 두 번 읽힘";
+    doubt_code_family(photo): "사진 {photo}의 코드 종류를 알 수 없음";
+    doubt_code_unclear(photo): "사진 {photo}에서 코드가 뚜렷하지 않음";
     doubt_ambiguous(photo): "사진 {photo}에서 후보가 여럿";
     doubt_disagrees(photo): "사진 {photo}의 광선이 나머지와 맞지 않음";
     one_ray: "한 사진에만 있음";

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 use sightline::detection::Detection;
+use sightline::ring_code::Family;
 use sightline_protocol::Detect;
 
 use super::document::Change;
@@ -56,6 +57,16 @@ impl Desk {
             let (photo, rows) = (photo.to_owned(), rows.collect::<Vec<_>>().join(", "));
             self.warn(move || text::rows_damaged(&photo, &rows));
         }
-        self.change_on(|document| targets::take_detection(document, photo, detection));
+        let family = match self.detect_options.with_untracked(|o| o.codes.families()) {
+            [family] => Some(*family),
+            _ => None,
+        };
+        self.change_on(|document| targets::take_detection(document, photo, detection, family));
+    }
+
+    /// Reads the rings as codes of this family, now and in photos to come.
+    pub fn choose_family(self, family: Family) {
+        self.detect_options.update(|o| o.codes = family.into());
+        self.change(Change::TargetsDetected, |document| targets::take_family(document, family));
     }
 }

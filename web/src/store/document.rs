@@ -9,6 +9,8 @@ use sightline::detection::Detection;
 use sightline::matching::Doubtful;
 use sightline::project::{Parameter, Project};
 
+use crate::edit::targets::Rings;
+
 /// Everything that is undone and saved together. Parts are shared between states, so that a state is cheap to keep.
 #[derive(Clone, Debug, Default)]
 pub struct Document {
@@ -17,6 +19,8 @@ pub struct Document {
     pub detections: Arc<BTreeMap<String, Arc<Detection>>>,
     /// Targets whose name is in doubt, from the last matching.
     pub doubtful: Arc<Vec<Doubtful>>,
+    /// What the rings of all photos are codes of, from the last detection.
+    pub rings: Rings,
     /// What parameters that are held now were observed with, by camera: it is back when they are estimated again.
     pub sigmas_of_held: BTreeMap<(String, Parameter), f64>,
     /// How the next adjustment is made.

@@ -93,7 +93,7 @@ impl Desk {
         for (id, name) in photos {
             if let Some((file, detection)) = made.get(&name) {
                 files.insert(id.clone(), file.clone());
-                targets::take_detection(&mut document, &id, detection.clone());
+                targets::take_detection(&mut document, &id, detection.clone(), None);
             }
         }
         self.begin(document);

@@ -145,6 +145,8 @@ fn doubt_words(desk: Desk) -> HashMap<String, String> {
         for doubtful in d.doubtful.iter() {
             let reason = match doubtful.reason {
                 Doubt::DuplicateCode => text::doubt_duplicate(&doubtful.photo),
+                Doubt::CodeFamily => text::doubt_code_family(&doubtful.photo),
+                Doubt::CodeUnclear => text::doubt_code_unclear(&doubtful.photo),
                 Doubt::Ambiguous => text::doubt_ambiguous(&doubtful.photo),
                 Doubt::Disagrees => text::doubt_disagrees(&doubtful.photo),
             };

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 use sightline::detection::{Channel, Codes, Method, Polarity, PolarityChoice, Reason, Target};
+use sightline::ring_code::Family;
 
 use super::field::Field;
 use super::icon::{Glyph, Icon};
@@ -11,6 +12,7 @@ use super::picking::{Question, chosen_target, pick, spot_mark};
 use super::shell::TitleBar;
 use super::strip::Strip;
 use crate::browser::event;
+use crate::edit::targets::Rings;
 use crate::format;
 use crate::i18n::{Text, text};
 use crate::store::{Desk, Step};
@@ -26,7 +28,11 @@ pub fn Targets() -> impl IntoView {
         if photos == 0 {
             text::targets_none_yet().to_owned()
         } else {
-            text::targets_sentence(format::count(targets), format::count(coded), format::count(photos))
+            let sentence = text::targets_sentence(format::count(targets), format::count(coded), format::count(photos));
+            match desk.document.with(|d| d.rings.clone()) {
+                Rings::Of(Some(family)) if coded > 0 => format!("{sentence} {}", text::codes_of(family_words(family))),
+                _ => sentence,
+            }
         }
     };
     let again = move || desk.document.with(|d| !d.detections.is_empty());
@@ -49,6 +55,7 @@ pub fn Targets() -> impl IntoView {
             </Show>
         </TitleBar>
         <div class="options"><Options/></div>
+        <FamilyQuestion/>
         <main class="targets">
             <Strip/>
             <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click><Question targets=false/></PhotoView>
@@ -111,6 +118,42 @@ fn Choice<T: Copy + PartialEq + Send + Sync + 'static>(
     }
 }
 
+/// A family of codes by its maker's name, the same in every language.
+fn family_words(family: Family) -> &'static str {
+    match family {
+        Family::Ring12 => "Schneider / AICON 12 bit",
+        Family::Ring14 => "Schneider / AICON 14 bit",
+        Family::Ring16 => "Schneider / AICON 16 bit",
+        Family::Ring20 => "Schneider / AICON 20 bit",
+        Family::Metashape12 => "Metashape 12 bit",
+        Family::Metashape14 => "Metashape 14 bit",
+        Family::Metashape16 => "Metashape 16 bit",
+        Family::Metashape20 => "Metashape 20 bit",
+    }
+}
+
+/// Asks for the family of the codes where the photos leave it open.
+#[component]
+fn FamilyQuestion() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let rings = Memo::new(move |_| desk.document.with(|d| d.rings.clone()));
+    move || match rings.get() {
+        Rings::Of(_) => ().into_any(),
+        Rings::Different => view! { <p class="note" role="status">{text::codes_different}</p> }.into_any(),
+        Rings::OfSeveral(families) => view! {
+            <p class="note" role="status">
+                {text::codes_of_several} " "
+                {families.into_iter().map(|family| view! {
+                    <button class="button small" type="button" on:click=move |_| desk.choose_family(family)>
+                        {family_words(family)}
+                    </button>
+                }).collect_view()}
+            </p>
+        }
+        .into_any(),
+    }
+}
+
 /// What is looked for and how; every default works without tuning.
 #[component]
 fn Options() -> impl IntoView {
@@ -141,10 +184,14 @@ fn Options() -> impl IntoView {
             values=vec![
                 (Codes::Auto, text::codes_auto as Text),
                 (Codes::None, text::codes_none),
-                (Codes::Ring12, || "12 bit"),
-                (Codes::Ring14, || "14 bit"),
-                (Codes::Ring16, || "16 bit"),
-                (Codes::Ring20, || "20 bit"),
+                (Codes::Ring12, || family_words(Family::Ring12)),
+                (Codes::Ring14, || family_words(Family::Ring14)),
+                (Codes::Ring16, || family_words(Family::Ring16)),
+                (Codes::Ring20, || family_words(Family::Ring20)),
+                (Codes::Metashape12, || family_words(Family::Metashape12)),
+                (Codes::Metashape14, || family_words(Family::Metashape14)),
+                (Codes::Metashape16, || family_words(Family::Metashape16)),
+                (Codes::Metashape20, || family_words(Family::Metashape20)),
             ]
             get=|desk| desk.detect_options.with(|o| o.codes)
             set=|desk, value| desk.detect_options.update(|o| o.codes = value)/>
@@ -202,6 +249,10 @@ pub fn TargetDetails() -> impl IntoView {
                             Polarity::Bright => text::polarity_bright(),
                             Polarity::Dark => text::polarity_dark(),
                         }}</dd>
+                        {(t.code.is_none() && !t.code_candidates.is_empty()).then(|| {
+                            let numbers = t.code_candidates.iter().map(|c| c.number.to_string()).collect::<Vec<_>>();
+                            view! { <dt>{text::code_candidates}</dt><dd>{numbers.join(", ")}</dd> }
+                        })}
                         <dt>{text::edge_width}</dt><dd>{format!("{} px", format::fixed(t.quality.edge_width, 2))}</dd>
                     </dl>
                 }.into_any()
