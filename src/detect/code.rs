@@ -30,7 +30,7 @@ pub(super) use parts::{drop_parts, settle_grounds};
 pub(super) use vote::read_all;
 
 /// Smallest margin of a sector that is safe, and how many of its standard errors it must be.
-const SAFE: f64 = 0.42;
+const SAFE: f64 = 0.38;
 const SIGMAS: f64 = 4.5;
 /// Levels of set and unset sectors, as shares of the dot's contrast.
 const HIGH: std::ops::Range<f64> = 0.6..1.5;
@@ -40,15 +40,15 @@ const LOW: f64 = 0.25;
 const CLEAR: f64 = 0.38;
 const HALVES: f64 = 0.45;
 /// The same on the mean over the set sectors: what a ring of another size leaves there.
-const MEAN_CLEAR: f64 = 0.22;
+const MEAN_CLEAR: f64 = 0.27;
 const MEAN_HALVES: f64 = 0.3;
 /// How far, as a share of the contrast, a sector may be from the level it has; further only by chance.
-const OFF: f64 = 0.24;
+const OFF: f64 = 0.3;
 /// Largest rms of what the sectors leave unexplained, over their contrast.
 const MISFIT: f64 = 0.2;
 /// Ratio of the squares of two divisions' misfits from which the other one is the right one, and from which it may be.
 const BETTER: f64 = 1.6;
-const AS_GOOD: f64 = 0.8;
+const AS_GOOD: f64 = 1.0;
 /// Most sectors that may be in doubt.
 const DOUBTFUL: usize = 3;
 

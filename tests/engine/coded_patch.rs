@@ -158,8 +158,8 @@ fn draw(kind: Kind, family: Family, random: &mut Uniform) -> (Drawing, Option<u3
             let angle = random.within(0.0, TAU);
             let direction = [angle.cos(), angle.sin()];
             let from = random.within(1.3, ring[1] - 0.2);
-            // nothing tells a cover of the ground's own colour from ground
-            let level = choose(random, &[1.0, 1.0, 0.6, -0.6, 0.3 + random_level(start)]);
+            // nothing tells a cover of the ground's own colour from ground, nor a glare that is clipped to it
+            let level = choose(random, &[1.0, 1.0, 0.6, 0.4 + random_level(start)]);
             let half = random.within(0.2, 1.5);
             drawing.covers.push(([from * direction[0], from * direction[1]], direction, half, level));
         }

@@ -134,6 +134,9 @@ fn the_panel_is_measured_from_its_photos() {
 #[test]
 fn the_panel_shows_by_itself_which_family_its_codes_are_of() {
     let (Some(known), Some(open)) = (targets(Codes::Ring14), targets(Codes::Auto)) else { return };
+    for target in known.iter().flat_map(|photo| &photo.targets).filter(|target| target.quality.code_note.is_some()) {
+        println!("{:.0} {:.0}: {:?}", target.u, target.v, target.quality);
+    }
     let (known, open) = (name_coded(&known, None), name_coded(&open, None));
     println!("{} codes, {} doubtful", open.observations.len(), open.doubtful.len());
     assert_eq!((open.family, known.family), (Some(Family::Ring14), Some(Family::Ring14)));
