@@ -21,7 +21,7 @@ const PHASES: [&[f64]; 2] = [&[-0.16, -0.08, 0.0, 0.08, 0.16], &[-0.04, -0.02, 0
 const NEAR: usize = 3;
 
 /// Distance of two ends of arcs, in sectors, up to which they are the same.
-const SAME: f64 = 0.15;
+const SAME: f64 = 0.05;
 
 /// What holds sectors that blur has hidden, against the weight of one that is seen.
 const RIDGE: f64 = 0.01;
