@@ -27,6 +27,7 @@ use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
 use code::outline_of;
 use measure::Measure;
+use normal::BLUR;
 use outline::Outline;
 use picture::character::{APART, Character};
 use picture::noise::{self, Levels};
@@ -82,8 +83,8 @@ pub fn measure_all(image: &GreyView, u: f64, v: f64, options: &DetectOptions) ->
 pub fn read_codes(image: &GreyView, targets: &mut [Target], codes: Codes) {
     let (width, height) = (image.width(), image.height());
     match image.samples() {
-        SamplesView::U8(samples) => code::read_all(&Plane::new(width, height, samples), targets, codes),
-        SamplesView::U16(samples) => code::read_all(&Plane::new(width, height, samples), targets, codes),
+        SamplesView::U8(samples) => code::read_in(&Plane::new(width, height, samples), targets, codes),
+        SamplesView::U16(samples) => code::read_in(&Plane::new(width, height, samples), targets, codes),
     }
 }
 
@@ -129,22 +130,55 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let mut picture = report(&levels, &character);
     let mut passed = pass(plane, levels, options, processed && character.is_compressed(), &[]);
     picture.noise_correlation = passed.correlate();
+    let mut restored = None;
     if processed {
-        let mut first = std::mem::take(&mut passed.detection.targets);
-        let mut grounds = std::mem::take(&mut passed.grounds);
-        passed = soften(&plane, &levels, options, &mut first, &mut picture);
+        let Pass { detection: Detection { targets: mut first, .. }, mut grounds, .. } = passed;
+        let known: Vec<Target> = first.iter().chain(&grounds).cloned().collect();
+        (passed, restored) = soften(&plane, &levels, options, &known, &mut picture);
         passed.detection.targets.append(&mut first);
-        passed.grounds.append(&mut grounds);
-        passed.detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
+        grounds.append(&mut passed.grounds);
+        passed.grounds = grounds;
     }
-    let mut detection = passed.detection;
+    let Pass { mut detection, grounds, .. } = passed;
+    // codes are read where their dots were measured: with the sharpening undone, or in the picture itself
+    let (undone, undone_grounds, softened) = match restored {
+        Some((softened, pass)) => (pass.detection.targets, pass.grounds, Some(softened)),
+        None => (Vec::new(), Vec::new(), None),
+    };
+    let mut in_undone = vec![false; detection.targets.len()];
+    detection.targets.extend(undone);
     let found = detection.targets.len();
-    detection.targets.append(&mut passed.grounds);
-    code::read_all(&plane, &mut detection.targets, options.codes);
+    in_undone.resize(found, true);
+    for (grounds, of_undone) in [(grounds, false), (undone_grounds, true)] {
+        for ground in grounds {
+            // one pass's disc may be another's target
+            if !detection.targets.iter().any(|other| is_same(other, &ground)) {
+                detection.targets.push(ground);
+                in_undone.push(of_undone);
+            }
+        }
+    }
+    code::read_all(&mut detection.targets, options.codes, |k, target, families| match &softened {
+        Some(softened) if in_undone[k] => {
+            let target = Target { contrast: target.contrast * softened.scale, ..target.clone() };
+            let blur = target.quality.edge_width.hypot(RESTORED);
+            code::read(&softened.plane(), &target, blur, families)
+        }
+        _ => code::read(&plane, target, target.quality.edge_width, families),
+    });
     code::settle_grounds(&mut detection, found);
     code::drop_parts(&mut detection);
+    if processed {
+        detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
+    }
     let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);
     Detection { width: size(plane.width), height: size(plane.height), picture, ..detection }
+}
+
+/// Whether two measurements are of the same disc.
+fn is_same(one: &Target, other: &Target) -> bool {
+    let apart = (one.u - other.u).hypot(one.v - other.v);
+    apart < 0.25 * one.minor.min(other.minor) && one.major < 1.4 * other.major && other.major < 1.4 * one.major
 }
 
 fn report(levels: &Levels, character: &Character) -> PictureReport {
@@ -159,38 +193,36 @@ fn report(levels: &Levels, character: &Character) -> PictureReport {
     }
 }
 
-/// What a softened picture shows beyond the targets that are known, and, when the rims of all these show a sharpening, what it
-/// shows once that is undone.
+/// What a softened picture shows beyond the targets that are known; and, when the rims of all these show a sharpening, what it
+/// shows once that is undone, with that picture.
 fn soften<T: Sample>(
     plane: &Plane<T>,
     levels: &Levels,
     options: &DetectOptions,
-    known: &mut Vec<Target>,
+    known: &[Target],
     picture: &mut PictureReport,
-) -> Pass {
+) -> (Pass, Option<(Softened, Pass)>) {
     picture.softened = true;
-    let mut softened = pass_softened(plane, None, SOFT, options, known);
+    let (_, mut softened) = pass_softened(plane, None, SOFT, options, known);
     let outlines: Vec<Outline> = known.iter().chain(&softened.detection.targets).map(outline_of).collect();
     let Some(sharpening) = sharpening::of_rims(plane, outlines.iter(), levels.saturation) else {
         picture.noise_correlation = softened.correlate();
-        return softened;
+        return (softened, None);
     };
     (picture.sharpening, picture.sharpening_radius) = (sharpening.amount, sharpening.radius);
-    let mut restored = pass_softened(plane, Some(sharpening), RESTORED, options, known);
+    let (undone, mut restored) = pass_softened(plane, Some(sharpening), RESTORED, options, known);
     picture.noise_correlation = restored.correlate();
     softened.correlate();
-    known.append(&mut restored.detection.targets);
-    softened.grounds.append(&mut restored.grounds);
-    let is_new = |target: &Target| {
+    let taken: Vec<Outline> = known.iter().chain(&restored.detection.targets).map(outline_of).collect();
+    softened.detection.targets.retain(|target| {
         let outline = outline_of(target);
-        !known.iter().any(|other| {
-            let [c, s] = outline_of(other).normalised(outline.u, outline.v);
+        !taken.iter().any(|other| {
+            let [c, s] = other.normalised(outline.u, outline.v);
             let [own_c, own_s] = outline.normalised(other.u, other.v);
             c.hypot(s) < 1.0 || own_c.hypot(own_s) < 1.0
         })
-    };
-    softened.detection.targets.retain(is_new);
-    softened
+    });
+    (softened, Some((undone, restored)))
 }
 
 /// Sigma in pixels of the mean in which what is sharpened is searched: the middle of the range in which webcam pictures of dots
@@ -206,7 +238,7 @@ fn pass_softened<T: Sample>(
     sigma: f64,
     options: &DetectOptions,
     known: &[Target],
-) -> Pass {
+) -> (Softened, Pass) {
     let soft = Softened::of(plane, sharpening, sigma);
     let levels = noise::levels_at(&soft.plane(), APART);
     // a mean has no end of the scale, and no noise less than that of rounding
@@ -216,11 +248,14 @@ fn pass_softened<T: Sample>(
     for target in passed.detection.targets.iter_mut().chain(&mut passed.grounds) {
         target.contrast /= soft.scale;
         target.quality.noise /= soft.scale;
+        // what the mean has added is none of the picture's
+        let own = target.quality.edge_width.powi(2) - sigma * sigma;
+        target.quality.edge_width = own.max(0.0).sqrt().max(BLUR.0);
         if options.method == Method::LeastSquares {
             target.quality.fit_rms /= soft.scale;
         }
     }
-    passed
+    (soft, passed)
 }
 
 /// What one pass over a picture found.

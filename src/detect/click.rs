@@ -15,7 +15,7 @@ const BESIDE: f64 = 4.0;
 pub(super) fn measure<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Option<Target> {
     let method = options.method;
     let mut target = at(plane, u, v, options, |measure, found| measure.finish(found, method).ok())?;
-    code::read_all(&plane, std::slice::from_mut(&mut target), options.codes);
+    code::read_in(&plane, std::slice::from_mut(&mut target), options.codes);
     Some(target)
 }
 

@@ -27,7 +27,7 @@ use radial::Radial;
 use sectors::Division;
 
 pub(super) use parts::{drop_parts, settle_grounds};
-pub(super) use vote::read_all;
+pub(super) use vote::{read_all, read_in};
 
 /// Smallest margin of a sector that is safe, and how many of its standard errors it must be.
 const SAFE: f64 = 0.38;
@@ -54,7 +54,7 @@ const DOUBTFUL: usize = 3;
 
 /// What was read around a dot.
 #[derive(Clone, Debug, PartialEq)]
-enum Reading {
+pub(super) enum Reading {
     /// No ring there.
     Plain,
     /// A ring that is safely one code.
@@ -71,12 +71,12 @@ pub(super) fn have_spots(codes: Codes) -> bool {
 }
 
 /// Ellipse of a target.
-pub fn outline_of(target: &Target) -> Outline {
+pub(super) fn outline_of(target: &Target) -> Outline {
     Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle)
 }
 
-/// Reads the ring around a target as a code of each of the families.
-fn read<T: Sample>(plane: &Plane<T>, target: &Target, families: &[Family]) -> Vec<Reading> {
+/// Reads the ring around a target, whose edges have this blur in the picture, as a code of each of the families.
+pub(super) fn read<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, families: &[Family]) -> Vec<Reading> {
     let mut readings = vec![Reading::Plain; families.len()];
     if !radial::may_have_ring(plane, target) {
         return readings;
@@ -85,7 +85,7 @@ fn read<T: Sample>(plane: &Plane<T>, target: &Target, families: &[Family]) -> Ve
         if families.iter().all(|family| family.design() != design) {
             continue;
         }
-        let Some(radial) = straightest(plane, target, design) else { continue };
+        let Some(radial) = straightest(plane, target, blur, design) else { continue };
         let divisions = Divisions::default();
         for (family, reading) in families.iter().zip(&mut readings) {
             if family.design() == design {
@@ -117,7 +117,7 @@ const SHIFT: f64 = 0.1;
 ///
 /// A plane tilted by t at a distance that a target of semi-axis a px sees under a/f has a boost of a sin t / f along its slope; the
 /// slope is that of the minor axis, and f at least 0.6 picture widths.
-fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, design: Design) -> Option<Radial> {
+fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, design: Design) -> Option<Radial> {
     let outline = outline_of(target);
     let (a, b) = outline.semi_axes();
     let sine = (1.0 - (b / a) * (b / a)).max(0.0).sqrt();
@@ -125,10 +125,10 @@ fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, design: Design) -> 
     let [inner, outer] = design.ring();
     let moves = inner * outer - 1.0;
     if largest * moves < SHIFT {
-        return Radial::of(plane, target, &Frame::new(outline, 0.0), design);
+        return Radial::of(plane, target, blur, &Frame::new(outline, 0.0), design);
     }
     let steps = (largest * moves / SHIFT).ceil().min(4.0);
-    let of = |size: f64| Radial::of(plane, target, &Frame::new(outline, size), design).map(|radial| (size, radial));
+    let of = |size: f64| Radial::of(plane, target, blur, &Frame::new(outline, size), design).map(|radial| (size, radial));
     let better = |a: (f64, Radial), b: (f64, Radial)| if b.1.misfit < a.1.misfit { b } else { a };
     let all = (-(steps as i32)..=steps as i32).map(|k| largest * f64::from(k) / steps);
     let mut best = all.filter_map(of).reduce(better)?;

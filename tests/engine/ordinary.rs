@@ -53,8 +53,11 @@ fn the_dots_of_webcam_pictures_are_found_and_measured_as_well_as_by_opencv() {
 #[test]
 fn dots_at_a_pitch_of_two_and_a_half_radii_are_found() {
     let Some(picture) = read("circlesgrid.png") else { return };
-    let found = detected(&picture, &DetectOptions::default()).targets.len();
-    assert!((34..=36).contains(&found), "{found} found");
+    for codes in [Codes::None, Codes::Auto] {
+        let targets = detected(&picture, &DetectOptions { codes, ..DetectOptions::default() }).targets;
+        assert!((34..=36).contains(&targets.len()), "{} found with {codes:?}", targets.len());
+        assert!(targets.iter().all(|target| target.code.is_none()), "{codes:?}");
+    }
 }
 
 /// Pictures of OpenCV and of scikit-image without a target.

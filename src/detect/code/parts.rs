@@ -44,15 +44,16 @@ pub(crate) fn drop_parts(detection: &mut Detection) {
 /// together with the targets, which they follow from index `from` on.
 pub(crate) fn settle_grounds(detection: &mut Detection, from: usize) {
     let grounds = detection.targets.split_off(from.min(detection.targets.len()));
-    if grounds.is_empty() {
-        return;
-    }
     let has_spot = |target: &Target| {
         let families = target.code_family.into_iter().chain(target.code_candidates.iter().map(|c| c.family));
         families.into_iter().any(|family| family.design().spot() > 0.0)
     };
     let (discs, others): (Vec<_>, Vec<_>) = grounds.into_iter().partition(has_spot);
-    let outlines: Vec<_> = discs.iter().map(outline_of).collect();
+    let targets = detection.targets.iter().filter(|target| has_spot(target));
+    let outlines: Vec<_> = discs.iter().chain(targets).map(outline_of).collect();
+    if outlines.is_empty() && others.is_empty() {
+        return;
+    }
     take_out(detection, |target| {
         let in_centre = |disc: &Outline| {
             let [c, s] = disc.normalised(target.u, target.v);

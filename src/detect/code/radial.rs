@@ -78,9 +78,9 @@ pub(super) fn may_have_ring<T: Sample>(plane: &Plane<T>, target: &Target) -> boo
 
 impl Radial {
     /// Of a target with this design; none where the ring leaves the picture or the dot has no contrast.
-    pub fn of<T: Sample>(plane: &Plane<T>, target: &Target, frame: &Frame, design: Design) -> Option<Self> {
+    pub fn of<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, frame: &Frame, design: Design) -> Option<Self> {
         let ring = design.ring();
-        let mut polar = Polar::sample(plane, frame, target.quality.edge_width);
+        let mut polar = Polar::sample(plane, frame, blur);
         let whole = between([START, ring[1] + 0.1]);
         if (0..polar.directions.len()).any(|j| polar.row(j)[whole.clone()].iter().any(|level| level.is_nan())) {
             return None;

@@ -9,13 +9,23 @@ use crate::detection::{CodeCandidate, Codes, Target};
 use crate::image::{Plane, Sample};
 use crate::ring_code::Family;
 
-/// Reads the codes of all targets of a photo.
-pub(crate) fn read_all<T: Sample>(plane: &Plane<T>, targets: &mut [Target], codes: Codes) {
+/// Reads the codes of all targets of a photo in one picture.
+pub(crate) fn read_in<T: Sample>(plane: &Plane<T>, targets: &mut [Target], codes: Codes) {
+    read_all(targets, codes, |_, target, families| read(plane, target, target.quality.edge_width, families));
+}
+
+/// Settles the codes of all targets of a photo, each of which `read` reads as a code of every family.
+pub(crate) fn read_all(
+    targets: &mut [Target],
+    codes: Codes,
+    read: impl Fn(usize, &Target, &[Family]) -> Vec<Reading>,
+) {
     let families = codes.families();
     if families.is_empty() {
         return;
     }
-    let readings: Vec<Vec<Reading>> = targets.iter().map(|target| read(plane, target, families)).collect();
+    let readings: Vec<Vec<Reading>> =
+        targets.iter().enumerate().map(|(k, target)| read(k, target, families)).collect();
     let chosen = chosen(&readings, families.len());
     for (target, readings) in targets.iter_mut().zip(readings) {
         enter(target, families, readings, chosen);

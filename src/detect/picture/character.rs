@@ -1,4 +1,4 @@
-//! What a camera has done to a picture, as far as its rows show it: clipped samples, blocks of a JPEG, noise of
+//! What a camera has done to a picture, as far as its rows show it: sharpened edges, clipped samples, blocks of a JPEG, noise of
 //! which neighbours know. It decides whether a picture is searched as a laboratory's or softened as well.
 
 use super::noise::Levels;
@@ -6,16 +6,25 @@ use crate::image::{Plane, Sample};
 
 /// Rows that are looked at.
 const ROWS: usize = 96;
+/// Undershoot, as a share of the step, from which an edge is sharpened: a lens leaves less.
+const SHARPENED: f64 = 0.07;
+/// Flat sides of steps that are needed to say so.
+const STEPS: usize = 24;
 /// Noise, as a share of the range, that hides small targets from the search's own thresholds.
 const NOISY: f64 = 0.014;
 /// Blocks from which a picture is a compressed one: what is not shows at most some hundredths by chance.
 const COMPRESSED: f64 = 0.12;
+/// Standard errors by which the borders of blocks stand out of their neighbours, as far as columns differ among themselves: in a
+/// small picture a few edges make as much of a difference.
+const CERTAIN: f64 = 4.0;
 /// Distance at which noise no longer knows of its neighbours.
 pub(crate) const APART: usize = 5;
 
 /// What was seen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Character {
+    /// Median undershoot beside steps, as a share of them; 0 where there are too few.
+    pub undershoot: f64,
     /// Share of samples at the dark and at the bright end of the scale.
     pub clipped: [f64; 2],
     /// How much larger differences are across the borders of blocks of eight than at any other place in eight, as a share.
@@ -29,37 +38,139 @@ impl Character {
         let step = (plane.height / ROWS).max(1);
         let rows = || (step / 2..plane.height).step_by(step).map(|y| plane.row(y));
         let (mut dark, mut bright, mut all) = (0u64, 0u64, 0u64);
-        let mut differences = [[0f64; 2]; 8];
+        // of each column to the next
+        let mut differences = vec![0f64; plane.width.saturating_sub(1)];
+        let mut undershoots = Vec::new();
         for row in rows() {
             for sample in row {
                 all += 1;
                 dark += u64::from(sample.level() == 0);
                 bright += u64::from(f64::from(sample.level()) >= levels.saturation);
             }
-            for (x, pair) in row.windows(2).enumerate() {
-                let difference = f64::from(pair[0].level().abs_diff(pair[1].level())).min(4.0 * levels.noise + 4.0);
-                let sum = &mut differences[x % 8];
-                *sum = [sum[0] + difference, sum[1] + 1.0];
+            for (pair, sum) in row.windows(2).zip(&mut differences) {
+                *sum += f64::from(pair[0].level().abs_diff(pair[1].level())).min(4.0 * levels.noise + 4.0);
             }
+            undershoots_of(row, levels, &mut undershoots);
         }
+        undershoots.sort_by(f64::total_cmp);
+        let undershoot = if undershoots.len() < STEPS { 0.0 } else { undershoots[undershoots.len() / 2].max(0.0) };
         let share = |count: u64| if levels.stairs { 0.0 } else { count as f64 / all.max(1) as f64 };
-        let means = differences.map(|[sum, count]| sum / count.max(1.0));
-        // a pattern of the scene may favour one place in eight, but hardly the last one alone
-        let other = means[..7].iter().copied().fold(1e-3, f64::max);
         Self {
+            undershoot,
             clipped: [share(dark), share(bright)],
-            blocks: (means[7] / other - 1.0).max(0.0),
+            blocks: blocks(&differences),
             noise: levels.noise / levels.range.max(1.0),
         }
     }
 
     /// Whether it is no picture of a laboratory.
     pub fn is_processed(&self, levels: &Levels) -> bool {
-        !levels.stairs && (self.is_compressed() || self.noise > NOISY)
+        !levels.stairs && (self.is_compressed() || self.noise > NOISY || self.undershoot > SHARPENED)
     }
 
     /// Whether a compression has passed over it, and neighbouring samples share their noise.
     pub fn is_compressed(&self) -> bool {
         self.blocks > COMPRESSED
+    }
+}
+
+/// By how much the differences of columns are larger at the borders of blocks of eight than at any other place in eight; 0 where
+/// that may be chance.
+fn blocks(differences: &[f64]) -> f64 {
+    let mut sums = [[0f64; 2]; 8];
+    for (x, difference) in differences.iter().enumerate() {
+        let [sum, count] = &mut sums[x % 8];
+        (*sum, *count) = (*sum + difference, *count + 1.0);
+    }
+    let means = sums.map(|[sum, count]| sum / count.max(1.0));
+    // a pattern of the scene may favour one place in eight, but hardly the last one alone
+    let other = means[..7].iter().copied().fold(0.0, f64::max);
+    if other <= 0.0 {
+        return 0.0;
+    }
+    let beside = differences.windows(3).skip(6).step_by(8).map(|three| three[1] - (three[0] + three[2]) / 2.0);
+    let (mut count, mut sum, mut squares) = (0.0, 0.0, 0.0);
+    for excess in beside {
+        (count, sum, squares) = (count + 1.0, sum + excess, squares + excess * excess);
+    }
+    let mean: f64 = sum / f64::max(count, 1.0);
+    let error = ((squares / f64::max(count, 1.0) - mean * mean).max(0.0) / f64::max(count - 1.0, 1.0)).sqrt();
+    if count < 4.0 || mean < CERTAIN * error { 0.0 } else { (means[7] / other - 1.0).max(0.0) }
+}
+
+/// Undershoots on the flat sides of a row's steps, as shares of the steps, less what noise does.
+fn undershoots_of<T: Sample>(row: &[T], levels: &Levels, found: &mut Vec<f64>) {
+    const FAR: usize = 8;
+    const NEAR: usize = 5;
+    let level = |x: usize| f64::from(row[x].level());
+    let least = (0.2 * levels.range).max(10.0 * levels.noise);
+    if least <= 0.0 {
+        return;
+    }
+    let mut x = FAR;
+    while x + FAR < row.len() {
+        let rise = level(x + 1) - level(x - 1);
+        let steepest = |y: usize| rise.abs() >= (level(y + 1) - level(y - 1)).abs();
+        if rise.abs() < 0.4 * least || !(steepest(x - 1) && steepest(x + 1)) {
+            x += 1;
+            continue;
+        }
+        let sides = [1i64, -1].map(|direction| {
+            let at = |t: usize| level((x as i64 + direction * t as i64) as usize);
+            let far = (NEAR..=FAR).map(at);
+            let (low, high) = far.clone().fold((f64::MAX, f64::MIN), |(l, h), v| (l.min(v), h.max(v)));
+            let mean = far.sum::<f64>() / (FAR - NEAR + 1) as f64;
+            let beyond = (1..NEAR).map(|t| direction as f64 * rise.signum() * (at(t) - mean)).fold(0.0, f64::max);
+            // a slope of the light goes on to the step
+            let slope = (at(FAR) - at(NEAR)).abs() / (FAR - NEAR) as f64;
+            (mean, high - low, beyond - slope * NEAR as f64)
+        });
+        // the way back from an overshoot is no step of its own
+        let contrast = (sides[0].0 - sides[1].0) * rise.signum();
+        if contrast < least || rise.abs() < 0.4 * contrast {
+            x += 1;
+            continue;
+        }
+        for (_, spread, beyond) in sides {
+            if spread < 0.1 * contrast + 3.0 * levels.noise {
+                found.push((beyond - levels.noise) / contrast);
+            }
+        }
+        x += NEAR;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+    use crate::detect::picture::noise;
+
+    fn stripes(sharpened: bool) -> Character {
+        let level = |x: usize| {
+            let d = ((x % 60) as f64 - 30.0).abs() - 14.0;
+            let overshoot = if sharpened { 30.0 * d.signum() * (-(d.abs() - 2.0).powi(2)).exp() } else { 0.0 };
+            (130.0 + 60.0 * (d / 1.2).tanh() + overshoot).round() as u8
+        };
+        let samples: Vec<u8> = (0..300 * 40).map(|i| level(i % 300)).collect();
+        let plane = Plane::new(300, 40, &samples);
+        Character::of(&plane, &noise::levels(&plane))
+    }
+
+    #[test]
+    fn sharpened_edges_undershoot() {
+        assert!(stripes(false).undershoot < 0.02, "{:?}", stripes(false));
+        assert!(stripes(true).undershoot > 0.1, "{:?}", stripes(true));
+    }
+
+    #[test]
+    fn blocks_stand_out_of_their_neighbours_and_a_few_edges_do_not() {
+        let ripple = |x: usize| 2.0 + 0.1 * ((x * 7919) % 13) as f64;
+        let blocky: Vec<f64> = (0..255).map(|x| ripple(x) + if x % 8 == 7 { 0.8 } else { 0.0 }).collect();
+        assert!(blocks(&blocky) > COMPRESSED, "{}", blocks(&blocky));
+        let edges: Vec<f64> = (0..79).map(|x| ripple(x) + if x == 31 { 20.0 } else { 0.0 }).collect();
+        assert_eq!(blocks(&edges), 0.0);
     }
 }

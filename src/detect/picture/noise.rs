@@ -47,22 +47,33 @@ pub(crate) fn levels_at<T: Sample>(plane: &Plane<T>, apart: usize) -> Levels {
     let bins = T::MAX as usize + 1;
     let (mut values, mut differences) = (vec![0u32; bins], vec![0u32; bins]);
     let step = (plane.height / ROWS).max(1);
-    for y in (step / 2..plane.height).step_by(step) {
-        for places in plane.row(y).windows(2 * apart + 1).step_by(2) {
-            let difference = (places[0].level() + places[2 * apart].level()).abs_diff(2 * places[apart].level());
-            differences[(difference as usize).min(bins - 1)] += 1;
-        }
-    }
     for strip in 0..plane.height / step {
         let row = plane.row(strip * step + ((strip as f64 * GOLDEN).fract() * step as f64) as usize);
         row.windows(3).step_by(2).for_each(|triple| values[triple[1].level() as usize] += 1);
+    }
+    let end = saturation(&values) as u32;
+    // what is clipped has lost its noise
+    let clipped = |level: u32| level == 0 || level >= end;
+    let mut whole = vec![0u32; bins];
+    for y in (step / 2..plane.height).step_by(step) {
+        for places in plane.row(y).windows(2 * apart + 1).step_by(2) {
+            let levels = [places[0].level(), places[apart].level(), places[2 * apart].level()];
+            let difference = ((levels[0] + levels[2]).abs_diff(2 * levels[1]) as usize).min(bins - 1);
+            differences[difference] += 1;
+            whole[difference] += u32::from(!levels.into_iter().any(clipped));
+        }
+    }
+    // of a drawing nothing may be left
+    let count = |of: &[u32]| of.iter().map(|n| u64::from(*n)).sum::<u64>();
+    if 20 * count(&whole) > count(&differences) {
+        differences = whole;
     }
     let noise = quantile(&differences, 0.5).unwrap_or(0.0) / (0.6745 * 6f64.sqrt());
     let range = quantile(&values, 0.999).unwrap_or(0.0) - quantile(&values, 0.001).unwrap_or(0.0);
     let count = values.iter().filter(|n| **n > 0).count();
     let stairs = noise < 0.5 && count <= FEW;
     // nothing is clipped where there is nothing between the levels
-    let saturation = if stairs { bins as f64 } else { saturation(&values) };
+    let saturation = if stairs { bins as f64 } else { f64::from(end) };
     Levels { noise, range: range.max(0.0), saturation, stairs }
 }
 
