@@ -4,9 +4,10 @@
 //! blobs that may be ellipses; in the same pass the picture at a quarter of its size shows what is large or out of focus. [`edges`]
 //! confirms them: sub-pixel edges, a robust ellipse through them ([`ellipse`] is the shape itself), the grey levels around.
 //! [`rendered`] measures the centre by the fit of a rendered ellipse, or [`centroid`] by a classical operator; [`measure`] leads
-//! from one to the next. Rings around a target are read as codes ([`code`]). A room uses those before it, never the reverse.
-//! [`whole`] goes around what a damaged file does not give.
+//! from one to the next. Rings around a target are read as codes ([`code`]). In ordinary photos [`alike`] finds more by what the targets
+//! found have in common. A room uses those before it, never the reverse. [`whole`] goes around what a damaged file does not give.
 
+mod alike;
 mod centroid;
 mod click;
 mod code;
@@ -34,6 +35,7 @@ use picture::noise::{self, Levels};
 use picture::sharpening::{self, Sharpening};
 use picture::softened::Softened;
 use rendered::colour::{Colour, Correlation};
+use search::blob::NoBlob;
 use search::census::Census;
 use search::{Blobs, Candidate};
 pub use whole::{detect_photo, measure_in_photo};
@@ -128,7 +130,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let character = Character::of(&plane, &levels);
     let processed = character.is_processed(&levels);
     let mut picture = report(&levels, &character);
-    let mut passed = pass(plane, levels, options, processed && character.is_compressed(), &[]);
+    let mut passed = pass(plane, levels, options, processed && character.is_compressed(), false, &[]);
     picture.noise_correlation = passed.correlate();
     let mut restored = None;
     if processed {
@@ -244,7 +246,7 @@ fn pass_softened<T: Sample>(
     // a mean has no end of the scale, and no noise less than that of rounding
     let levels =
         Levels { saturation: f64::from(u16::MAX), noise: levels.noise.max(0.3 * soft.scale), stairs: false, ..levels };
-    let mut passed = pass(soft.plane(), levels, options, true, known);
+    let mut passed = pass(soft.plane(), levels, options, true, true, known);
     for target in passed.detection.targets.iter_mut().chain(&mut passed.grounds) {
         target.contrast /= soft.scale;
         target.quality.noise /= soft.scale;
@@ -286,7 +288,14 @@ impl Pass {
 }
 
 /// One pass: what is found beyond the targets that are known.
-fn pass<T: Sample>(plane: Plane<T>, levels: Levels, options: &DetectOptions, coloured: bool, known: &[Target]) -> Pass {
+fn pass<T: Sample>(
+    plane: Plane<T>,
+    levels: Levels,
+    options: &DetectOptions,
+    coloured: bool,
+    soft: bool,
+    known: &[Target],
+) -> Pass {
     let blobs = search::search(&plane, &levels, options);
     let mut census = Census::new(plane.width, plane.height, code::have_spots(options.codes));
     known.iter().for_each(|target| census.know(target));
@@ -301,6 +310,7 @@ fn pass<T: Sample>(plane: Plane<T>, levels: Levels, options: &DetectOptions, col
     let mut measure = Measure::new(plane, levels, options);
     measure.work.coloured = coloured;
     let mut colours = Vec::new();
+    let mut doubtful: Vec<Outline> = Vec::new();
     for candidate in blobs.iter().flat_map(|blobs| &blobs.candidates) {
         if !census.is_new(candidate) {
             continue;
@@ -311,7 +321,27 @@ fn pass<T: Sample>(plane: Plane<T>, levels: Levels, options: &DetectOptions, col
                 colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
                 census.accept(target, *bright);
             }
-            Err(reason) => census.reject(*outline, *bright, reason),
+            Err(reason) => {
+                doubtful.push(*outline);
+                census.reject(*outline, *bright, reason);
+            }
+        }
+    }
+    if soft && let Some(alike) = alike::of(&mut measure, known, &census.targets) {
+        let not = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
+        let near = |no: &NoBlob| 0.7 * options.min_diameter < no.diameter && no.diameter < 1.5 * options.max_diameter;
+        let disc = |no: &NoBlob| {
+            let radius = no.diameter / 2.0;
+            no.outline.unwrap_or_else(|| Outline::from_axes(no.u, no.v, radius, radius, 0.0))
+        };
+        doubtful.extend(not.filter(|no| near(no)).map(disc));
+        for outline in doubtful {
+            if census.is_free(&outline)
+                && let Ok(target) = measure.alike(&outline, &alike)
+            {
+                colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
+                census.reconsider(target, alike.bright);
+            }
         }
     }
     let grounds = std::mem::take(&mut census.grounds);

@@ -14,9 +14,47 @@ const BESIDE: f64 = 4.0;
 /// The target under the click, or the nearest one within a few pixels of it.
 pub(super) fn measure<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Option<Target> {
     let method = options.method;
-    let mut target = at(plane, u, v, options, |measure, found| measure.finish(found, method).ok())?;
+    let found = at(plane, u, v, options, |measure, found| measure.finish(found, method).ok());
+    let Some(mut target) = found else { return in_ordinary(plane, u, v, options) };
     code::read_in(&plane, std::slice::from_mut(&mut target), options.codes);
     Some(target)
+}
+
+/// The target under the click where the picture is no laboratory's: as the whole picture would be searched, in windows.
+fn in_ordinary<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Option<Target> {
+    WINDOWS[1..].iter().find_map(|size| {
+        let Part { left, top, width, height, samples } = Part::of(&plane, u, v, *size);
+        let away = |target: &Target| {
+            let outline = code::outline_of(target);
+            let [c, s] = outline.grown(BESIDE).normalised(u, v);
+            (c.hypot(s) <= 1.0).then(|| (outline.u - u).hypot(outline.v - v))
+        };
+        let found = super::detect_in(Plane::new(width, height, &samples), options).targets.into_iter();
+        let shifted = found.map(|target| Target { u: target.u + left as f64, v: target.v + top as f64, ..target });
+        let hit = shifted.filter_map(|target| away(&target).map(|distance| (distance, target)));
+        hit.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, target)| target)
+    })
+}
+
+/// A window of a picture around a place.
+struct Part<T> {
+    left: usize,
+    top: usize,
+    width: usize,
+    height: usize,
+    samples: Vec<T>,
+}
+
+impl<T: Sample> Part<T> {
+    fn of(plane: &Plane<T>, u: f64, v: f64, size: usize) -> Self {
+        let (left, width) = window(u, size, plane.width);
+        let (top, height) = window(v, size, plane.height);
+        let mut samples = Vec::with_capacity(width * height);
+        for y in top..top + height {
+            samples.extend_from_slice(&plane.row(y)[left..left + width]);
+        }
+        Self { left, top, width, height, samples }
+    }
 }
 
 /// Every method's measurement of the target under the click.
@@ -41,12 +79,7 @@ fn at<T: Sample, R>(
     mut finish: impl FnMut(&mut Measure<T>, &Found) -> Option<R>,
 ) -> Option<R> {
     for size in WINDOWS {
-        let (left, width) = window(u, size, plane.width);
-        let (top, height) = window(v, size, plane.height);
-        let mut samples = Vec::with_capacity(width * height);
-        for y in top..top + height {
-            samples.extend_from_slice(&plane.row(y)[left..left + width]);
-        }
+        let Part { left, top, width, height, samples } = Part::of(&plane, u, v, size);
         let part = Plane::new(width, height, &samples);
         let levels = noise::levels(&part);
         let mut candidates: Vec<(f64, Outline, bool)> = search::search(&part, &levels, options)

@@ -128,7 +128,8 @@ fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, design: 
         return Radial::of(plane, target, blur, &Frame::new(outline, 0.0), design);
     }
     let steps = (largest * moves / SHIFT).ceil().min(4.0);
-    let of = |size: f64| Radial::of(plane, target, blur, &Frame::new(outline, size), design).map(|radial| (size, radial));
+    let of =
+        |size: f64| Radial::of(plane, target, blur, &Frame::new(outline, size), design).map(|radial| (size, radial));
     let better = |a: (f64, Radial), b: (f64, Radial)| if b.1.misfit < a.1.misfit { b } else { a };
     let all = (-(steps as i32)..=steps as i32).map(|k| largest * f64::from(k) / steps);
     let mut best = all.filter_map(of).reduce(better)?;

@@ -18,7 +18,7 @@ use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target}
 use crate::image::{Plane, Sample};
 
 /// Ellipses flatter than this are not measured.
-const FLATTEST: f64 = 0.29;
+pub(super) const FLATTEST: f64 = 0.29;
 
 /// Largest share of the inside that may differ from the rest.
 const UNEVEN: f64 = 0.25;
@@ -376,6 +376,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             whole,
             saturation: self.levels.saturation,
             stairs: self.levels.stairs,
+            prior: None,
         };
         let (plane, work) = (&self.plane, &mut self.work);
         let (outline, blur, contrast) = fit::approach(plane, &region, found.blur, ROUGH, work).ok_or(Reason::NoFit)?;
@@ -417,7 +418,7 @@ impl<'a, T: Sample> Measure<'a, T> {
     }
 
     /// Share of the pixels inside the outline that are at the end of the scale.
-    fn saturated(&self, outline: &Outline) -> f64 {
+    pub(super) fn saturated(&self, outline: &Outline) -> f64 {
         let half_v = outline.half_box().1;
         let (mut inside, mut clipped) = (0u32, 0u32);
         let rows = (outline.v - half_v).max(0.0) as usize..((outline.v + half_v) as usize + 1).min(self.plane.height);

@@ -90,7 +90,7 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
         }
         for no in &mut found.unlike {
             let [u, v] = enlarged_place(no.u, no.v);
-            *no = NoBlob { u, v, diameter: 4.0 * no.diameter, ..*no };
+            *no = NoBlob { u, v, diameter: 4.0 * no.diameter, outline: no.outline.map(|o| enlarged(&o)), ..*no };
         }
         // what has no shape there is seen in the whole picture
         blobs.push(Blobs { candidates: found.candidates, unlike: found.unlike, ..Blobs::default() });

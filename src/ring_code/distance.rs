@@ -64,7 +64,7 @@ fn turned_over(code: u32, bits: u32, count: u32, mark: &mut impl FnMut(u32)) {
         mark(code ^ choice);
         let lowest = choice & choice.wrapping_neg();
         let ripple = choice + lowest;
-        choice = ((ripple ^ choice) >> 2) / lowest | ripple;
+        choice = (((ripple ^ choice) >> 2) / lowest) | ripple;
     }
 }
 

@@ -189,7 +189,11 @@ fn nothing_that_looks_like_a_code_is_read_as_one() {
         let dot = found.iter().find(|t| (t.u - patch.u).hypot(t.v - patch.v) < 1.5 && t.major > 0.6 * patch.diameter);
         for target in found.iter().filter(|target| target.code.is_some()) {
             let right = Some(target) == dot && target.code == patch.number && target.code_family == Some(family);
-            assert!(right, "picture {k}, {kind:?} {family:?}: {:?} for {:?}, {target:?} {dot:?}", target.code, patch.number);
+            assert!(
+                right,
+                "picture {k}, {kind:?} {family:?}: {:?} for {:?}, {target:?} {dot:?}",
+                target.code, patch.number
+            );
         }
         // what detection does not find, sharpened pictures above all, is another test's subject
         if let (Kind::Code, Some(dot)) = (kind, dot.filter(|_| patch.diameter >= 12.0)) {

@@ -15,17 +15,12 @@ pub(crate) fn read_in<T: Sample>(plane: &Plane<T>, targets: &mut [Target], codes
 }
 
 /// Settles the codes of all targets of a photo, each of which `read` reads as a code of every family.
-pub(crate) fn read_all(
-    targets: &mut [Target],
-    codes: Codes,
-    read: impl Fn(usize, &Target, &[Family]) -> Vec<Reading>,
-) {
+pub(crate) fn read_all(targets: &mut [Target], codes: Codes, read: impl Fn(usize, &Target, &[Family]) -> Vec<Reading>) {
     let families = codes.families();
     if families.is_empty() {
         return;
     }
-    let readings: Vec<Vec<Reading>> =
-        targets.iter().enumerate().map(|(k, target)| read(k, target, families)).collect();
+    let readings: Vec<Vec<Reading>> = targets.iter().enumerate().map(|(k, target)| read(k, target, families)).collect();
     let chosen = chosen(&readings, families.len());
     for (target, readings) in targets.iter_mut().zip(readings) {
         enter(target, families, readings, chosen);

@@ -12,6 +12,8 @@ const SHARPENED: f64 = 0.07;
 const STEPS: usize = 24;
 /// Noise, as a share of the range, that hides small targets from the search's own thresholds.
 const NOISY: f64 = 0.014;
+/// Share of clipped samples from which paper is over-exposed: of its targets no more than the foot is seen.
+const OVEREXPOSED: f64 = 0.4;
 /// Blocks from which a picture is a compressed one: what is not shows at most some hundredths by chance.
 const COMPRESSED: f64 = 0.12;
 /// Standard errors by which the borders of blocks stand out of their neighbours, as far as columns differ among themselves: in a
@@ -65,7 +67,8 @@ impl Character {
 
     /// Whether it is no picture of a laboratory.
     pub fn is_processed(&self, levels: &Levels) -> bool {
-        !levels.stairs && (self.is_compressed() || self.noise > NOISY || self.undershoot > SHARPENED)
+        let hidden = self.noise > NOISY || self.undershoot > SHARPENED || self.clipped[1] > OVEREXPOSED;
+        !levels.stairs && (self.is_compressed() || hidden)
     }
 
     /// Whether a compression has passed over it, and neighbouring samples share their noise.

@@ -8,6 +8,9 @@ const ROWS: usize = 48;
 /// the targets of a regular field.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
+/// Second differences that are enough where most of the picture is clipped.
+const ENOUGH: u64 = 400;
+
 /// Most grey levels of a drawing without soft edges.
 const FEW: usize = 8;
 
@@ -63,12 +66,11 @@ pub(crate) fn levels_at<T: Sample>(plane: &Plane<T>, apart: usize) -> Levels {
             whole[difference] += u32::from(!levels.into_iter().any(clipped));
         }
     }
-    // of a drawing nothing may be left
+    // where most is clipped, the rest has many edges: the least quarter tells of the noise. Of a drawing nothing may be left
     let count = |of: &[u32]| of.iter().map(|n| u64::from(*n)).sum::<u64>();
-    if 20 * count(&whole) > count(&differences) {
-        differences = whole;
-    }
-    let noise = quantile(&differences, 0.5).unwrap_or(0.0) / (0.6745 * 6f64.sqrt());
+    let mostly_clipped = apart == 1 && 2 * count(&whole) < count(&differences) && count(&whole) > ENOUGH;
+    let (differences, share, normal) = if mostly_clipped { (whole, 0.25, 0.3186) } else { (differences, 0.5, 0.6745) };
+    let noise = quantile(&differences, share).unwrap_or(0.0) / (normal * 6f64.sqrt());
     let range = quantile(&values, 0.999).unwrap_or(0.0) - quantile(&values, 0.001).unwrap_or(0.0);
     let count = values.iter().filter(|n| **n > 0).count();
     let stairs = noise < 0.5 && count <= FEW;

@@ -36,6 +36,36 @@ pub(crate) struct Region<'a> {
     pub saturation: f64,
     /// Whether edges are the stairs of the pixels.
     pub stairs: bool,
+    /// What is known of blur and contrast, if anything.
+    pub prior: Option<Prior>,
+}
+
+/// Blur and contrast as observations: value and standard deviation each, and the noise of the pixels they are weighted against.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prior {
+    pub blur: [f64; 2],
+    pub contrast: [f64; 2],
+    pub noise: f64,
+}
+
+impl Prior {
+    /// Weights of both, in units of a pixel's.
+    fn weights(&self) -> [f64; 2] {
+        [self.blur[1], self.contrast[1]].map(|sigma| (self.noise / sigma).powi(2))
+    }
+
+    pub fn add_normal(&self, normal: &mut Normal) {
+        let [blur, contrast] = self.weights();
+        normal[(5, 5)] += blur;
+        normal[(6, 6)] += contrast;
+    }
+
+    /// Adds what blur and contrast are off.
+    pub fn add_right(&self, blur: f64, contrast: f64, right: &mut Unknowns) {
+        let weights = self.weights();
+        right[5] += weights[0] * (self.blur[0] - blur);
+        right[6] += weights[1] * (self.contrast[0] - contrast);
+    }
 }
 
 /// Pixels of the band, one array a column; what does not count is zero in all of them.

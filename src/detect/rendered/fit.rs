@@ -8,7 +8,7 @@
 //! is rendered at the start and kept while the corrections are small against the blur (chord method): the limit is the
 //! same, as the residuals are always exact.
 
-use super::band::{Band, Normal, Region, Unknowns};
+use super::band::{Band, Normal, Prior, Region, Unknowns};
 use super::colour::Colour;
 use super::flats::Flats;
 use super::scatter;
@@ -203,6 +203,7 @@ impl Workspace {
             blur: blur.clamp(BLUR.0, BLUR.1),
             contrast: surround.contrast,
             background: [surround.level, surround.slope[0], surround.slope[1]],
+            prior: region.prior,
         };
         self.origin = [region.outline.u, region.outline.v];
         self.field.place(&region.outline, state.blur, region.half_band);
@@ -232,12 +233,18 @@ impl Workspace {
     fn normal(&self, state: &State, flats: &Flats) -> Normal {
         let mut normal = self.band.normal(state.contrast);
         flats.add_normal(&mut normal);
+        if let Some(prior) = &state.prior {
+            prior.add_normal(&mut normal);
+        }
         normal
     }
 
     fn right(&self, state: &State, flats: &Flats) -> Unknowns {
         let mut right = self.band.right(state.contrast);
         flats.add_right(state.contrast, state.background, &mut right);
+        if let Some(prior) = &state.prior {
+            prior.add_right(state.blur, state.contrast, &mut right);
+        }
         right
     }
 }
@@ -248,6 +255,7 @@ struct State {
     blur: f64,
     contrast: f64,
     background: [f64; 3],
+    prior: Option<Prior>,
     /// Contrast that the scale has room for, and the largest that is believed.
     shown: f64,
     brightest: f64,

@@ -97,6 +97,7 @@ mod tests {
                 whole: true,
                 saturation: 255.0,
                 stairs: false,
+                prior: None,
             };
             field.place(&outline, blur, half_band);
             band.collect(&plane, &field, &region).unwrap();

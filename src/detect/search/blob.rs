@@ -31,12 +31,14 @@ pub(crate) struct NoBlob {
     pub v: f64,
     pub diameter: f64,
     pub reason: Reason,
+    /// The outline that it seemed to have, if any.
+    pub outline: Option<Outline>,
 }
 
 impl NoBlob {
     /// An outline that is no target's.
     pub fn of(outline: &Outline, reason: Reason) -> Self {
-        Self { u: outline.u, v: outline.v, diameter: 2.0 * outline.semi_axes().0, reason }
+        Self { u: outline.u, v: outline.v, diameter: 2.0 * outline.semi_axes().0, reason, outline: Some(*outline) }
     }
 }
 
@@ -53,11 +55,11 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
     {
         // one run alone shows no shape
         let (u, diameter) = (f64::from(run.x0 + run.x1) / 2.0, f64::from(run.x1 - run.x0));
-        return Err(NoBlob { u, v: f64::from(run.y), diameter, reason: Reason::TooSmall });
+        return Err(NoBlob { u, v: f64::from(run.y), diameter, reason: Reason::TooSmall, outline: None });
     }
     let moments = Moments::of(chain, limits.step as f64);
     let [u, v] = moments.middle;
-    let no = |reason| NoBlob { u, v, diameter: moments.longest, reason };
+    let no = |reason| NoBlob { u, v, diameter: moments.longest, reason, outline: None };
     if moments.longest > 1.3 * limits.max_diameter + 4.0 {
         return Err(no(Reason::TooLarge));
     }

@@ -89,6 +89,30 @@ impl Census {
         })
     }
 
+    /// Whether no target is at an outline's centre.
+    pub fn is_free(&self, outline: &Outline) -> bool {
+        !self.near(outline).any(|entry| {
+            let [c, s] = entry.outline.normalised(outline.u, outline.v);
+            entry.accepted && c * c + s * s < 1.0
+        })
+    }
+
+    /// Enters a target that was rejected before: what is shown as rejected there is so no longer.
+    pub fn reconsider(&mut self, target: Target, bright: bool) {
+        let outline = Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle);
+        let rejected = &mut self.detection.rejected;
+        self.detection.rejected_blobs.retain(|blob| {
+            let [c, s] = outline.normalised(blob.u, blob.v);
+            let stays = c.hypot(s) > 1.0 || blob.diameter > 3.0 * target.major;
+            if !stays && let Some(count) = rejected.get_mut(&blob.reason) {
+                *count = count.saturating_sub(1);
+            }
+            stays
+        });
+        rejected.retain(|_, count| *count > 0);
+        self.accept(target, bright);
+    }
+
     /// Enters a target, unless its measurement has led to one that is there already.
     pub fn accept(&mut self, target: Target, bright: bool) {
         let outline = Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle);
@@ -159,7 +183,7 @@ impl Census {
         *self.detection.rejected.entry(no.reason).or_default() += 1;
         let shown = !matches!(no.reason, Reason::TooSmall | Reason::TooLarge);
         if shown && [no.u, no.v, no.diameter].iter().all(|x| x.is_finite()) {
-            let NoBlob { u, v, diameter, reason } = *no;
+            let NoBlob { u, v, diameter, reason, .. } = *no;
             self.detection.rejected_blobs.push(Rejected { u, v, diameter, reason });
         }
     }

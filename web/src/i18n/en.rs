@@ -128,6 +128,14 @@ declare! { desk {
     rotation: "rotation";
     contrast: "contrast";
     edge_width: "edge width";
+    picture_sharpened(percent, radius): "sharpened by {percent} % (radius {radius} px)";
+    picture_overexposed(percent): "{percent} % over-exposed";
+    picture_black(percent): "{percent} % without light";
+    picture_compressed: "compressed";
+    picture_noise(noise): "noise {noise} grey levels";
+    picture_shared(what, factor):
+        "This photo: {what}. Neighbouring pixels share their noise; the standard errors are {factor} times as large for it.";
+    picture_plain(what): "This photo: {what}. The standard errors are those of this noise.";
     rejected_here: "Rejected in this photo";
     reason_too_small: "too small";
     reason_too_large: "too large";

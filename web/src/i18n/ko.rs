@@ -122,6 +122,13 @@ translate! { Korean desk {
     rotation: "회전";
     contrast: "대비";
     edge_width: "경계 폭";
+    picture_sharpened(percent, radius): "선명화 {percent} %(반경 {radius} px)";
+    picture_overexposed(percent): "밝은 쪽 포화 {percent} %";
+    picture_black(percent): "어두운 쪽 포화 {percent} %";
+    picture_compressed: "압축됨";
+    picture_noise(noise): "잡음 {noise} 계조";
+    picture_shared(what, factor): "이 사진: {what}. 이웃 화소의 잡음이 서로 상관되어 표준오차가 {factor}배로 커집니다.";
+    picture_plain(what): "이 사진: {what}. 표준오차는 이 잡음에 따른 값입니다.";
     rejected_here: "이 사진에서 기각";
     reason_too_small: "너무 작음";
     reason_too_large: "너무 큼";

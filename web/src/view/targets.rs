@@ -1,7 +1,7 @@
 //! Step 2: targets found in the photos, shown as what they are, each with its centre, sigma and outline.
 
 use leptos::prelude::*;
-use sightline::detection::{Channel, Codes, Method, Polarity, PolarityChoice, Reason, Target};
+use sightline::detection::{Channel, Codes, Method, PictureReport, Polarity, PolarityChoice, Reason, Target};
 use sightline::ring_code::Family;
 
 use super::field::Field;
@@ -62,6 +62,7 @@ pub fn Targets() -> impl IntoView {
             <aside class="inspector" tabindex="0" aria-label=text::target>
                 <Loupe target=selected/>
                 <TargetDetails/>
+                <PictureNote/>
                 <RejectedTable/>
             </aside>
         </main>
@@ -258,6 +259,44 @@ pub fn TargetDetails() -> impl IntoView {
                 }.into_any()
             }
         }}
+    }
+}
+
+/// What the camera has done to the photo, and what that means for its standard errors.
+#[component]
+fn PictureNote() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let sentence = move || current(desk).map_or(String::new(), |d| picture_sentence(&d.picture));
+    view! {
+        <Show when=move || !sentence().is_empty()>
+            <p class="note" data-result="picture">{sentence}</p>
+        </Show>
+    }
+}
+
+/// Shares below this are not worth a word.
+const WORTH: f64 = 0.005;
+/// Growth of standard errors that is worth one.
+const GROWN: f64 = 1.05;
+
+/// One sentence; none for a photo of which nothing is known.
+fn picture_sentence(picture: &PictureReport) -> String {
+    if picture.noise <= 0.0 && !picture.softened {
+        return String::new();
+    }
+    let percent = |share: f64| format::fixed(100.0 * share, 0);
+    let parts = [
+        (picture.sharpening > 0.0)
+            .then(|| text::picture_sharpened(percent(picture.sharpening), format::fixed(picture.sharpening_radius, 1))),
+        (picture.clipped_bright > WORTH).then(|| text::picture_overexposed(percent(picture.clipped_bright))),
+        (picture.clipped_dark > WORTH).then(|| text::picture_black(percent(picture.clipped_dark))),
+        (picture.softened && picture.compression > 0.0).then(|| text::picture_compressed().to_owned()),
+        Some(text::picture_noise(format::fixed(picture.noise, 1))),
+    ];
+    let what = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    match picture.noise_correlation {
+        factor if factor > GROWN => text::picture_shared(what, format::fixed(factor, 1)),
+        _ => text::picture_plain(what),
     }
 }
 

@@ -1,0 +1,241 @@
+//! Small and faint targets of ordinary photos, by what the photo's other targets show.
+//!
+//! Compression and sharpening scatter edges by more than the noise of flat paper says, and a disc that is not much wider than its
+//! blur has no outline of its own. But a photo's targets are alike: the large ones tell the blur of the picture, the contrast of
+//! the print and what the model leaves unexplained at a rim. With these a rendered ellipse is fitted wherever something
+//! stands out, and it is a target when it fits as well as they do. Without enough of them nothing is decided here.
+//!
+//! Blur and contrast enter the fit as observations with the spread that they have among the known targets. They hold the shape
+//! of a disc that its blur has swallowed; its centre is uncorrelated with them.
+
+use super::code::outline_of;
+use super::edges::surround;
+use super::ellipse::outline::Outline;
+use super::measure::{FLATTEST, Measure};
+use super::rendered::band::{Prior, Region};
+use super::rendered::fit::{self, Fit};
+use crate::detection::{Method, Polarity, Quality, Reason, Target};
+use crate::image::Sample;
+
+/// Fewest targets that tell of the others.
+const ENOUGH: usize = 6;
+/// Largest ratio of contrasts of a photo's targets: light falls off, and so does what blur leaves of the smallest.
+const CONTRASTS: f64 = 2.5;
+/// Least standard deviations of blur and of contrast among targets, as shares.
+const BLURS: f64 = 0.06;
+const SHADES: f64 = 0.15;
+/// Largest residuals, in units of those of the known targets, and the part of the contrast that they may differ by besides.
+const AS_GOOD: f64 = 1.5;
+const PROFILE: f64 = 0.04;
+/// Contrast that blur leaves in the middle, in units of the residuals, below which chance has such shapes.
+const PLAIN: f64 = 4.0;
+/// The same of the whole disc: contrast times the root of its pixels.
+const CLEAR: f64 = 16.0;
+/// Half the width, in units of the blur, of the band of pixels that are fitted: beyond it the light of neighbours is more than what
+/// is left of the rim's own.
+const BAND: f64 = 2.4;
+/// Largest share of them that neighbours may disturb.
+const DISTURBED: f64 = 0.25;
+/// Most known targets that are measured again.
+const MEASURED: usize = 40;
+/// Corrections in pixels that end the fit.
+const CONVERGED: f64 = 1e-3;
+
+/// What the known targets of a picture have in common.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Alike {
+    pub bright: bool,
+    /// Median blur as sigma in pixels, and its spread.
+    blur: [f64; 2],
+    /// Median contrast and its spread.
+    contrast: [f64; 2],
+    /// Median rms of what the fits leave.
+    rms: f64,
+}
+
+fn median_and_spread(mut values: Vec<f64>) -> [f64; 2] {
+    let middle = |values: &mut Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values[values.len() / 2]
+    };
+    let median = middle(&mut values);
+    let mut apart: Vec<f64> = values.iter().map(|value| (value - median).abs()).collect();
+    [median, 1.4826 * middle(&mut apart)]
+}
+
+impl Alike {
+    /// Of targets of one picture, as measured there; none where they are few or differ too much.
+    pub fn of<'a>(targets: impl Iterator<Item = &'a Target>, noise: f64) -> Option<Self> {
+        let (bright, dark): (Vec<&Target>, Vec<&Target>) =
+            targets.partition(|target| target.polarity == Polarity::Bright);
+        let (targets, bright) = if bright.len() > dark.len() { (bright, true) } else { (dark, false) };
+        // those whose blur does not hide their contrast
+        let plain: Vec<&Target> = targets.into_iter().filter(|t| t.minor > 5.0 * t.quality.edge_width).collect();
+        if plain.len() < ENOUGH {
+            return None;
+        }
+        let of = |value: fn(&Target) -> f64| median_and_spread(plain.iter().map(|target| value(target)).collect());
+        let [blur, blurs] = of(|target| target.quality.edge_width);
+        let [contrast, shades] = of(|target| target.contrast);
+        let [rms, _] = of(|target| target.quality.fit_rms);
+        Some(Self {
+            bright,
+            blur: [blur, blurs.max(BLURS * blur)],
+            contrast: [contrast, shades.max(SHADES * contrast)],
+            rms: rms.max(noise),
+        })
+    }
+
+    /// Share of its contrast that a disc of these semi-axes shows in its middle.
+    fn seen(&self, a: f64, b: f64) -> f64 {
+        1.0 - (-0.5 * a * b / self.blur[0].powi(2)).exp()
+    }
+
+    /// A first outline of what stands out with this one: blur makes small discs look larger.
+    fn within(&self, outline: &Outline) -> Outline {
+        let (a, b, angle) = outline.axes();
+        let own = |seen: f64| {
+            let square = (seen / 1.18).powi(2) - self.blur[0].powi(2);
+            seen.min(2.0 * square.max((0.3 * self.blur[0]).powi(2)).sqrt())
+        };
+        let [a, b] = [own(a), own(b)];
+        Outline::from_axes(outline.u, outline.v, a, b.max(0.4 * a), angle)
+    }
+}
+
+impl<T: Sample> Measure<'_, T> {
+    /// The target at a place where something of this outline stands out, as far as it is like the others.
+    pub fn alike(&mut self, seen: &Outline, alike: &Alike) -> Result<Target, Reason> {
+        let size = self.plane.width.max(self.plane.height) as f64;
+        if !seen.is_proper() || seen.semi_axes().0 > size {
+            return Err(Reason::NotAnEllipse);
+        }
+        let mut outline = alike.within(seen);
+        if !self.has_room(&outline) {
+            return Err(Reason::AtBorder);
+        }
+        let mut kept = vec![true; super::edges::edge::ray_count(&outline)];
+        let mut around = self.level_around(&outline, alike, &kept)?;
+        let sign = if alike.bright { 1.0 } else { -1.0 };
+        if sign * around.contrast
+            < 0.5 * alike.seen(outline.semi_axes().0, outline.semi_axes().1) * alike.contrast[0] / CONTRASTS
+        {
+            return Err(Reason::LowContrast);
+        }
+        let prior =
+            Prior { blur: alike.blur, contrast: [sign * alike.contrast[0], alike.contrast[1]], noise: alike.rms };
+        let mut found: Option<Fit> = None;
+        // the second time with the pixels of the outline that the first one has found
+        for _ in 0..2 {
+            around.contrast = sign * alike.contrast[0];
+            let region = Region {
+                outline,
+                half_band: BAND * alike.blur[0] + 1.0,
+                surround: &around,
+                kept: &kept,
+                whole: true,
+                saturation: self.levels.saturation,
+                stairs: false,
+                prior: Some(prior),
+            };
+            let fit = fit::fit(&self.plane, &region, alike.blur[0], CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
+            outline = fit.outline;
+            found = Some(fit);
+            if !outline.is_proper() || !self.has_room(&outline) {
+                return Err(Reason::AtBorder);
+            }
+            kept = vec![true; super::edges::edge::ray_count(&outline)];
+            around = self.level_around(&outline, alike, &kept)?;
+        }
+        let fit = found.ok_or(Reason::NoFit)?;
+        self.judge(seen, &fit, alike)?;
+        self.colour = fit.colour;
+        let (a, b, angle) = outline.axes();
+        let [uu, uv, vv] = fit.covariance;
+        Ok(Target {
+            id: 0,
+            u: outline.u,
+            v: outline.v,
+            sigma_u: uu.sqrt(),
+            sigma_v: vv.sqrt(),
+            covariance_uv: uv,
+            major: 2.0 * a,
+            minor: 2.0 * b,
+            angle,
+            contrast: fit.contrast.abs(),
+            polarity: if alike.bright { Polarity::Bright } else { Polarity::Dark },
+            code: None,
+            code_family: None,
+            code_candidates: Vec::new(),
+            quality: Quality {
+                fit_rms: fit.rms,
+                noise: around.noise,
+                edge_width: fit.blur,
+                saturated: self.saturated(&outline),
+                code_margin: None,
+                roundness: b / a,
+                occluded: 0.0,
+                code_note: None,
+            },
+        })
+    }
+
+    /// Whether a fit is a target like the others.
+    fn judge(&self, seen: &Outline, fit: &Fit, alike: &Alike) -> Result<(), Reason> {
+        let (a, b) = fit.outline.semi_axes();
+        let contrast = if alike.bright { fit.contrast } else { -fit.contrast };
+        if 2.0 * a < 0.95 * self.options.min_diameter {
+            return Err(Reason::TooSmall);
+        }
+        if 2.0 * a > 1.02 * self.options.max_diameter {
+            return Err(Reason::TooLarge);
+        }
+        if b < FLATTEST * a {
+            return Err(Reason::TooFlat);
+        }
+        let peak = alike.seen(a, b) * contrast;
+        let pixels = std::f64::consts::PI * (a * b + 2.0 * alike.blur[0].powi(2));
+        if !(alike.contrast[0] / CONTRASTS..alike.contrast[0] * CONTRASTS).contains(&contrast)
+            || peak < PLAIN * alike.rms
+            || peak * pixels.sqrt() < CLEAR * alike.rms
+        {
+            return Err(Reason::LowContrast);
+        }
+        let misfit = (fit.uneven.powi(2) - alike.rms.powi(2)).max(0.0).sqrt();
+        let moved = (fit.outline.u - seen.u).hypot(fit.outline.v - seen.v);
+        let [blur, spread] = alike.blur;
+        let good = fit.rms <= AS_GOOD * alike.rms + PROFILE * peak
+            && misfit <= 0.6 * alike.rms + PROFILE * peak
+            && fit.disturbed <= DISTURBED
+            && (fit.blur - blur).abs() <= 3.0 * spread + 0.1 * blur
+            && moved <= 1.0 + 0.3 * seen.semi_axes().1;
+        if good { Ok(()) } else { Err(Reason::NotAnEllipse) }
+    }
+
+    fn level_around(&self, outline: &Outline, alike: &Alike, kept: &[bool]) -> Result<surround::Surround, Reason> {
+        surround::measure(&self.plane, outline, 0.7 * alike.blur[0], kept, u32::MAX).ok_or(Reason::AtBorder)
+    }
+
+    fn has_room(&self, outline: &Outline) -> bool {
+        let (half_u, half_v) = outline.half_box();
+        outline.u - half_u >= 2.0
+            && outline.v - half_v >= 2.0
+            && outline.u + half_u <= self.plane.width as f64 - 2.0
+            && outline.v + half_v <= self.plane.height as f64 - 2.0
+    }
+}
+
+/// What the targets of a picture have in common, of those found in it and of those that are known from elsewhere, which are
+/// measured in it. Only the fit of a rendered ellipse has a model to compare with.
+pub(crate) fn of<T: Sample>(measure: &mut Measure<T>, known: &[Target], found: &[Target]) -> Option<Alike> {
+    if measure.options.method != Method::LeastSquares {
+        return None;
+    }
+    let mut all = found.to_vec();
+    for target in known.iter().take(MEASURED) {
+        let bright = target.polarity == Polarity::Bright;
+        let found = measure.confirm(&outline_of(target), bright);
+        all.extend(found.and_then(|found| measure.finish(&found, Method::LeastSquares)));
+    }
+    Alike::of(all.iter(), measure.levels.noise)
+}
