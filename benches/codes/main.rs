@@ -9,6 +9,7 @@ use sightline::detect::{detect, read_codes};
 use sightline::detection::{Codes, DetectOptions, Polarity, Quality, Target};
 use sightline::ring_code::Family;
 
+#[allow(dead_code, reason = "shared with the tests, which use all of it")]
 #[path = "../../tests/engine/coded_patch.rs"]
 mod coded_patch;
 #[path = "../../tests/engine/painter.rs"]
