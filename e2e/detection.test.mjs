@@ -56,7 +56,7 @@ test('the photos of the sample, which the page renders itself', { timeout: 600_0
 
 for (const { name, ending, folder, choices, options, least } of [
   { name: 'photographs in colour, dark targets', ending: '.jpg', folder: 'camcal/photos', choices: { polarity: 'dark on bright', channel: 'green', codes: 'none' }, options: { polarity: 'dark', channel: 'green', codes: 'none' }, least: 360 },
-  { name: 'photographs of coded targets', ending: '.tif', folder: 'panel', choices: { polarity: 'bright on dark', codes: '14 bit' }, options: { polarity: 'bright', codes: 'ring-14' }, least: 160 },
+  { name: 'photographs of coded targets', ending: '.tif', folder: 'panel', choices: { polarity: 'bright on dark', codes: 'Schneider / AICON 14 bit' }, options: { polarity: 'bright', codes: 'ring-14' }, least: 160 },
 ]) {
   const place = data(folder);
   test(name, { skip: place ? false : 'skipped, no data', timeout: 600_000 }, async () => {

@@ -108,7 +108,7 @@ test('a click before detection measures, typing names, Alt-click and the button 
     await page.reload();
     await photos(page, paths.slice(0, 2));
     await go(page, 'targets');
-    await page.selectOption('select[name=codes]', { label: '14 bit' });
+    await page.selectOption('select[name=codes]', { label: 'Schneider / AICON 14 bit' });
     await showPhoto(page, '1');
     assert.match(await page.textContent('.legend'), /Click measures, Alt-click places freely/);
     const coded = place('11');

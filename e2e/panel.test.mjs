@@ -17,7 +17,7 @@ test('8 photos become coordinates', { skip: folder ? false : 'skipped, no data',
     await photos(page, files(folder, '.tif'));
     // Two cameras, told apart by their file names.
     assert.equal(await page.locator('.side [data-field=c]').count(), 2);
-    await detect(page, { polarity: 'bright on dark', codes: '14 bit' });
+    await detect(page, { polarity: 'bright on dark', codes: 'Schneider / AICON 14 bit' });
 
     await go(page, 'control');
     const [from, to] = ['2', '71'];
