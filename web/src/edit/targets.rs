@@ -59,6 +59,23 @@ pub fn take_family(document: &mut Document, family: Family) {
     }
 }
 
+/// What the rings of these detections are codes of, by themselves.
+pub fn rings(detections: &BTreeMap<String, Arc<Detection>>) -> Rings {
+    let of = |(id, d): (&String, &Arc<Detection>)| PhotoTargets { photo: id.clone(), targets: d.targets.clone() };
+    let all = detections.iter().map(of).collect::<Vec<_>>();
+    let coded = name_coded(&all, None);
+    rings_of(&all, coded.family, coded.families)
+}
+
+fn rings_of(all: &[PhotoTargets], family: Option<Family>, families: Vec<Family>) -> Rings {
+    let ring = |t: &Target| t.code_candidates.iter().any(|c| c.margin > 0.0);
+    match family {
+        None if families.len() > 1 => Rings::OfSeveral(families),
+        None if families.is_empty() && all.iter().flat_map(|p| &p.targets).any(ring) => Rings::Different,
+        family => Rings::Of(family),
+    }
+}
+
 /// Takes one detection; the family that is known then.
 fn take_one(document: &mut Document, photo: &str, mut detection: Detection, family: Option<Family>) -> Option<Family> {
     let mut all = by_photo(document);
@@ -76,12 +93,7 @@ fn take_one(document: &mut Document, photo: &str, mut detection: Detection, fami
     doubtful.retain(|d| d.photo != photo && d.reason != Doubt::CodeFamily);
     doubtful.extend(coded.doubtful.into_iter().filter(|d| d.photo == photo || d.reason == Doubt::CodeFamily));
     document.doubtful = Arc::new(doubtful);
-    let ring = |t: &Target| t.code_candidates.iter().any(|c| c.margin > 0.0);
-    document.rings = match coded.family {
-        None if coded.families.len() > 1 => Rings::OfSeveral(coded.families),
-        None if coded.families.is_empty() && all.iter().flat_map(|p| &p.targets).any(ring) => Rings::Different,
-        family => Rings::Of(family),
-    };
+    document.rings = rings_of(&all, coded.family, coded.families);
     let project = document.project_mut();
     let marks = before.iter().map(|o| Mark {
         photo: photo.to_owned(),

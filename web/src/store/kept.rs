@@ -13,6 +13,7 @@ use sightline::project::{Parameter, Project};
 use sightline_protocol::{from_text, to_plain_text, to_text};
 
 use super::document::{Change, Document, History, Outcome};
+use crate::edit::targets;
 
 /// A document by the numbers of its parts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -328,6 +329,7 @@ impl Book {
         });
         Ok(Document {
             project,
+            rings: targets::rings(&detections),
             detections,
             doubtful,
             sigmas_of_held: state.sigmas_of_held.iter().map(|(c, p, s)| ((c.clone(), *p), *s)).collect(),
