@@ -43,6 +43,8 @@ fn target(u: f64, v: f64) -> Target {
         contrast: 90.0,
         polarity: Polarity::Bright,
         code: None,
+        code_family: None,
+        code_candidates: Vec::new(),
         quality: Quality::default(),
     }
 }
