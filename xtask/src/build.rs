@@ -121,9 +121,10 @@ pub fn metadata() -> Outcome<Value> {
 pub const NATIVE: [&str; 6] =
     ["--package", "sightline", "--package", "sightline-desk", "--package", "sightline-protocol"];
 
-/// Builds the examples of the engine natively, with what the tests are built with, and gives their folder.
+/// Builds the examples of the engine natively, asked for as the tests are, so that nothing is compiled again for other features,
+/// and gives their folder.
 pub fn examples() -> Outcome<String> {
-    run(cargo(&["build", "--examples"]).args(NATIVE))?;
+    run(cargo(&["test", "--no-run"]).args(NATIVE))?;
     Ok(format!("{}/debug/examples", target_directory()?))
 }
 
