@@ -35,7 +35,7 @@
 //! }
 //!
 //! // Identities: a code is a name.
-//! let coded = name_coded(&photos);
+//! let coded = name_coded(&photos, None);
 //! let known: Vec<_> = project.points.iter().map(|point| point.id.clone()).collect();
 //! project.points.extend(coded.points.into_iter().filter(|point| !known.contains(&point.id)));
 //! project.observations.extend(coded.observations);
