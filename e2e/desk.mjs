@@ -102,7 +102,7 @@ export async function downloads(page, count, click) {
   const listen = (download) => seen.push(download);
   page.on('download', listen);
   await click();
-  for (let i = 0; i < 200 && seen.length < count; i++) await page.waitForTimeout(50);
+  for (let i = 0; i < 1200 && seen.length < count; i++) await page.waitForTimeout(50);
   page.off('download', listen);
   const all = {};
   for (const download of seen) all[download.suggestedFilename()] = readFileSync(await download.path());

@@ -11,6 +11,7 @@ mod alike;
 mod centroid;
 mod click;
 mod code;
+mod covered;
 mod edges;
 mod ellipse;
 mod measure;
@@ -27,6 +28,7 @@ use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, Pi
 use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
 use code::outline_of;
+use covered::Covered;
 use measure::Measure;
 use normal::BLUR;
 use outline::Outline;
@@ -110,6 +112,12 @@ fn check(options: &DetectOptions) -> Result<()> {
                 at: Place::field(name),
             });
         }
+    }
+    if !(0.15..=1.0).contains(&options.min_axis_ratio) {
+        return Err(Error::Invalid {
+            reason: error::Reason::AxisRatio { value: options.min_axis_ratio.into() },
+            at: Place::field("min_axis_ratio"),
+        });
     }
     if options.min_diameter > options.max_diameter {
         return Err(Error::Invalid {
@@ -311,6 +319,7 @@ fn pass<T: Sample>(
     measure.work.coloured = coloured;
     let mut colours = Vec::new();
     let mut doubtful: Vec<Outline> = Vec::new();
+    let mut covered: Vec<Candidate> = Vec::new();
     for candidate in blobs.iter().flat_map(|blobs| &blobs.candidates) {
         if !census.is_new(candidate) {
             continue;
@@ -323,8 +332,28 @@ fn pass<T: Sample>(
             }
             Err(reason) => {
                 doubtful.push(*outline);
+                if matches!(reason, Reason::NotAnEllipse | Reason::Touching | Reason::NoFit | Reason::Occluded) {
+                    covered.push(*candidate);
+                }
                 census.reject(*outline, *bright, reason);
             }
+        }
+    }
+    covered.extend(blobs.iter().flat_map(|blobs| &blobs.partial));
+    for Candidate { outline, bright } in &covered {
+        if !census.is_free(outline) {
+            continue;
+        }
+        match measure.uncovered(outline, *bright) {
+            Ok(found) => match measure.finish(&found, options.method) {
+                Ok(target) => {
+                    colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
+                    census.reconsider(target, *bright);
+                }
+                Err(_) => census.hide(&found.ellipse.outline),
+            },
+            Err(Covered::Hidden(outline)) => census.hide(&outline),
+            Err(Covered::No) => {}
         }
     }
     if soft && let Some(alike) = alike::of(&mut measure, known, &census.targets) {

@@ -144,6 +144,9 @@ pub struct DetectOptions {
     pub min_diameter: f64,
     /// Largest full axis of a target in pixels.
     pub max_diameter: f64,
+    /// Smallest ratio of a target's axes, minor over major: the cosine of the steepest view that is measured. What is flatter
+    /// is refused, for outlines so narrow are scratches and slits more often than targets.
+    pub min_axis_ratio: f64,
 }
 
 impl Default for DetectOptions {
@@ -155,6 +158,7 @@ impl Default for DetectOptions {
             codes: Codes::default(),
             min_diameter: 5.0,
             max_diameter: 400.0,
+            min_axis_ratio: 0.29,
         }
     }
 }
@@ -272,7 +276,7 @@ pub enum Reason {
     TooLarge,
     /// Its outline is not an ellipse.
     NotAnEllipse,
-    /// Tilted or squeezed beyond an axis ratio of 0.3.
+    /// Flatter than `min_axis_ratio`.
     TooFlat,
     /// Contrast too low against the noise.
     LowContrast,

@@ -1,6 +1,6 @@
 //! Detection in ordinary pictures, natively: OpenCV's webcam pictures of dot grids with their known dots, pictures without
-//! targets, and cameras drawn at random. `cargo bench --bench photos -- [PICTURES]` prints both tables; the data lie where the
-//! tests look for them.
+//! targets, and cameras drawn at random. `cargo bench --bench photos -- [PICTURES]` prints both tables, `-- conditions` one
+//! condition of a crew's day after the other; the data lie where the tests look for them.
 
 use std::error::Error;
 
@@ -10,6 +10,8 @@ use sightline::{decode, detect};
 
 #[path = "../../tests/engine/camera_model.rs"]
 mod camera_model;
+#[path = "../../tests/engine/conditions.rs"]
+mod conditions;
 #[path = "../../tests/engine/grid_fit.rs"]
 mod grid_fit;
 #[allow(dead_code, reason = "the tests use the rest")]
@@ -18,6 +20,9 @@ mod painter;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    if arguments.first().is_some_and(|part| part == "conditions") {
+        return conditions();
+    }
     let pictures = arguments.first().map_or(Ok(100), |count| count.parse())?;
     let folder = std::env::var("SIGHTLINE_DATA").unwrap_or_else(|_| "../shared/data".into());
     if std::path::Path::new(&folder).exists() {
@@ -29,13 +34,48 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn found(grey: &Grey) -> Result<(Detection, f64), Box<dyn Error>> {
+    found_with(grey, &DetectOptions::default())
+}
+
+/// One condition of a crew's day after the other, ten pictures each.
+fn conditions() -> Result<(), Box<dyn Error>> {
+    println!("{:<24} targets  found  false  rms px   chi  said to be hidden", "condition");
+    for condition in conditions::all() {
+        let mut all = camera_model::Score::default();
+        let mut told = 0;
+        for seed in 0..10 {
+            let (grey, spots) = (condition.picture)(seed);
+            let (detection, _) = found_with(&grey, &condition.options)?;
+            let score = camera_model::score(&detection, &spots);
+            told += conditions::said_to_be_hidden(&detection, &spots);
+            all.targets += score.targets;
+            all.hits += score.hits;
+            all.others += score.others;
+            all.errors += score.errors;
+            all.square += score.square;
+        }
+        let count = 2.0 * all.hits.max(1) as f64;
+        println!(
+            "{:<24} {:>7} {:>6.3} {:>6} {:>7.4} {:>5.2} {told:>5}",
+            condition.name,
+            all.targets,
+            all.hits as f64 / all.targets as f64,
+            all.others,
+            (all.errors / count).sqrt(),
+            (all.square / count).sqrt(),
+        );
+    }
+    Ok(())
+}
+
+fn found_with(grey: &Grey, options: &DetectOptions) -> Result<(Detection, f64), Box<dyn Error>> {
     let samples = match &grey.samples {
         Samples::U8(samples) => SamplesView::U8(samples),
         Samples::U16(samples) => SamplesView::U16(samples),
     };
     let view = GreyView::new(grey.width, grey.height, samples)?;
     let began = std::time::Instant::now();
-    let detection = detect::detect(&view, &DetectOptions::default())?;
+    let detection = detect::detect(&view, options)?;
     Ok((detection, 1e3 * began.elapsed().as_secs_f64()))
 }
 

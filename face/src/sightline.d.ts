@@ -428,6 +428,8 @@ export interface DetectOptions {
   min_diameter?: number;
   /** Largest full axis of a target in pixels [400]. */
   max_diameter?: number;
+  /** Smallest ratio of a target's axes, 0.15 to 1: the cosine of the steepest view that is measured [0.29]. */
+  min_axis_ratio?: number;
 }
 
 /** How good a target's image is. */

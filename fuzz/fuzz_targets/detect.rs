@@ -19,6 +19,7 @@ fn options(head: &[u8]) -> DetectOptions {
             [usize::from(at(3) % 6)],
         min_diameter: if at(4) & 1 == 0 { 5.0 } else { number(5) },
         max_diameter: if at(4) & 2 == 0 { 400.0 } else { number(9) },
+        min_axis_ratio: if at(4) & 4 == 0 { 0.29 } else { f64::from(at(13)) / 255.0 },
     }
 }
 

@@ -11,7 +11,7 @@
 use super::code::outline_of;
 use super::edges::surround;
 use super::ellipse::outline::Outline;
-use super::measure::{FLATTEST, Measure};
+use super::measure::Measure;
 use super::rendered::band::{Prior, Region};
 use super::rendered::fit::{self, Fit};
 use crate::detection::{Method, Polarity, Quality, Reason, Target};
@@ -190,7 +190,7 @@ impl<T: Sample> Measure<'_, T> {
         if 2.0 * a > 1.02 * self.options.max_diameter {
             return Err(Reason::TooLarge);
         }
-        if b < FLATTEST * a {
+        if b < self.options.min_axis_ratio * a {
             return Err(Reason::TooFlat);
         }
         let peak = alike.seen(a, b) * contrast;

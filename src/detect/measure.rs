@@ -11,35 +11,44 @@ use super::edges::through::{self, EllipseFit, Start};
 use super::ellipse::outline::Outline;
 use super::median;
 use super::picture::noise::Levels;
-use super::rendered::band::Region;
+use super::rendered::band::{Prior, Region};
 use super::rendered::colour::Colour;
 use super::rendered::fit::{self, Workspace};
 use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
 use crate::image::{Plane, Sample};
 
-/// Ellipses flatter than this are not measured.
-pub(super) const FLATTEST: f64 = 0.29;
-
 /// Largest share of the inside that may differ from the rest.
-const UNEVEN: f64 = 0.25;
+pub(super) const UNEVEN: f64 = 0.25;
 
 /// Most directions in which a faint target may lie inside of a thin ring.
 const STROKE: u32 = 11;
 /// Largest share of the outline that may be missing without anything in front of it.
-const UNEXPLAINED: f64 = 0.2;
+pub(super) const UNEXPLAINED: f64 = 0.2;
 
-/// Which rays count: a single edge out of place is chance, two in a row are something in front of the target.
-fn undisturbed(edges: &Edges) -> Vec<bool> {
+/// Rays in a row without a fitting edge that are something in front of the target.
+const COVERED: usize = 3;
+
+/// Which rays count: a single edge out of place is chance, two in a row are something in front of the target. Its own edge is as
+/// blurred as the target's: beside what covers more than that the rim is left out as far as that blur reaches.
+pub(super) fn undisturbed(edges: &Edges, outline: &Outline, blur: f64) -> Vec<bool> {
     let count = edges.len();
     let kept = |k: usize| edges.is_kept(k % count);
-    (0..count).map(|k| kept(k) || kept(k + 1) && kept(k + count - 1)).collect()
+    let good: Vec<bool> = (0..count).map(|k| kept(k) || kept(k + 1) && kept(k + count - 1)).collect();
+    let margin = ((2.0 * blur + 1.0) * count as f64 / outline.perimeter()).ceil() as usize;
+    let mut all = good.clone();
+    for k in (0..count).filter(|k| (0..COVERED).all(|i| !good[(k + i) % count])) {
+        for i in 0..COVERED + 2 * margin {
+            all[(k + count + i - margin.min(count)) % count] = false;
+        }
+    }
+    all
 }
 
 /// Rings of a first look at the surround.
-const NEARBY: u32 = 6;
+pub(super) const NEARBY: u32 = 6;
 
 /// Correction, in pixels, that ends the refinement of an ellipse that only starts the final measurement.
-const NEAR: f64 = 0.005;
+pub(super) const NEAR: f64 = 0.005;
 
 /// Expected corrections, in pixels, that end the approach and the fit.
 const ROUGH: f64 = 2e-3;
@@ -52,6 +61,11 @@ const DISTURBED: f64 = 0.12;
 
 /// Share of clipped pixels that explains why a target has no fit.
 const CLIPPED: f64 = 0.5;
+
+/// Blur of a lens in focus and its spread over lenses, in pixels; and the standard deviation, in units of what is seen of it, of a
+/// contrast of which nothing is known. Neither is correlated with the centre.
+const IN_FOCUS: [f64; 2] = [0.8, 0.25];
+const LOOSE: f64 = 100.0;
 
 /// Half the width of the band of pixels that the rim's blur reaches.
 fn half_band(blur: f64) -> f64 {
@@ -71,6 +85,8 @@ pub(crate) struct Measure<'a, T> {
     pub options: &'a DetectOptions,
     pub edges: Edges,
     pub work: Workspace,
+    /// What is known of blur and contrast, if anything.
+    prior: Option<Prior>,
     /// What neighbouring pixels of the target measured last share.
     pub colour: Option<Colour>,
 }
@@ -104,7 +120,7 @@ fn largest_rms(b: f64) -> f64 {
 impl<'a, T: Sample> Measure<'a, T> {
     /// Nothing measured yet.
     pub fn new(plane: Plane<'a, T>, levels: Levels, options: &'a DetectOptions) -> Self {
-        Self { plane, levels, options, edges: Edges::default(), work: Workspace::default(), colour: None }
+        Self { plane, levels, options, edges: Edges::default(), work: Workspace::default(), prior: None, colour: None }
     }
 
     /// Edges, ellipse and surround of a target that has passed its first look, whose outline is known to a fraction of its size.
@@ -149,7 +165,7 @@ impl<'a, T: Sample> Measure<'a, T> {
                 if found.occluded > quality::HIDDEN + 0.1 {
                     return Err(Reason::Occluded);
                 }
-                if outline.semi_axes().1 < 0.85 * FLATTEST * outline.semi_axes().0 {
+                if outline.semi_axes().1 < 0.85 * self.options.min_axis_ratio * outline.semi_axes().0 {
                     return Err(Reason::TooFlat);
                 }
                 if !quality::size_may_allow(&found) {
@@ -162,7 +178,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         }
         let mut ellipse = fitted.ok_or(Reason::NotAnEllipse)?;
         let (a, b) = outline.semi_axes();
-        if b < FLATTEST * a {
+        if b < self.options.min_axis_ratio * a {
             return Err(Reason::TooFlat);
         }
         if 2.0 * a < 0.92 * self.options.min_diameter {
@@ -185,7 +201,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         if ellipse.rms > largest_rms(b) && focus <= SOFT || !quality::size_allows(&ellipse) {
             return Err(Reason::NotAnEllipse);
         }
-        let mut kept = undisturbed(&self.edges);
+        let mut kept = undisturbed(&self.edges, &outline, blur::rough(focus));
         let rough =
             surround::measure(&self.plane, &outline, blur::rough(focus), &kept, NEARBY).ok_or(Reason::AtBorder)?;
         let strength = self.strength();
@@ -214,7 +230,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
             ellipse = through::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Reason::NotAnEllipse)?;
             outline = ellipse.outline;
-            kept = undisturbed(&self.edges);
+            kept = undisturbed(&self.edges, &outline, blur);
             if ellipse.occluded > quality::HIDDEN {
                 return Err(Reason::Occluded);
             }
@@ -235,7 +251,7 @@ impl<'a, T: Sample> Measure<'a, T> {
     }
 
     /// Edges on `count` rays, of a target of about this blur.
-    fn search(&mut self, outline: &Outline, bright: bool, reach: f64, count: usize, focus: f64) {
+    pub(super) fn search(&mut self, outline: &Outline, bright: bool, reach: f64, count: usize, focus: f64) {
         let threshold = self.levels.step();
         let (plane, edges) = (&self.plane, &mut self.edges);
         if focus > DEFOCUSED {
@@ -261,7 +277,7 @@ impl<'a, T: Sample> Measure<'a, T> {
     }
 
     /// Median difference over two pixels across the kept edges.
-    fn strength(&mut self) -> f64 {
+    pub(super) fn strength(&mut self) -> f64 {
         let Edges { strength, kept, scratch, .. } = &mut self.edges;
         let kept = strength.iter().zip(kept).filter(|(_, kept)| **kept > 0.0);
         median::of_sizes(kept.map(|(strength, _)| *strength), &mut scratch.sizes)
@@ -277,8 +293,19 @@ impl<'a, T: Sample> Measure<'a, T> {
     pub fn finish(&mut self, found: &Found, method: Method) -> Result<Target, Reason> {
         let measured = self.measured(found, method);
         // without a fit, what is clipped in most of its pixels has failed for that
-        let clipped = measured == Err(Reason::NoFit) && self.saturated(&found.ellipse.outline) > CLIPPED;
-        if clipped { Err(Reason::Saturated) } else { measured }
+        if measured != Err(Reason::NoFit) || self.saturated(&found.ellipse.outline) <= CLIPPED {
+            return measured;
+        }
+        // only the foot of the profile is left, where contrast and blur stand for each other: the blur of a lens in focus decides
+        let contrast = found.surround.contrast;
+        self.prior = Some(Prior {
+            blur: IN_FOCUS,
+            contrast: [contrast, LOOSE * contrast.abs()],
+            noise: self.noise(&found.surround),
+        });
+        let again = self.measured(found, method);
+        self.prior = None;
+        again.map_err(|_| Reason::Saturated)
     }
 
     fn measured(&mut self, found: &Found, method: Method) -> Result<Target, Reason> {
@@ -358,7 +385,7 @@ impl<'a, T: Sample> Measure<'a, T> {
     }
 
     /// Noise around a target; where the surround is not plane, what the whole picture has is believed.
-    fn noise(&self, surround: &Surround) -> f64 {
+    pub(super) fn noise(&self, surround: &Surround) -> f64 {
         surround.noise.clamp(self.levels.noise, 1.1 * self.levels.noise).max(0.3)
     }
 
@@ -376,7 +403,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             whole,
             saturation: self.levels.saturation,
             stairs: self.levels.stairs,
-            prior: None,
+            prior: self.prior,
         };
         let (plane, work) = (&self.plane, &mut self.work);
         let (outline, blur, contrast) = fit::approach(plane, &region, found.blur, ROUGH, work).ok_or(Reason::NoFit)?;
@@ -400,7 +427,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         if moved > 1.0 + 0.1 * b || contrast <= 0.0 {
             return Err(Reason::NoFit);
         }
-        if b < FLATTEST * a {
+        if b < self.options.min_axis_ratio * a {
             return Err(Reason::TooFlat);
         }
         if 2.0 * a < 0.95 * self.options.min_diameter {

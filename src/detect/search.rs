@@ -9,6 +9,7 @@
 pub(crate) mod blob;
 pub(crate) mod census;
 mod component;
+mod partial;
 mod scan;
 
 use self::blob::{Limits, NoBlob};
@@ -32,6 +33,8 @@ pub(crate) struct Candidate {
 #[derive(Default)]
 pub(crate) struct Blobs {
     pub candidates: Vec<Candidate>,
+    /// Ellipses that only a part of a blob's border follows: what is covered in part, or joined with what covers it.
+    pub partial: Vec<Candidate>,
     /// What had no shape, and what did not stand out.
     pub shapeless: Vec<NoBlob>,
     pub unlike: Vec<NoBlob>,
@@ -44,6 +47,11 @@ const LEVELS: u32 = 4;
 /// From this diameter on the quartered picture is searched too.
 const LARGE: f64 = 40.0;
 
+/// Axis ratio from which on outlines of the search, known to a part of a pixel, go on to be measured.
+fn flattest(options: &DetectOptions) -> f64 {
+    0.76 * options.min_axis_ratio
+}
+
 /// Lowest difference over three pixels that is an edge.
 pub(crate) fn threshold(levels: &Levels) -> f64 {
     (6.5 * levels.noise).max(0.03 * levels.range).max(5.0)
@@ -55,6 +63,7 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
     let limits = Limits {
         min_diameter: options.min_diameter,
         max_diameter: options.max_diameter,
+        flattest: flattest(options),
         width: plane.width,
         height: plane.height,
         step: 2,
@@ -64,6 +73,7 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
     let limits = Limits {
         min_diameter: LARGE.max(options.min_diameter) / 4.0,
         max_diameter: options.max_diameter / 4.0,
+        flattest: flattest(options),
         width: plane.width / 4,
         height: plane.height / 4,
         step: 2,
@@ -85,7 +95,7 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
     }
     let mut blobs = whole.end(&look);
     for mut found in quarter.map(|quarter| quarter.end(&look_enlarged)).unwrap_or_default() {
-        for candidate in &mut found.candidates {
+        for candidate in found.candidates.iter_mut().chain(&mut found.partial) {
             candidate.outline = enlarged(&candidate.outline);
         }
         for no in &mut found.unlike {
@@ -93,7 +103,12 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
             *no = NoBlob { u, v, diameter: 4.0 * no.diameter, outline: no.outline.map(|o| enlarged(&o)), ..*no };
         }
         // what has no shape there is seen in the whole picture
-        blobs.push(Blobs { candidates: found.candidates, unlike: found.unlike, ..Blobs::default() });
+        blobs.push(Blobs {
+            candidates: found.candidates,
+            partial: found.partial,
+            unlike: found.unlike,
+            ..Blobs::default()
+        });
     }
     blobs
 }
@@ -195,7 +210,13 @@ impl Blobs {
                 {
                     let parts = [&chain[..neck], &chain[neck + 1..]];
                     let outlines = parts.into_iter().filter_map(|part| blob::test(part, limits).ok());
-                    outlines.for_each(enter);
+                    outlines.for_each(&mut enter);
+                }
+                // one that is covered in part, or joined with what lies in front of it
+                if no.reason == Reason::NotAnEllipse
+                    && let Some(outline) = partial::most(chain, limits)
+                {
+                    self.partial.push(Candidate { outline, bright });
                 }
                 match no.reason {
                     Reason::TooSmall => self.too_small += 1,

@@ -65,6 +65,7 @@ reasons! {
     OutsidePicture { name: String, value: Number, size: usize } => "{name} is {value}; a place in the picture lies between 0 and {size}";
     DamagedRow { value: Number } => "v is {value}, in rows that the damaged file does not give";
     NotPixels { name: String, value: Number } => "{name} is {value}; a positive number of pixels is expected";
+    AxisRatio { value: Number } => "min_axis_ratio is {value}; a ratio from 0.15 to 1 is expected";
     DiametersSwapped { min_diameter: Number, max_diameter: Number } => "min_diameter {min_diameter} is larger than max_diameter {max_diameter}";
     Samples { samples: usize, width: usize, height: usize } => "{samples} samples are no picture of {width} x {height} pixels";
 
@@ -313,6 +314,7 @@ mod tests {
             Reason::NotOfKind { name: "u".into(), expected: Expected::FiniteNumber },
             Reason::PhotoModelerCut { part: PhotoModelerPart::ExteriorSigmas },
             Reason::NoSuchOption { name: "a".into(), known: Names(vec!["b".into(), "c".into()]) },
+            Reason::AxisRatio { value: 1.5.into() },
             Reason::DiametersSwapped { min_diameter: 0.1.into(), max_diameter: (-0.3).into() },
         ] {
             let error = Error::Invalid { reason, at: Place::line(3) };

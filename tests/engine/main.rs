@@ -6,6 +6,7 @@ mod camera_model;
 #[allow(dead_code, reason = "the benchmark uses the rest")]
 mod coded_patch;
 mod codes;
+mod conditions;
 mod curved;
 mod damage;
 mod data;

@@ -7,7 +7,7 @@ use sightline::{decode, image};
 
 use super::camera_model::{Camera, Tally};
 use super::grid_fit::{self, Score};
-use super::{camera_model, data};
+use super::{camera_model, conditions, data};
 
 fn read(name: &str) -> Option<Grey> {
     let bytes = data::data(&format!("photos/{name}"))?;
@@ -114,4 +114,41 @@ fn cameras_drawn_at_random_are_told_by_their_sigmas_and_show_nothing_false() {
     let all = tally.all();
     assert!(all.others <= 6 && all.hits as f64 > 0.93 * all.targets as f64, "{tally}");
     assert!((0.7..1.5).contains(&Tally::chi(&all)), "{tally}");
+}
+
+/// Least share found under each condition, and largest rms of error over sigma: what `cargo bench --bench photos -- conditions`
+/// shows of ten pictures each, less what chance leaves of two.
+const CONDITIONS: [(&str, f64, f64); 11] = [
+    ("hidden by up to a fifth", 0.5, 3.0),
+    ("moved by up to 6 px", 0.97, 1.3),
+    ("JPEG of quality 30", 0.98, 1.2),
+    ("noise 20, contrast 150", 0.96, 1.3),
+    ("tilt up to 75 degrees", 0.97, 1.2),
+    ("from 3 px", 0.85, 1.3),
+    ("binary drawing", 0.99, 1.5),
+    ("screenshot", 0.98, 1.2),
+    ("paper 2 x over-exposed", 0.97, 1.4),
+    ("retro 5 x over-exposed", 0.85, 1.3),
+    ("pitch of 2.5 radii", 0.6, 2.0),
+];
+
+#[test]
+fn targets_are_found_under_the_conditions_of_a_day() {
+    for condition in conditions::all() {
+        let (name, least, most) = CONDITIONS.into_iter().find(|(name, ..)| *name == condition.name).expect("a limit");
+        let mut tally = Tally::default();
+        let mut hidden = 0;
+        for seed in 0..2 {
+            let (picture, spots) = (condition.picture)(seed);
+            let detection = detected(&picture, &condition.options);
+            hidden += conditions::said_to_be_hidden(&detection, &spots);
+            tally.add(&Camera::drawn(seed), &camera_model::score(&detection, &spots));
+        }
+        let all = tally.all();
+        let share = |count: usize| count as f64 / all.targets as f64;
+        assert!(share(all.hits) >= least && Tally::chi(&all) <= most && all.others == 0, "{name}: {all}");
+        if name.starts_with("hidden") {
+            assert!(share(all.hits + hidden) > 0.93, "{name}: {all}, {hidden} said to be hidden");
+        }
+    }
 }

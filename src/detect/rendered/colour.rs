@@ -46,6 +46,16 @@ pub(crate) struct Colour {
     pairs: [f64; NEIGHBOURS],
 }
 
+impl Colour {
+    /// Correlation of the next neighbours in row and column.
+    pub fn shared(&self) -> f64 {
+        let next =
+            OFFSETS.iter().zip(self.residuals.iter().zip(&self.pairs)).filter(|((dx, dy), _)| dx * dx + dy * dy == 1);
+        let (sum, pairs) = next.fold((0.0, 0.0), |(sum, all), (_, (residual, pairs))| (sum + residual, all + pairs));
+        sum / f64::max(pairs, 1.0) / (self.residuals[0] / self.pairs[0].max(1.0)).max(1e-12)
+    }
+}
+
 /// Correlation of neighbours, mean of a picture's targets.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Correlation([f64; NEIGHBOURS]);

@@ -22,6 +22,10 @@ const NEAR: f64 = 0.12;
 /// Corrections that shrink less than to this share renew it: where most of the profile is clipped, contrast and blur nearly
 /// stand for each other.
 const SLOW: f64 = 0.35;
+/// Corrections of what is clipped that do not shrink to this share are made by so much less, and by no less than the last share.
+const STUCK: f64 = 0.8;
+const HALTING: f64 = 0.7;
+const LEAST_SHARE: f64 = 0.2;
 /// Largest contrast of a clipped target, in units of what the scale shows of it. Its centre hardly depends on it: the
 /// image of an ellipse is symmetric about its centre, and so is everything that contrast, blur and axes do to it.
 const OVEREXPOSED: f64 = 16.0;
@@ -33,6 +37,13 @@ const CLIPPED: f64 = 0.9;
 const LENS: f64 = 0.06;
 /// The same where the edge is the stairs of the pixels.
 const STAIRS: f64 = 0.7;
+
+/// Variance of what the fit leaves, in units of that of the noise, from which the rest is looked at; the correlation of neighbours
+/// from which it is no noise (of light, say); and pixels that then move the centre as one. The last is set on pictures of cameras
+/// moved by 2 to 6 px.
+const UNEXPLAINED: f64 = 1.7;
+const SHARED: f64 = 0.15;
+const TOGETHER: f64 = 3.0;
 
 /// Least blur, and least radius in units of blur and pixel, for which derivatives are sketched: there the standard error of a
 /// centre comes out within about one percent.
@@ -178,7 +189,17 @@ pub(crate) fn fit<T: Sample>(
         covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
     }
     let Workspace { band, field, origin, coloured } = work;
-    let colour = coloured.then(|| band.colour(field, &cofactors, state.contrast, &state.outline, *origin));
+    let noise = region.surround.noise.powi(2).max(1.0 / 12.0);
+    let beyond = variance > UNEXPLAINED * noise;
+    let mut colour =
+        (*coloured || beyond).then(|| band.colour(field, &cofactors, state.contrast, &state.outline, *origin));
+    if !*coloured && let Some(colour) = colour.take() {
+        // what is left beyond the noise and shared by neighbours is a shape that the model does not have: a moved camera's
+        if colour.shared() > SHARED {
+            let share = 1.0 - noise / variance;
+            covariance = covariance.map(|value| value * (1.0 + share * (TOGETHER - 1.0)));
+        }
+    }
     (covariance[0] > 0.0 && covariance[2] > 0.0).then_some(Fit {
         colour,
         outline: state.outline,
@@ -204,6 +225,8 @@ impl Workspace {
             contrast: surround.contrast,
             background: [surround.level, surround.slope[0], surround.slope[1]],
             prior: region.prior,
+            before: f64::INFINITY,
+            share: 1.0,
         };
         self.origin = [region.outline.u, region.outline.v];
         self.field.place(&region.outline, state.blur, region.half_band);
@@ -259,6 +282,9 @@ struct State {
     /// Contrast that the scale has room for, and the largest that is believed.
     shown: f64,
     brightest: f64,
+    /// Size of the last correction, and the share of corrections that is made.
+    before: f64,
+    share: f64,
 }
 
 impl State {
@@ -314,7 +340,12 @@ impl State {
         }
         let limit = 0.8 * self.pixel();
         let whole = (limit / size).min(0.6 * self.contrast.abs() / step[6].abs()).min(1.0);
-        self.add(&(step * if whole > 0.0 { whole } else { 1.0 }));
+        // where contrast and blur nearly stand for each other whole corrections may go to and fro for ever
+        if self.is_clipped() && size > STUCK * self.before {
+            self.share = (HALTING * self.share).max(LEAST_SHARE);
+        }
+        self.before = size;
+        self.add(&(step * self.share * if whole > 0.0 { whole } else { 1.0 }));
         self.contrast = self.contrast.clamp(-self.brightest, self.brightest);
         self.outline.is_proper().then_some((size, normal))
     }

@@ -17,6 +17,8 @@ pub(crate) struct Limits {
     pub min_diameter: f64,
     /// Largest full axis.
     pub max_diameter: f64,
+    /// Smallest ratio of the axes of what goes on to be measured; the measurement decides.
+    pub flattest: f64,
     /// Size of the scanned picture.
     pub width: usize,
     pub height: usize,
@@ -41,9 +43,6 @@ impl NoBlob {
         Self { u: outline.u, v: outline.v, diameter: 2.0 * outline.semi_axes().0, reason, outline: Some(*outline) }
     }
 }
-
-/// Flattest ellipse that goes on to be measured; the measurement decides at 0.3.
-const FLATTEST: f64 = 0.22;
 
 /// Area, in units of that of the runs, from which on an ellipse through their ends is none of theirs but follows a bar.
 const MOST_UNSEEN: f64 = 2.5;
@@ -78,12 +77,12 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
         return match cut {
             true => Err(no(Reason::AtBorder)),
             false if (fill - 1.0).abs() > 0.45 => Err(no(Reason::NotAnEllipse)),
-            false if fattest(chain, limits.step as f64) < FLATTEST => Err(no(Reason::TooFlat)),
+            false if fattest(chain, limits.step as f64) < limits.flattest => Err(no(Reason::TooFlat)),
             false => Ok(outline),
         };
     }
-    if !cut && ((fill - 1.0).abs() > 0.12 || b < 0.15 * a) {
-        return Err(no(if b < 0.15 * a { Reason::TooFlat } else { Reason::NotAnEllipse }));
+    if !cut && ((fill - 1.0).abs() > 0.12 || b < 0.7 * limits.flattest * a) {
+        return Err(no(if b < 0.7 * limits.flattest * a { Reason::TooFlat } else { Reason::NotAnEllipse }));
     }
     let found = if cut { through_ends(chain, limits) } else { through_runs(chain, &moments) };
     let Some((fitted, rms)) = found else { return Err(no(Reason::NotAnEllipse)) };
@@ -100,7 +99,7 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
     if 2.0 * a > 1.3 * limits.max_diameter {
         return Err(no(Reason::TooLarge));
     }
-    if b < FLATTEST * a {
+    if b < limits.flattest * a {
         return Err(no(Reason::TooFlat));
     }
     Ok(outline)
@@ -264,7 +263,8 @@ mod tests {
 
     use super::*;
 
-    const LIMITS: Limits = Limits { min_diameter: 5.0, max_diameter: 400.0, width: 300, height: 200, step: 2 };
+    const LIMITS: Limits =
+        Limits { min_diameter: 5.0, max_diameter: 400.0, flattest: 0.22, width: 300, height: 200, step: 2 };
 
     fn chain(outline: &Outline) -> Vec<Chord> {
         (0..100)

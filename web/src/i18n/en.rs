@@ -123,6 +123,9 @@ declare! { desk {
     diameter: "diameter";
     diameter_from: "smallest diameter in pixels";
     diameter_to: "largest diameter in pixels";
+    steepest: "steepest view";
+    steepest_view: "largest angle between the line of sight and a target's normal, in degrees";
+    no_steepest(typed): "\"{typed}\" is no angle of a view: type degrees from 0 to 81.";
     click_a_target: "Click a target in the photo to see its centre and sigma.";
     full_axes: "full axes";
     rotation: "rotation";

@@ -117,6 +117,9 @@ translate! { Korean desk {
     diameter: "지름";
     diameter_from: "최소 지름, 픽셀";
     diameter_to: "최대 지름, 픽셀";
+    steepest: "최대 경사";
+    steepest_view: "시선과 표적 법선 사이의 최대 각도, 도";
+    no_steepest(typed): "\"{typed}\"{typed:은|는} 경사각이 아닙니다. 0도에서 81도 사이의 값을 입력하십시오.";
     click_a_target: "사진의 표적을 누르면 중심과 표준오차를 보입니다.";
     full_axes: "장축·단축";
     rotation: "회전";

@@ -79,6 +79,9 @@ pub fn reason(reason: &Reason) -> String {
             );
         }
         R::DamagedRow { value } => return format!("v가 {value}입니다. 손상된 파일에서 읽지 못한 행입니다"),
+        R::AxisRatio { value } => {
+            return told("최소 축비가 {value}입니다. 0.15 이상 1 이하여야 합니다", &[("value", value)]);
+        }
         R::DiametersSwapped { min_diameter, max_diameter } => {
             return told(
                 "최소 지름 {min_diameter}{min_diameter:이|가} 최대 지름 {max_diameter}보다 큽니다",

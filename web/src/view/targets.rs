@@ -163,6 +163,11 @@ fn Options() -> impl IntoView {
         Some(value) => set(desk, value),
         None => desk.warn_here(move || text::not_a_length(&typed)),
     };
+    // an axis ratio of 0.15, the least that is taken, is a view from 81 degrees
+    let steepest = move |typed: String| match format::parse(&typed).filter(|degrees| (0.0..=81.0).contains(degrees)) {
+        Some(degrees) => desk.detect_options.update(|o| o.min_axis_ratio = degrees.to_radians().cos()),
+        None => desk.warn_here(move || text::no_steepest(&typed)),
+    };
     view! {
         <Choice label=text::polarity name="polarity"
             values=vec![
@@ -214,6 +219,15 @@ fn Options() -> impl IntoView {
             <Field value=Signal::derive(move || desk.detect_options.with(|o| format::editable(o.max_diameter)))
                 commit=move |typed: String| diameter(typed, |desk, d| desk.detect_options.update(|o| o.max_diameter = d))
                 attr:class="short" attr:inputmode="decimal" attr:name="max-diameter" attr:aria-label=text::diameter_to/>
+        </label>
+        <label class="option">
+            <span>{text::steepest} " " <u>"°"</u></span>
+            <Field value=Signal::derive(move || {
+                    let ratio = desk.detect_options.with(|o| o.min_axis_ratio);
+                    format::editable((ratio.acos().to_degrees() * 10.0).round() / 10.0)
+                })
+                commit=steepest
+                attr:class="short" attr:inputmode="decimal" attr:name="steepest" attr:aria-label=text::steepest_view/>
         </label>
     }
 }
