@@ -16,8 +16,9 @@ mod solve;
 mod statistics;
 mod variance_components;
 
-use crate::adjustment::{AdjustOptions, Adjustment, Advice, Iteration, Termination};
+use crate::adjustment::{AdjustOptions, Adjustment, Advice, Iteration, Measured, StatisticsChoice, Termination};
 use crate::error::Result;
+use crate::features::{self, Function};
 use crate::project::{Project, Role};
 
 use diagnosis::advice;
@@ -96,7 +97,29 @@ pub fn adjust(
     adjustment.variance_components = components.0;
     adjustment.gross_errors = record;
     adjustment.covariance = solution.covariance;
+    if !document.features.is_empty() || !document.systems.is_empty() {
+        let stated = solution.cofactors.is_some();
+        let mut carry = |functions: &[Function]| match stated {
+            true => session.carried(functions, solution.cost).map(Some),
+            false => Ok(None),
+        };
+        let Measured { features, systems } =
+            features::measure(document, &adjustment.points, &adjustment.photos, &mut carry)?;
+        (adjustment.features, adjustment.systems) = (features, systems);
+    }
     Ok(adjustment)
+}
+
+/// Measures the project's features and systems on an adjustment that was made of it before they were there. The equations are
+/// set up again at the adjusted values, with the same options, since an adjustment does not keep its full covariance.
+///
+/// # Errors
+/// As [`adjust`].
+pub fn measured(project: &Project, adjustment: &Adjustment) -> Result<Measured> {
+    let statistics = adjustment.options.statistics.min(StatisticsChoice::Precision);
+    let options = AdjustOptions { statistics, covariance_of: Vec::new(), ..adjustment.options.clone() };
+    let Adjustment { features, systems, .. } = adjust(&apply(project, adjustment), &options, &mut |_| true)?;
+    Ok(Measured { features, systems })
 }
 
 /// The project with the adjusted values as new initial values. What is given stays as given: control and check

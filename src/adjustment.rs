@@ -5,6 +5,7 @@
 
 mod camera;
 pub(crate) mod criteria;
+mod features;
 mod given;
 
 use serde::{Deserialize, Serialize};
@@ -14,6 +15,7 @@ use crate::project::{Camera, Interior, Parameter};
 pub use camera::AdjustedCamera;
 pub use criteria::Criteria;
 pub(crate) use criteria::is_distortion;
+pub use features::{FeatureResidual, Measured, MeasuredFeature, MeasuredSystem, Quantity, SystemPoint};
 pub use given::{Given, GivenObservation, GrossError, GrossErrorAction};
 
 /// How the iteration ended.
@@ -531,6 +533,12 @@ pub struct Adjustment {
     /// Covariance matrix of the points asked for, three rows each in their order; null when none were.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Covariance>,
+    /// The document's features, measured on this result.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub features: Vec<MeasuredFeature>,
+    /// The document's coordinate systems, laid through this result.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub systems: Vec<MeasuredSystem>,
 }
 
 /// What was done about the eccentricity of a circular target.

@@ -63,6 +63,7 @@ pub mod error;
 pub mod exchange;
 pub mod exif;
 pub mod experiments;
+pub mod features;
 pub mod film;
 pub mod image;
 pub mod initial;

@@ -2,6 +2,7 @@
 //!
 //! Every view, file and test reads this one document. Fields may be added, never renamed or given another meaning.
 
+mod features;
 mod identifier;
 mod parameter;
 mod validation;
@@ -10,6 +11,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+pub use features::{CoordinateSystem, DrawnLine, End, Feature, FeatureKind, GivenPoint, Layer, SystemKind};
 use identifier::{identifier, identifier_option_list};
 pub use parameter::{Interior, Parameter};
 
@@ -47,6 +49,18 @@ pub struct Project {
     /// Observations that the last orientation disabled, with the reason; the next one looks at them anew.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set_aside: Vec<SetAside>,
+    /// What is measured on the result.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub features: Vec<Feature>,
+    /// Coordinate systems of the object's own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub systems: Vec<CoordinateSystem>,
+    /// Lines between points, for drawings.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lines: Vec<DrawnLine>,
+    /// Layers of the lines.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub layers: Vec<Layer>,
 }
 
 fn default_unit() -> String {
@@ -67,6 +81,10 @@ impl Default for Project {
             distances: Vec::new(),
             datum: Datum::default(),
             set_aside: Vec::new(),
+            features: Vec::new(),
+            systems: Vec::new(),
+            lines: Vec::new(),
+            layers: Vec::new(),
         }
     }
 }

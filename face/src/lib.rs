@@ -19,7 +19,8 @@ use sightline::detection::DetectOptions;
 use sightline::experiments::ExperimentOptions;
 use sightline::image::{Grey, Samples};
 use sightline::network::Network;
-use sightline::{Error, adjust, decode, detect, exchange, exif, experiments, matching, network, orient};
+use sightline::project::GivenPoint;
+use sightline::{Error, adjust, decode, detect, exchange, exif, experiments, features, matching, network, orient};
 
 #[wasm_bindgen(typescript_custom_section)]
 const DECLARATIONS: &str = include_str!("sightline.d.ts");
@@ -256,6 +257,32 @@ pub fn apply_adjustment(
 ) -> Thrown {
     let applied = || Ok(adjust::apply(&value::project(&project)?, &value::read(&adjustment, "adjustment")?));
     applied().map(value::project_object).map_err(|error: Error| thrown(&error))
+}
+
+/// Measures the project's features and coordinate systems on an adjustment of it that was made before they were there.
+#[wasm_bindgen(js_name = measureFeatures, unchecked_return_type = "Measured")]
+pub fn measure_features(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Adjustment")] adjustment: JsValue,
+) -> Thrown {
+    let measured = || adjust::measured(&value::project(&project)?, &value::read(&adjustment, "adjustment")?);
+    measured().map(|measured| value::write(&measured)).map_err(|error: Error| thrown(&error))
+}
+
+/// Pairs given coordinates with the one point within `radius` of each; points and coordinates in one system.
+#[wasm_bindgen(js_name = nearestNames, unchecked_return_type = "Renaming")]
+pub fn nearest_names(
+    #[wasm_bindgen(unchecked_param_type = "{ id: string; xyz: [number, number, number] }[]")] points: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "GivenPoint[]")] given: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] radius: JsValue,
+) -> Thrown {
+    let found = || {
+        let points = value::read::<Vec<GivenPoint>>(&points, "points")?;
+        let given = value::read::<Vec<GivenPoint>>(&given, "given")?;
+        let points: Vec<_> = points.into_iter().map(|p| (p.id, p.xyz)).collect();
+        Ok(features::names::nearest(&points, &given, value::number(&radius, "radius")?))
+    };
+    found().map(|renaming| value::write(&renaming)).map_err(|error: Error| thrown(&error))
 }
 
 /// Computes what a network on paper would give: a project with its observations, exact, noisy or measured in rendered photos.

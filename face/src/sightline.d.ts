@@ -120,6 +120,117 @@ export interface Project {
   datum?: Datum;
   /** Observations that the last orientation disabled, with the reason; the next one looks at them anew. */
   set_aside?: { photo: string; point: string; reason: "disagrees" | "photo_not_oriented" | "point_not_determined" }[];
+  /** What is measured on every result of this document. */
+  features?: Feature[];
+  /** Coordinate systems laid through every result. */
+  systems?: CoordinateSystem[];
+  /** Lines between points, for drawings. */
+  lines?: { from: string | number; to: string | number; layer?: string }[];
+  /** Layers of the lines; `colour` is red, green, blue, 0 to 255. */
+  layers?: { id: string | number; colour: [number, number, number] }[];
+}
+
+/** An end of a distance or a side of an angle. */
+export type End = { point: string | number } | { feature: string | number };
+
+/** A point with coordinates of another system; `sigma` is its weight, left out where all weigh alike. */
+export interface GivenPoint {
+  id: string | number;
+  xyz: [number, number, number];
+  sigma?: [number, number, number] | null;
+}
+
+/**
+ * A named feature. Forms are of least squared distances from their points: a line from 2 on, a plane or a circle from 3, a sphere from
+ * 4, a cylinder from 6. Of two planes the distance is that of the second's centroid from the first, of a line and a plane that of the line's
+ * centroid, of lines parallel within 5° that of the second's centroid. An angle is at the place `at` (0 to 180°), or between directions of lines and axes and normals of planes and circles (0
+ * to 90°). Deviations are from a form (positive outside, or on the side of the normal) or from `given` coordinates of the same names.
+ */
+export type Feature = { id: string | number } & (
+  | { kind: "line" | "plane" | "circle" | "sphere" | "cylinder"; points: (string | number)[] }
+  | { kind: "distance"; from: End; to: End }
+  | { kind: "angle"; from: End; at?: End | null; to: End }
+  | { kind: "deviations"; points?: (string | number)[]; feature?: string | null; given?: GivenPoint[] }
+);
+
+/**
+ * A named coordinate system. automatic: Z the normal of the points' plane towards the photos, X their longer extent, the origin their centroid.
+ * plane_line_point (3-2-1): Z is 0 in the plane, Y on the line, X at the point. best_fit: of least weighted squares to given coordinates.
+ */
+export type CoordinateSystem = { id: string | number } & (
+  | { kind: "automatic"; points?: (string | number)[] }
+  | { kind: "plane_line_point"; plane: (string | number)[]; line: (string | number)[]; point: string | number }
+  | { kind: "best_fit"; given: GivenPoint[]; scale?: boolean }
+);
+
+/** A point's distance from a form, or its difference from given coordinates. */
+export interface FeatureResidual {
+  point: string;
+  value: number;
+  /** Standard error of a deviation. */
+  sigma?: number;
+  difference?: [number, number, number];
+}
+
+/** A feature measured on a result; sigmas are from the full covariance of the points, null without statistics. */
+export interface MeasuredFeature {
+  id: string;
+  kind: "line" | "plane" | "circle" | "sphere" | "cylinder" | "distance" | "angle" | "deviations";
+  /** Points that it was computed from. */
+  points: number;
+  quantity: "distance" | "angle" | "diameter" | null;
+  /** In the project's unit; angles in radians. */
+  value: number | null;
+  sigma: number | null;
+  /** Centre of a circle or sphere, else the foot of the points' centroid. */
+  position: [number, number, number] | null;
+  sigma_position: [number, number, number] | null;
+  direction: [number, number, number] | null;
+  /** Largest standard error of the direction, radians. */
+  sigma_direction: number | null;
+  /** Rms of the distances from the form. */
+  rms: number | null;
+  /** Smallest and largest of them. */
+  range: [number, number] | null;
+  residuals?: FeatureResidual[];
+  /** What is drawn: ends of a distance, sides of an angle about its place, ends of a line or an axis. */
+  ends?: [number, number, number][];
+  /** Its points that this adjustment has not. */
+  missing?: string[];
+  /** Why there is no result. */
+  error?: { code: string; [name: string]: unknown };
+}
+
+/** A coordinate system laid through a result: x' = scale * rotation * x + shift. */
+export interface MeasuredSystem {
+  id: string;
+  rotation: [[number, number, number], [number, number, number], [number, number, number]];
+  shift: [number, number, number];
+  scale: number;
+  /** Of a best fit. */
+  redundancy?: number;
+  /** Of a best fit with redundancy. */
+  sigma0?: number;
+  residuals?: FeatureResidual[];
+  /** All adjusted points in it. */
+  points: { id: string; xyz: [number, number, number]; sigma?: [number, number, number] }[];
+  missing?: string[];
+  error?: { code: string; [name: string]: unknown };
+}
+
+/** What `measureFeatures` gives. */
+export interface Measured {
+  features: MeasuredFeature[];
+  systems: MeasuredSystem[];
+}
+
+/** Points that lie at given coordinates. */
+export interface Renaming {
+  /** Present name, given name, distance. */
+  pairs: [string, string, number][];
+  /** Given points that are not the only ones near one point, or have several near them. */
+  ambiguous: string[];
+  not_found: string[];
 }
 
 export interface Iteration {
@@ -393,6 +504,10 @@ export interface Adjustment {
   advice: Advice[];
   /** Of the points asked for, three rows each in their order. */
   covariance?: { points: string[]; matrix: number[][] };
+  /** The document's features, measured on this result. */
+  features?: MeasuredFeature[];
+  /** The document's coordinate systems. */
+  systems?: MeasuredSystem[];
 }
 
 /** Ring codes by maker and bits: ring-12 to ring-20 are Schneider / AICON's, metashape-12 to metashape-20 Metashape's circular ones. */

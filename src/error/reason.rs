@@ -61,6 +61,15 @@ reasons! {
     CommonDiameter { value: Number } => "target_diameter is {value}; a finite number above 0 is expected";
     DiameterBeyondPoints { value: Number, extent: Number } => "target_diameter is {value}, but all points lie within {extent}; give it in their unit";
 
+    // Measuring on the result
+    FeaturePoints { needed: usize, given: usize } => "points that this adjustment determines: {given}, needed: {needed}; add points, or measure them in more photos";
+    FeaturePointMissing { name: String } => "point \"{name}\" is not determined by this adjustment: measure it in two photos or more";
+    FeatureUndetermined => "the points do not determine it, since they lie in one place, on one line or too near to it: add points apart from the others";
+    FeatureNotFitted { name: String } => "\"{name}\" is not fitted to points: take a line, a plane, a circle, a sphere or a cylinder";
+    FeatureBroken { name: String } => "it is built on \"{name}\", which could not be measured";
+    FeatureNoDirection => "an angle is between two directions (of lines, planes, circles, cylinders), or at a point between two others";
+    GivenSigma => "the standard error of a given coordinate is greater than 0; leave it out where all weigh alike";
+
     // Detection
     OutsidePicture { name: String, value: Number, size: usize } => "{name} is {value}; a place in the picture lies between 0 and {size}";
     DamagedRow { value: Number } => "v is {value}, in rows that the damaged file does not give";
@@ -240,6 +249,9 @@ words! {
         Format = "format" => "format";
         Experiment = "experiment" => "experiment";
         Network = "network" => "network";
+        Feature = "feature" => "feature";
+        System = "system" => "coordinate system";
+        Layer = "layer" => "layer";
     }
 }
 

@@ -2,6 +2,7 @@
 //! other kinds and the record of the search for gross errors. Units stand in the headings; an empty
 //! field is a value that does not exist. Residuals and detectable biases are given in pixels, whatever the camera's unit.
 
+mod features;
 mod given;
 
 use std::collections::HashMap;
@@ -35,6 +36,7 @@ pub fn write(project: &Project, adjustment: Option<&Adjustment>, separator: Sepa
     tables.extend(adjustment.filter(|a| !a.given.is_empty()).map(|a| ("given", given::observations(project, a))));
     let searched = adjustment.filter(|a| !a.gross_errors.is_empty());
     tables.extend(searched.map(|a| ("gross_errors", given::record(a))));
+    tables.extend(adjustment.iter().flat_map(|a| features::tables(project, a)));
     let extension = if separator == Separator::Comma { "csv" } else { "tsv" };
     Ok(tables
         .into_iter()

@@ -25,6 +25,11 @@ pub fn identifier<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, 
     Identifier::deserialize(deserializer).map(Identifier::text)
 }
 
+/// A list of texts or numbers.
+pub fn identifiers<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<String>, D::Error> {
+    Ok(Vec::<Identifier>::deserialize(deserializer)?.into_iter().map(Identifier::text).collect())
+}
+
 /// A list of texts or numbers, or null.
 pub fn identifier_option_list<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<String>>, D::Error> {
     let list = Option::<Vec<Identifier>>::deserialize(deserializer)?;

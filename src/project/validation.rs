@@ -7,7 +7,7 @@ use super::{Camera, Interior, Parameter, Project};
 use crate::error::{Error, Place, Reason, Result, Thing, shortened};
 
 /// Largest magnitude of a coordinate or parameter: far beyond any object, and its square is still a number.
-const LARGEST: f64 = 1e100;
+pub(super) const LARGEST: f64 = 1e100;
 
 impl Project {
     /// Checks the document; missing initial values are no fault here.
@@ -59,7 +59,7 @@ impl Project {
         if let Some(list) = &self.datum.points {
             unique(Thing::DatumPoint, list.iter().map(String::as_str), Place::point)?;
         }
-        Ok(())
+        self.validate_features()
     }
 
     fn validate_observations(&self, photos: &HashMap<&str, usize>, points: &HashMap<&str, usize>) -> Result<()> {
@@ -102,11 +102,11 @@ impl Project {
     }
 }
 
-fn invalid(reason: Reason, at: Place) -> Result<()> {
+pub(super) fn invalid(reason: Reason, at: Place) -> Result<()> {
     Err(Error::Invalid { reason, at })
 }
 
-fn unique<'a>(
+pub(super) fn unique<'a>(
     kind: Thing,
     ids: impl Iterator<Item = &'a str>,
     place: impl Fn(&'a str) -> Place,
@@ -120,11 +120,11 @@ fn unique<'a>(
     Ok(index)
 }
 
-fn known(kind: Thing, id: &str, index: &HashMap<&str, usize>, at: impl Fn() -> Place) -> Result<usize> {
+pub(super) fn known(kind: Thing, id: &str, index: &HashMap<&str, usize>, at: impl Fn() -> Place) -> Result<usize> {
     index.get(id).copied().ok_or_else(|| Error::Unknown { kind, name: id.into(), at: at() })
 }
 
-fn finite<'a>(mut values: impl Iterator<Item = &'a f64>, at: impl Fn() -> Place) -> Result<()> {
+pub(super) fn finite<'a>(mut values: impl Iterator<Item = &'a f64>, at: impl Fn() -> Place) -> Result<()> {
     if values.all(|v| v.abs() < LARGEST) {
         return Ok(());
     }

@@ -16,6 +16,7 @@ mod document;
 mod estimation;
 mod exchange;
 mod experiments;
+mod features;
 mod grid_fit;
 mod gross_errors;
 mod monte_carlo;

@@ -77,6 +77,23 @@ test('every field that the engine returns is declared, and every declared field 
     sightline.adjust(project, { variance_components: { per_camera: true, unmodelled: true } }),
   ];
   assert.equal(adjustments[4].gross_errors[0].given.kind, 'distance');
+  const all = project.points.map((point) => point.id);
+  const featured = {
+    ...project,
+    features: [
+      { id: 'A', kind: 'plane', points: all },
+      { id: 'B', kind: 'distance', from: { point: all[0] }, to: { feature: 'A' } },
+      { id: 'C', kind: 'angle', from: { point: all[0] }, at: { point: all[1] }, to: { point: all[2] } },
+      { id: 'D', kind: 'deviations', feature: 'A' },
+      { id: 'E', kind: 'line', points: [all[0], 'nowhere'] },
+    ],
+    systems: [{ id: 'S', kind: 'automatic' }, { id: 'T', kind: 'best_fit', given: project.points.map(({ id, xyz }) => ({ id, xyz })) }],
+    lines: [{ from: all[0], to: all[1], layer: 'edges' }],
+    layers: [{ id: 'edges', colour: [255, 0, 0] }],
+  };
+  adjustments.push(sightline.adjust(featured));
+  const measuredLater = sightline.measureFeatures(featured, adjustments[0]);
+  assert.ok(Math.abs(measuredLater.features[1].sigma / adjustments.at(-1).features[1].sigma - 1) < 1e-6);
   const literals = [
     literal('network', 'S.Network', network()),
     literal('simulated', 'S.Project', project),
@@ -86,6 +103,9 @@ test('every field that the engine returns is declared, and every declared field 
     literal('experiment', 'S.Experiment', sightline.runExperiment('film')),
     literal('matching', 'S.Matching', sightline.matchUncoded(project, photosOf(project))),
     ...adjustments.map((adjustment, k) => literal(`adjustment${k}`, 'S.Adjustment', adjustment)),
+    literal('measured', 'S.Measured', measuredLater),
+    literal('renaming', 'S.Renaming', sightline.nearestNames(featured.points, [{ id: 'near', xyz: project.points[0].xyz }], 1)),
+    literal('featured', 'S.Project', sightline.applyAdjustment(featured, adjustments.at(-1))),
     literal('project', 'S.Project', sightline.importProject('sightline', { 'project.json': text })),
     literal('detection', 'S.Detection', found),
     literal('coded', 'S.Coded', sightline.nameCoded([{ photo: 'a', targets: [...targets, ...targets] }, { photo: 'b', targets }])),

@@ -1,8 +1,8 @@
 //! One network on its way to a solution: iteration, cofactors; the search for gross errors is in [`crate::adjust::gross_errors::search`].
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Vector3};
 
-use crate::adjust::datum::free::{self, FreeDatum, at_point};
+use crate::adjust::datum::free::{self, FreeDatum, SIMILARITY, at_point};
 use crate::adjust::diagnosis::{rank_defect, slips, structure};
 use crate::adjust::equations::back_substitution::Full;
 use crate::adjust::equations::context::{Context, Weighting};
@@ -249,11 +249,7 @@ impl<'a> Session<'a> {
         let full = options.statistics == StatisticsChoice::Full;
         let cofactors = cofactors(&self.normal, context!(self, options.residuals), self.datum.as_ref(), full);
         let cofactors = Some(cofactors.ok_or_else(unsound)?);
-        let variance = match self.robust {
-            Some(robust) => robust.variance,
-            None if self.redundancy > 0 => cost / self.redundancy as f64,
-            None => 1.0,
-        };
+        let variance = self.variance(cost);
         let covariance = if options.covariance_of.is_empty() {
             None
         } else {
@@ -293,6 +289,85 @@ impl<'a> Session<'a> {
         Ok((Some(state), false))
     }
 
+    /// Factor from cofactors to covariances: σ0², or 1 where nothing determines it.
+    fn variance(&self, cost: f64) -> f64 {
+        match self.robust {
+            Some(robust) => robust.variance,
+            None if self.redundancy > 0 => cost / self.redundancy as f64,
+            None => 1.0,
+        }
+    }
+
+    /// Covariance of functions of points, by their derivatives, with all points, in the network's order of points; of weighted
+    /// squares `cost`. The equations are those that [`Self::finish`] has factored: Q' f = S Q Sᵀ f, a solution for each function.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] where the datum's points have come together.
+    pub fn carried(&self, functions: &[Vec<(usize, Vector3<f64>)>], cost: f64) -> Result<Vec<Vec<Vector3<f64>>>> {
+        let constraint = self.constraint()?;
+        let vectors = functions.iter().map(|function| {
+            let mut e = Full::zeros(&self.network, &self.layout);
+            for (point, by) in function {
+                for axis in 0..3 {
+                    self.add_constrained(&mut e, constraint.as_ref(), (*point, axis), by[axis]);
+                }
+            }
+            e
+        });
+        let mut vectors: Vec<Full> = vectors.collect();
+        self.normal.solve_all(&self.network, &self.layout, &mut vectors);
+        let factor = self.variance(cost) * self.network.frame.scale.powi(2);
+        let constraint = constraint.as_ref();
+        let with = |x: &Full| {
+            // What a unit of each datum parameter takes back, once for all points.
+            let taken: Option<[f64; SIMILARITY]> = constraint.map(|(datum, d)| {
+                std::array::from_fn(|j| {
+                    let carriers = datum.carriers.iter().enumerate().filter(|_| j < datum.defect);
+                    carriers.map(|(k, &(carrier, axis))| d[(k, j)] * x.at_point(&self.layout, carrier, axis)).sum()
+                })
+            });
+            let at = |point: usize| {
+                Vector3::from_fn(|axis, _| {
+                    if self.network.points[point].fixed[axis] {
+                        return 0.0;
+                    }
+                    let g = at_point(&self.state.points[point])[axis];
+                    let back = taken.map_or(0.0, |t| (0..SIMILARITY).map(|j| t[j] * g[j]).sum());
+                    factor * (x.at_point(&self.layout, point, axis) - back)
+                })
+            };
+            (0..self.network.points.len()).map(at).collect()
+        };
+        Ok(vectors.iter().map(with).collect())
+    }
+
+    /// The free datum with the rows of its constraint, inverted for the S-transformation.
+    fn constraint(&self) -> Result<Option<(&FreeDatum, DMatrix<f64>)>> {
+        let Some(datum) = &self.datum else { return Ok(None) };
+        let inverse = datum.inverse_of_constrained(&self.state).ok_or_else(unsound)?;
+        Ok(Some((datum, datum.constraint_rows(&self.state) * inverse.transpose())))
+    }
+
+    /// Adds `factor` Sᵀe for a coordinate of a point.
+    fn add_constrained(
+        &self,
+        e: &mut Full,
+        constraint: Option<&(&FreeDatum, DMatrix<f64>)>,
+        (point, axis): (usize, usize),
+        factor: f64,
+    ) {
+        if !self.network.points[point].fixed[axis] {
+            e.add_at_point(&self.layout, point, axis, factor);
+        }
+        if let Some((datum, d)) = constraint {
+            let g = at_point(&self.state.points[point])[axis];
+            for (k, &(carrier, carrier_axis)) in datum.carriers.iter().enumerate() {
+                let product: f64 = (0..datum.defect).map(|j| d[(k, j)] * g[j]).sum();
+                e.add_at_point(&self.layout, carrier, carrier_axis, -factor * product);
+            }
+        }
+    }
+
     /// Full covariance of chosen points: Q' e = S Q Sᵀ e for every axis e, S the datum's S-transformation.
     fn covariance_of(&self, ids: &[String], variance: f64) -> Result<Covariance> {
         let places = ids.iter().map(|id| {
@@ -303,26 +378,11 @@ impl<'a> Session<'a> {
         let places: Vec<usize> = places.collect::<Result<_>>()?;
         let axes: Vec<(usize, usize)> = places.iter().flat_map(|p| (0..3).map(move |a| (*p, a))).collect();
         let direction = |(point, axis): (usize, usize)| at_point(&self.state.points[point])[axis];
-        let constraint = match &self.datum {
-            Some(datum) => {
-                let inverse = datum.inverse_of_constrained(&self.state).ok_or_else(unsound)?;
-                Some((datum, datum.constraint_rows(&self.state) * inverse.transpose()))
-            }
-            None => None,
-        };
+        let constraint = self.constraint()?;
         let mut vectors: Vec<Full> = Vec::with_capacity(axes.len());
-        for &(point, axis) in &axes {
+        for &place in &axes {
             let mut e = Full::zeros(&self.network, &self.layout);
-            if !self.network.points[point].fixed[axis] {
-                e.add_at_point(&self.layout, point, axis, 1.0);
-            }
-            if let Some((datum, d)) = &constraint {
-                let g = direction((point, axis));
-                for (k, &(carrier, carrier_axis)) in datum.carriers.iter().enumerate() {
-                    let product: f64 = (0..datum.defect).map(|j| d[(k, j)] * g[j]).sum();
-                    e.add_at_point(&self.layout, carrier, carrier_axis, -product);
-                }
-            }
+            self.add_constrained(&mut e, constraint.as_ref(), place, 1.0);
             vectors.push(e);
         }
         self.normal.solve_all(&self.network, &self.layout, &mut vectors);

@@ -109,6 +109,8 @@ pub fn rename(project: &mut Project, from: &str, to: &str) -> Result<Renamed, St
             }
         }
     }
+    project.rename_in_features(from, to);
+    project.lines.retain(|line| line.from != line.to);
     // The two ends of a distance may have become one point.
     project.distances.retain(|d| d.from != d.to);
     if let Some(points) = &mut project.datum.points {
@@ -161,6 +163,7 @@ pub fn rename_here(project: &mut Project, photo: &str, from: &str, to: &str) -> 
 pub fn remove(project: &mut Project, id: &str) {
     project.observations.retain(|o| o.point != id);
     project.distances.retain(|d| d.from != id && d.to != id);
+    project.lines.retain(|line| line.from != id && line.to != id);
     if let Some(points) = &mut project.datum.points {
         points.retain(|point| point != id);
     }

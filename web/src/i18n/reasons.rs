@@ -56,6 +56,23 @@ pub fn reason(reason: &Reason) -> String {
         R::PhotoAstray => {
             "이 사진에서 측정한 점 대부분이 사진 뒤나 화면 밖 먼 곳에 있습니다. 위치와 회전을 고치거나 비우고 다시 표정하십시오"
         }
+        R::FeaturePoints { needed, given } => {
+            return format!(
+                "이 조정에서 결정된 점이 {given}개인데 {needed}개가 필요합니다. 점을 더하거나 더 많은 사진에서 측정하십시오"
+            );
+        }
+        R::FeaturePointMissing { name } => {
+            return format!("점 \"{name}\"의 좌표가 이 조정에서 결정되지 않았습니다. 사진 두 장 이상에서 측정하십시오");
+        }
+        R::FeatureUndetermined => {
+            "점들이 한곳이나 한 직선 위에 있거나 그에 너무 가까워 결정되지 않습니다. 떨어진 곳의 점을 더하십시오"
+        }
+        R::FeatureNotFitted { name } => {
+            return format!("\"{name}\": 점에 맞춘 형상이 아닙니다. 직선, 평면, 원, 구, 원통 가운데 고르십시오");
+        }
+        R::FeatureBroken { name } => return format!("\"{name}\" 형상을 측정할 수 없어 그에 따른 값도 없습니다"),
+        R::FeatureNoDirection => "각은 두 방향(직선, 평면, 원, 원통) 사이, 또는 한 점에서 다른 두 점 사이에서 잽니다",
+        R::GivenSigma => "주어진 좌표의 표준오차는 0보다 커야 합니다. 무게가 모두 같으면 비워 두십시오",
         R::Unmodelled { value } => {
             return format!("모형화되지 않은 오차가 {value}입니다. 0 이상의 화소 수여야 합니다");
         }
@@ -280,6 +297,9 @@ pub fn thing(thing: Thing) -> &'static str {
         Thing::Format => "형식",
         Thing::Experiment => "실험",
         Thing::Network => "망",
+        Thing::Feature => "형상",
+        Thing::System => "좌표계",
+        Thing::Layer => "레이어",
     }
 }
 

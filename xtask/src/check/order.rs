@@ -35,6 +35,7 @@ const ORDERS: [Order; 2] = [
             "detect",
             "initial",
             "eccentricity",
+            "features",
             "adjust",
             "matching",
             "orient",

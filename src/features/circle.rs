@@ -1,0 +1,82 @@
+//! A circle in space: a point's distance has a part out of the plane, h = n·(x - c), and one within, |x - c - h n| - r; both are
+//! made least together. Initial values in the plane of the points, by the linear equation |x|² = 2c·x + (r² - |c|²).
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::form::{Form, MOST, Row};
+use super::linear::across;
+
+/// Centre, unit normal, radius.
+#[derive(Clone, Debug)]
+pub struct Circle {
+    pub centre: Vector3<f64>,
+    pub normal: Vector3<f64>,
+    pub radius: f64,
+}
+
+impl Circle {
+    /// In the plane through 0 with this normal; none where the points lie on a line. Points are about 0 and of size 1.
+    pub fn initial(points: &[Vector3<f64>], normal: &Vector3<f64>) -> Option<Self> {
+        let [e, f] = across(normal);
+        let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
+        for x in points {
+            let (u, v) = (e.dot(x), f.dot(x));
+            let row = Vector3::new(2.0 * u, 2.0 * v, 1.0);
+            matrix += row * row.transpose();
+            right += row * (u * u + v * v);
+        }
+        let solution = matrix.cholesky()?.solve(&right);
+        let radius = (solution[2] + solution[0].powi(2) + solution[1].powi(2)).sqrt();
+        let centre = solution[0] * e + solution[1] * f;
+        (radius.is_finite() && radius > 0.0).then_some(Self { centre, normal: *normal, radius })
+    }
+}
+
+impl Form for Circle {
+    /// Centre, two turns, radius.
+    const PARAMETERS: usize = 6;
+
+    fn rows(&self, points: &[Vector3<f64>]) -> Vec<Row> {
+        let [e, f] = across(&self.normal);
+        let n = self.normal;
+        let rows = points.iter().enumerate().flat_map(|(point, x)| {
+            let v = x - self.centre;
+            let height = n.dot(&v);
+            let within = v - height * n;
+            let length = within.norm();
+            let outwards = if length > 0.0 { within / length } else { e };
+            let o = outwards;
+            [
+                Row { point, distance: height, by_form: [-n.x, -n.y, -n.z, e.dot(&v), f.dot(&v), 0.0], by_point: n },
+                Row {
+                    point,
+                    distance: length - self.radius,
+                    by_form: [-o.x, -o.y, -o.z, -height * o.dot(&e), -height * o.dot(&f), -1.0],
+                    by_point: o,
+                },
+            ]
+        });
+        rows.collect()
+    }
+
+    fn moved(&self, step: &[f64; MOST]) -> Self {
+        let [e, f] = across(&self.normal);
+        Self {
+            centre: self.centre + Vector3::new(step[0], step[1], step[2]),
+            normal: (self.normal + step[3] * e + step[4] * f).normalize(),
+            radius: self.radius + step[5],
+        }
+    }
+
+    fn anchored(self, _: &Vector3<f64>) -> Self {
+        self
+    }
+
+    fn distance(&self, point: &Vector3<f64>) -> f64 {
+        let v = point - self.centre;
+        let height = self.normal.dot(&v);
+        let within = (v - height * self.normal).norm() - self.radius;
+        // Outside is positive: of a point off the plane, where it is nearer to the outside.
+        height.hypot(within).copysign(if within < 0.0 { -1.0 } else { 1.0 })
+    }
+}
