@@ -325,6 +325,21 @@ pub struct CheckPoint {
     pub difference: Option<[f64; 3]>,
 }
 
+/// Difference at a distance that is compared only, adjusted minus given.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CheckDistance {
+    /// One end.
+    pub from: String,
+    /// Other end.
+    pub to: String,
+    /// Given length.
+    pub length: f64,
+    /// Adjusted minus given; null where an end could not be determined.
+    pub difference: Option<f64>,
+    /// Standard error of the adjusted length, from the full covariance of its ends; null without statistics.
+    pub sigma: Option<f64>,
+}
+
 /// Differences of all check points per axis.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CheckStatistics {
@@ -510,6 +525,9 @@ pub struct Adjustment {
     pub observations: Vec<AdjustedObservation>,
     /// Check points.
     pub check_points: Vec<CheckPoint>,
+    /// Distances that are compared only.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub check_distances: Vec<CheckDistance>,
     /// Precision of the object; null without statistics.
     pub precision: Option<Precision>,
     /// Check points together; null without any.

@@ -10,6 +10,8 @@
 //! | `aicon` | a list of target coordinates of AICON | |
 //! | `dbat` | an XML project of the Damped Bundle Adjustment Toolbox with the files it names | |
 //! | `comparator` | plates: fiducial marks, distortion table, readings in millimetres | |
+//! | `report` | | the report as one HTML, `report.html` |
+//! | `plots` | | every plot as SVG |
 //! | `csv`, `tsv` | | points, cameras, photos, observations with their statistics |
 //!
 //! Numbers are written with a decimal point whatever the user's language, and no cell can arm a spreadsheet: text that would be a
@@ -51,7 +53,7 @@ pub struct Format {
 }
 
 /// The formats.
-pub const FORMATS: [Format; 10] = [
+pub const FORMATS: [Format; 12] = [
     Format { name: "sightline", import: true, export: true },
     Format { name: "package", import: true, export: true },
     Format { name: "control-csv", import: true, export: true },
@@ -60,6 +62,8 @@ pub const FORMATS: [Format; 10] = [
     Format { name: "aicon", import: true, export: false },
     Format { name: "dbat", import: true, export: false },
     Format { name: "comparator", import: true, export: false },
+    Format { name: "report", import: false, export: true },
+    Format { name: "plots", import: false, export: true },
     Format { name: "csv", import: false, export: true },
     Format { name: "tsv", import: false, export: true },
 ];
@@ -139,6 +143,11 @@ pub fn export(format: &str, project: &Project, adjustment: Option<&Adjustment>) 
             let points = read.map(|all| all.into_iter().map(|mark| mark.point).collect());
             carried(written().map(|observation| &observation.point), points, Place::point)?;
             Ok(one("marks.txt", text.into_bytes()))
+        }
+        "report" => Ok(one("report.html", crate::report::report(project, adjustment)?.html().into_bytes())),
+        "plots" => {
+            let plots = crate::report::plots::plots(project, adjustment)?;
+            Ok(plots.into_iter().map(|plot| (format!("{}.svg", plot.name), plot.file().into_bytes())).collect())
         }
         "csv" => results::write(project, adjustment, results::Separator::Comma),
         "tsv" => results::write(project, adjustment, results::Separator::Tab),

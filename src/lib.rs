@@ -74,6 +74,7 @@ pub mod noise;
 pub mod orient;
 pub mod project;
 pub mod render;
+pub mod report;
 pub mod ring_code;
 pub mod rotation;
 pub mod sample;

@@ -5,6 +5,7 @@
 mod features;
 mod identifier;
 mod parameter;
+mod report;
 mod validation;
 
 use std::collections::BTreeMap;
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 pub use features::{CoordinateSystem, DrawnLine, End, Feature, FeatureKind, GivenPoint, Layer, SystemKind};
 use identifier::{identifier, identifier_option_list};
 pub use parameter::{Interior, Parameter};
+pub use report::{LengthLimit, Paper, ReportLanguage, ReportSettings, Section};
 
 /// The document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,6 +63,9 @@ pub struct Project {
     /// Layers of the lines.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub layers: Vec<Layer>,
+    /// What the report says besides its numbers: no input of the adjustment.
+    #[serde(default, skip_serializing_if = "ReportSettings::is_default")]
+    pub report: ReportSettings,
 }
 
 fn default_unit() -> String {
@@ -85,6 +90,7 @@ impl Default for Project {
             systems: Vec::new(),
             lines: Vec::new(),
             layers: Vec::new(),
+            report: ReportSettings::default(),
         }
     }
 }
@@ -143,6 +149,9 @@ pub struct Photo {
     /// Whether it takes part.
     #[serde(default = "yes")]
     pub enabled: bool,
+    /// SHA-256 of the file in hexadecimal digits, where it was looked into.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub sha256: String,
 }
 
 /// What a point is for.
@@ -251,7 +260,7 @@ pub enum SetAsideReason {
 }
 
 /// A measured distance between two points (scale bar).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Distance {
     /// Identifier of one end.
     #[serde(deserialize_with = "identifier")]
@@ -263,6 +272,9 @@ pub struct Distance {
     pub length: f64,
     /// Standard error of the length.
     pub sigma: f64,
+    /// Whether it is compared only, and takes no part.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub check: bool,
 }
 
 /// Kind of datum.

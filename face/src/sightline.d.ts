@@ -64,6 +64,8 @@ export interface Photo {
   sigma_position?: [number | null, number | null, number | null] | null;
   /** The photo's own interior orientation, for a camera with per_photo. */
   interior?: Interior | null;
+  /** SHA-256 of the file in hexadecimal digits, where it was looked into. */
+  sha256?: string;
 }
 
 export interface Point {
@@ -99,6 +101,34 @@ export interface Distance {
   to: string | number;
   length: number;
   sigma: number;
+  /** Compared only, takes no part [false]. */
+  check?: boolean;
+}
+
+/** A section of the report. */
+export type ReportSection =
+  | "summary" | "uncertainty" | "observations" | "cameras" | "network" | "photos" | "points" | "control" | "lengths" | "statistics" | "residuals"
+  | "gross_errors" | "settings" | "all_observations";
+
+/** What the report says besides its numbers; no input of the adjustment. */
+export interface ReportSettings {
+  /** [the project's name] */
+  title?: string;
+  operator?: string;
+  date?: string;
+  text?: string;
+  /** A data: URL of a PNG or JPEG file. */
+  logo?: string;
+  /** ["en"] */
+  language?: "en" | "ko" | null;
+  /** ["a4"] */
+  paper?: "a4" | "letter";
+  /** [["all_observations"]] */
+  left_out?: ReportSection[];
+  /** Of expanded uncertainties [2]. */
+  coverage_factor?: number;
+  /** The largest length measurement error that is permitted: constant + length / per, in the project's unit. */
+  length_limit?: { constant: number; per?: number | null } | null;
 }
 
 export interface Datum {
@@ -128,6 +158,7 @@ export interface Project {
   lines?: { from: string | number; to: string | number; layer?: string }[];
   /** Layers of the lines; `colour` is red, green, blue, 0 to 255. */
   layers?: { id: string | number; colour: [number, number, number] }[];
+  report?: ReportSettings;
 }
 
 /** An end of a distance or a side of an angle. */
@@ -478,6 +509,8 @@ export interface Adjustment {
   /** In the project's order; the rows are made when they are first read. */
   observations: AdjustedObservation[];
   check_points: { id: string; difference: [number, number, number] | null }[];
+  /** Distances that are compared only, adjusted minus given; sigma from the full covariance of their ends. */
+  check_distances?: { from: string; to: string; length: number; difference: number | null; sigma: number | null }[];
   precision: {
     rms_sigma: [number, number, number];
     mean_q: [number, number, number];
@@ -794,7 +827,7 @@ export interface Picture {
 }
 
 export type ImportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "photomodeler" | "aicon" | "dbat" | "comparator";
-export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "csv" | "tsv";
+export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "report" | "plots" | "csv" | "tsv";
 
 /** A parameter of a fit. */
 export interface Coefficient {

@@ -78,7 +78,7 @@ fn seed_document(seed: u32) -> Project {
         point.diameter = Some(10.0);
     }
     project.photos[1].sigma_position = Some([Some(1.0), None, Some(1.0)]);
-    let distance = |from: &str, to: &str| Distance { from: from.into(), to: to.into(), length: 200.0, sigma: 50.0 };
+    let distance = |from: &str, to: &str| Distance { from: from.into(), to: to.into(), length: 200.0, sigma: 50.0, check: false };
     project.distances = vec![distance("p5", "p6"), distance("p7", "p8")];
     project
 }

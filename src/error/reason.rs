@@ -153,6 +153,9 @@ reasons! {
     ControlSigma => "the standard error of control coordinates is from 1e-6 to 1000 mm";
     Rounds { limit: usize } => "at most {limit} rounds of Monte Carlo";
 
+    // The report
+    OtherAdjustment => "the result belongs to another state of the project: adjust it again";
+
     // Arguments
     NotOfKind { name: String, expected: Expected } => "{name} is not {expected}";
     NoSuchOption { name: String, known: Names } => "there is no option \"{name}\"; the options are {known}";
@@ -264,6 +267,7 @@ words! {
         FiducialMarks = "fiducial marks" => "fiducial marks";
         Readings = "readings" => "readings";
         Files = "files" => "files";
+        Adjustment = "adjustment" => "result of an adjustment";
     }
 }
 

@@ -183,7 +183,7 @@ fn distance(network: &Network, bar: &Bar) -> Result<Distance> {
         network.points.iter().find(|p| p.id == id).map(|p| Vector3::from(p.xyz)).ok_or_else(unknown)
     };
     let length = (end(&bar.from)? - end(&bar.to)?).norm();
-    Ok(Distance { from: bar.from.clone(), to: bar.to.clone(), length, sigma: bar.sigma })
+    Ok(Distance { from: bar.from.clone(), to: bar.to.clone(), length, sigma: bar.sigma, check: false })
 }
 
 fn camera_of<'a>(network: &'a Network, station: &Station) -> Result<&'a Camera> {

@@ -165,7 +165,7 @@ fn scale(block: &Block, distances: &[Distance], project: &Project) -> Option<f64
         let (from, to) = (block.marks[place(&d.from)?].xyz?, block.marks[place(&d.to)?].xyz?);
         Some(d.length / (from - to).norm()).filter(|ratio| ratio.is_finite() && *ratio > 0.0)
     };
-    let ratios: Vec<f64> = distances.iter().filter_map(of_distance).collect();
+    let ratios: Vec<f64> = distances.iter().filter(|d| !d.check).filter_map(of_distance).collect();
     if !ratios.is_empty() {
         return Some(quantile(&ratios, 0.5));
     }

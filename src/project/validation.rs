@@ -208,7 +208,7 @@ mod tests {
                 enabled: true,
                 target: None,
             }],
-            distances: vec![Distance { from: "1".into(), to: "2".into(), length: 3.0, sigma: 0.1 }],
+            distances: vec![Distance { from: "1".into(), to: "2".into(), length: 3.0, sigma: 0.1, check: false }],
             ..Project::default()
         }
     }

@@ -29,6 +29,7 @@ mod painter;
 mod panel;
 mod photos;
 mod published;
+mod report;
 mod reports;
 mod round_trips;
 mod sample;

@@ -167,6 +167,7 @@ pub fn exact(wanted: &Wanted, seed: u64) -> Project {
             to: ends[1].id.clone(),
             length: (b - a).norm(),
             sigma: wanted.distances.1,
+            check: false,
         });
     }
     project

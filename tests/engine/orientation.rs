@@ -320,7 +320,7 @@ fn what_is_given_stays_and_a_distance_scales() {
         (a - b).norm()
     };
     let length = 25.0 * distance(&truth);
-    project.distances = vec![Distance { from: "p0".into(), to: "p9".into(), length, sigma: 0.01 }];
+    project.distances = vec![Distance { from: "p0".into(), to: "p9".into(), length, sigma: 0.01, check: false }];
     let scaled = orient(&project).expect("a valid project");
     assert!((distance(&scaled.project) / length - 1.0).abs() < 1e-3);
     assert!(scaled.notes.iter().any(|n| matches!(n, Note::System { scale: ScaleSource::Given, .. })));

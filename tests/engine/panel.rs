@@ -69,6 +69,7 @@ fn project(targets: &[PhotoTargets], reference: &BTreeMap<u32, Vector3<f64>>) ->
         to: "74".into(),
         length: (reference[&2] - reference[&74]).norm(),
         sigma: 0.01,
+        check: false,
     });
     project.datum.kind = DatumKind::Free;
     project

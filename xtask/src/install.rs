@@ -70,14 +70,23 @@ pub fn chromium() -> Outcome<String> {
     if !exists("apt-get") {
         return Err(advice.into());
     }
-    let administrator = output(Command::new("id").arg("-u")).is_ok_and(|id| id.trim() == "0");
-    let apt = |arguments: &[&str]| {
-        let mut command = if administrator { program("apt-get", &[]) } else { program("sudo", &["-n", "apt-get"]) };
-        run(command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive").stdout(std::io::stderr()))
-    };
     // The package list of a fresh machine is empty or old; installing may work without a new one, so its failure decides nothing.
     let _ = apt(&["update", "-qq"]);
     apt(&["install", "-y", "-qq", "--no-install-recommends", "chromium"])
         .map_err(|error| format!("{advice} ({error})"))?;
     installed().ok_or_else(|| advice.into())
+}
+
+/// What reads printed pages (pdftotext), where Debian's can be installed; the test of the printed report is skipped by name without it.
+pub fn poppler() {
+    if !exists("pdftotext") && exists("apt-get") {
+        let _ = apt(&["update", "-qq"]);
+        let _ = apt(&["install", "-y", "-qq", "--no-install-recommends", "poppler-utils"]);
+    }
+}
+
+fn apt(arguments: &[&str]) -> Outcome {
+    let administrator = output(Command::new("id").arg("-u")).is_ok_and(|id| id.trim() == "0");
+    let mut command = if administrator { program("apt-get", &[]) } else { program("sudo", &["-n", "apt-get"]) };
+    run(command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive").stdout(std::io::stderr()))
 }

@@ -106,6 +106,7 @@ fn types(products: &Products) -> Outcome<Count> {
 /// The page in a headless browser, against a server of dist/.
 fn browser(products: &Products) -> Outcome<Count> {
     install::packages()?;
+    install::poppler();
     let chromium = install::chromium()?;
     // The page's numbers are compared with those that Node has.
     products.build()?;

@@ -114,7 +114,7 @@ pub fn advice(project: &Project, network: &Network, state: &State, adjustment: &
     }
     let used: Vec<usize> = network.bars.iter().map(|bar| bar.index).collect();
     let out = |k: &usize| network.left_out.contains(&Key::Distance(*k));
-    let unused = project.distances.iter().enumerate().filter(|(k, _)| !used.contains(k) && !out(k));
+    let unused = project.distances.iter().enumerate().filter(|(k, d)| !d.check && !used.contains(k) && !out(k));
     let unused: Vec<_> = unused.map(|(_, d)| (d.from.clone(), d.to.clone())).collect();
     if !unused.is_empty() {
         advice.push(Advice::DistanceUnused { distances: unused });

@@ -161,7 +161,7 @@ impl Network {
         let takes_part: Vec<bool> = {
             let mut part: Vec<bool> = rays_of_point.iter().map(|r| !r.is_empty()).collect();
             let used = |k: &usize| !left_out.given.contains(&Key::Distance(*k));
-            for (_, d) in project.distances.iter().enumerate().filter(|(k, _)| used(k)) {
+            for (_, d) in project.distances.iter().enumerate().filter(|(k, d)| used(k) && !d.check) {
                 for end in [&d.from, &d.to] {
                     let end = point_index[end.as_str()];
                     part[end] |= given(end) && project.points[end].xyz.is_some();
@@ -257,7 +257,7 @@ impl Network {
         }
         for (index, d) in project.distances.iter().enumerate() {
             let (from, to) = (place_of_point[point_index[d.from.as_str()]], place_of_point[point_index[d.to.as_str()]]);
-            if from != usize::MAX && to != usize::MAX && used(Key::Distance(index)) {
+            if from != usize::MAX && to != usize::MAX && used(Key::Distance(index)) && !d.check {
                 network.points[from].kept = true;
                 network.points[to].kept = true;
                 let (length, sqrt_weight) = (d.length / frame.scale, frame.scale / d.sigma);

@@ -10,8 +10,8 @@ use crate::adjust::problem::state::{Frame, State};
 use crate::adjust::solve::session::{RobustVariance, Session, Solution};
 use crate::adjust::statistics::cofactors::Cofactors;
 use crate::adjustment::{
-    AdjustOptions, AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Adjustment, CheckPoint,
-    CheckStatistics, Correlation, Criteria, GlobalTest, PhotoUnit, Precision, is_distortion,
+    AdjustOptions, AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Adjustment, CheckDistance,
+    CheckPoint, CheckStatistics, Correlation, Criteria, GlobalTest, PhotoUnit, Precision, is_distortion,
 };
 use crate::camera;
 use crate::project::{Camera, Project, Role};
@@ -19,7 +19,7 @@ use crate::rotation;
 use crate::statistics::distribution::{GLOBAL_ALPHA, chi_squared_quantile};
 use crate::statistics::reliability::Reliability;
 
-use super::extent::largest_distance;
+use super::extent::{distance, largest_distance};
 
 /// What a result is made of.
 pub struct Solved<'a> {
@@ -43,6 +43,8 @@ pub struct Solved<'a> {
     pub redundancy: usize,
     /// What stands for the variance factor after robust estimation.
     pub robust: Option<RobustVariance>,
+    /// Standard errors of the distances that are compared only.
+    pub check_lengths: &'a [Option<f64>],
 }
 
 /// Derivative of the turn by omega, phi, kappa: t = -(Mκ Mφ e1, Mκ e2, e3)·(dω, dφ, dκ).
@@ -85,6 +87,7 @@ impl<'a> Solved<'a> {
             constraints: session.datum.as_ref().map_or(0, |d| d.defect),
             redundancy: session.redundancy,
             robust: session.robust,
+            check_lengths: &solution.check_lengths,
         }
     }
 }
@@ -134,6 +137,7 @@ impl Solved<'_> {
             observations,
             check_statistics: check_statistics(&check_points),
             check_points,
+            check_distances: self.check_distances(),
             given: self.given(),
             eccentricity: eccentric::told(self.project, self.network, self.weighting.shift),
             ..Adjustment::default()
@@ -318,6 +322,24 @@ impl Solved<'_> {
             adjusted
         };
         self.project.observations.iter().enumerate().map(one).collect()
+    }
+
+    fn check_distances(&self) -> Vec<CheckDistance> {
+        let place = |id: &str| self.network.points.iter().position(|p| self.project.points[p.index].id == id);
+        let checks = self.project.distances.iter().filter(|d| d.check).enumerate();
+        checks
+            .map(|(k, d)| {
+                let ends = place(&d.from).zip(place(&d.to));
+                let length = ends.map(|(a, b)| distance(&self.point(a), &self.point(b)));
+                CheckDistance {
+                    from: d.from.clone(),
+                    to: d.to.clone(),
+                    length: d.length,
+                    difference: length.map(|length| length - d.length),
+                    sigma: self.check_lengths.get(k).copied().flatten(),
+                }
+            })
+            .collect()
     }
 
     fn check_points(&self) -> Vec<CheckPoint> {

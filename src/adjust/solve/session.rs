@@ -16,7 +16,7 @@ use crate::adjust::problem::state::State;
 use crate::adjust::statistics::cofactors::{Cofactors, cofactors};
 use crate::adjustment::{AdjustOptions, Covariance, Iteration, ResidualPlace, StatisticsChoice, Termination};
 use crate::error::{Error, Place, Reason, Result, Thing};
-use crate::project::Project;
+use crate::project::{Distance, Project};
 
 use super::iteration::{Outcome, Setting, iterate, rounding};
 
@@ -93,6 +93,8 @@ pub struct Solution {
     pub cofactors: Option<Cofactors>,
     /// Covariance of the points asked for.
     pub covariance: Option<Covariance>,
+    /// Standard errors of the check distances, in the document's order of these.
+    pub check_lengths: Vec<Option<f64>>,
 }
 
 /// Where the equations cannot be set up.
@@ -217,7 +219,7 @@ impl<'a> Session<'a> {
         let (mut last, mut refused) = (None, None);
         if options.statistics == StatisticsChoice::None {
             let (cost, _) = right_hand_side::cost(context!(self, options.residuals)).ok_or_else(unsound)?;
-            return Ok(Solution { cost, cofactors: None, covariance: None });
+            return Ok(Solution { cost, cofactors: None, covariance: None, check_lengths: Vec::new() });
         }
         // The equations are factored for the statistics anyway: further steps with that factor, until the unknowns keep
         // all their digits.
@@ -255,10 +257,11 @@ impl<'a> Session<'a> {
         } else {
             Some(self.covariance_of(&options.covariance_of, variance)?)
         };
+        let check_lengths = self.check_lengths(variance);
         if let Some(last) = last {
             self.state = last;
         }
-        Ok(Solution { cost, cofactors, covariance })
+        Ok(Solution { cost, cofactors, covariance, check_lengths })
     }
 
     /// The state after a few steps with the factor at hand, the last of them negligible, and whether the first was already,
@@ -366,6 +369,22 @@ impl<'a> Session<'a> {
                 e.add_at_point(&self.layout, carrier, carrier_axis, -factor * product);
             }
         }
+    }
+
+    /// Standard errors of the lengths that are compared only: σ² = dᵀ (C_aa + C_bb - C_ab - C_ba) d with the direction d from a to b.
+    fn check_lengths(&self, variance: f64) -> Vec<Option<f64>> {
+        let place = |id: &str| self.network.points.iter().position(|p| self.project.points[p.index].id == id);
+        let one = |distance: &Distance| {
+            let ends = [place(&distance.from)?, place(&distance.to)?].map(|k| self.state.points[k]);
+            let d: [f64; 3] = std::array::from_fn(|a| ends[1][a] - ends[0][a]);
+            let length = d[0].hypot(d[1]).hypot(d[2]);
+            let matrix = self.covariance_of(&[distance.from.clone(), distance.to.clone()], variance).ok()?.matrix;
+            let along = |k: usize| d[k % 3] / length * if k < 3 { -1.0 } else { 1.0 };
+            let sum: f64 =
+                (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).map(|(i, j)| along(i) * matrix[i][j] * along(j)).sum();
+            Some(sum.max(0.0).sqrt()).filter(|sigma| sigma.is_finite())
+        };
+        self.project.distances.iter().filter(|d| d.check).map(one).collect()
     }
 
     /// Full covariance of chosen points: Q' e = S Q Sᵀ e for every axis e, S the datum's S-transformation.

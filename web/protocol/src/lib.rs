@@ -12,6 +12,7 @@ use sightline::experiments::{Experiment, ExperimentOptions};
 use sightline::matching::{Matching, PhotoTargets};
 use sightline::orient::Note;
 use sightline::project::Project;
+use sightline::report::plots::Plot;
 use sightline::{Error, Result};
 
 /// Work for a worker. The files it needs come with it.
@@ -163,6 +164,17 @@ tasks! {
         /** What. */ pub project: Project,
         /** Of the project, where there is one. */ pub adjustment: Option<Adjustment>,
     } => Nothing, Vec<String>;
+    /// Make the report of a project.
+    MakeReport {
+        /** Adjusted, with what its report says. */ pub project: Project,
+        /** Its result. */ pub adjustment: Adjustment,
+    } => Nothing, ReportMade;
+    /// Draw the plots of a result.
+    MakePlots {
+        /** Adjusted, with the language of its report. */ pub project: Project,
+        /** Its result. */ pub adjustment: Adjustment,
+        /** The result before, where there was one. */ pub before: Option<Adjustment>,
+    } => Nothing, Vec<Plot>;
     /// Run one of the papers' experiments; progress in steps done of all.
     RunExperiment {
         /** Which. */ pub name: String,
@@ -193,6 +205,9 @@ pub struct Opened {
     pub small: [u32; 2],
     /// Tells files with the same content.
     pub digest: u64,
+    /// SHA-256 of the file, which others can compute too.
+    #[serde(default)]
+    pub sha256: String,
 }
 
 /// A decoded photo.
@@ -202,6 +217,17 @@ pub struct Shown {
     pub width: u32,
     /// In pixels.
     pub height: u32,
+}
+
+/// A report in the parts that the page shows and prints.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ReportMade {
+    /// Style of printed pages.
+    pub page_style: String,
+    /// Style of what stands on them.
+    pub style: String,
+    /// HTML.
+    pub body: String,
 }
 
 /// On the way to an adjustment.

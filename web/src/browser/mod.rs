@@ -4,6 +4,7 @@ pub mod canvas;
 pub mod event;
 pub mod file;
 pub mod page;
+pub mod paper;
 pub mod picture;
 pub mod storage;
 pub mod worker;

@@ -161,8 +161,13 @@ mod tests {
     fn distances_are_checked() {
         let mut p = Project::default();
         take_points(&mut p, vec![point("1", 1.0), point("2", 2.0)], "mm");
-        let distance =
-            |from: &str, to: &str, length, sigma| Distance { from: from.into(), to: to.into(), length, sigma };
+        let distance = |from: &str, to: &str, length, sigma| Distance {
+            from: from.into(),
+            to: to.into(),
+            length,
+            sigma,
+            check: false,
+        };
         assert_eq!(add_distance(&mut p, distance("1", "9", 1.0, 0.1)), Err(DistanceFault::NoSuchPoint));
         assert_eq!(add_distance(&mut p, distance("1", "1", 1.0, 0.1)), Err(DistanceFault::SamePoint));
         assert_eq!(add_distance(&mut p, distance("1", "2", f64::NAN, 0.1)), Err(DistanceFault::Length));

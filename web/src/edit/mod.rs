@@ -4,6 +4,7 @@
 pub mod cameras;
 pub mod control;
 pub mod points;
+pub mod report;
 pub mod targets;
 
 use std::cmp::Ordering;

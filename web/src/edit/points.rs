@@ -244,7 +244,7 @@ mod tests {
     #[test]
     fn a_point_is_renamed_everywhere_or_in_one_photo() {
         let mut p = project();
-        p.distances.push(Distance { from: "11".into(), to: "12".into(), length: 1.0, sigma: 0.1 });
+        p.distances.push(Distance { from: "11".into(), to: "12".into(), length: 1.0, sigma: 0.1, check: false });
         p.datum = Datum { kind: DatumKind::Free, points: Some(vec!["11".into()]) };
         assert_eq!(rename(&mut p, "11", "A"), Ok(Renamed::Alone { photos: 2 }));
         assert_eq!((p.distances[0].from.as_str(), p.datum.points.as_deref()), ("A", Some(&["A".to_owned()][..])));
@@ -260,7 +260,7 @@ mod tests {
         assert_eq!(rename(&mut p, "11", "12"), Err("1".into()));
         assert_eq!(p, before);
         p.points[2] = Point { id: "13".into(), role: Role::Control, xyz: Some([1.0, 2.0, 3.0]), ..Point::default() };
-        p.distances.push(Distance { from: "11".into(), to: "13".into(), length: 1.0, sigma: 0.1 });
+        p.distances.push(Distance { from: "11".into(), to: "13".into(), length: 1.0, sigma: 0.1, check: false });
         assert_eq!(rename(&mut p, "13", "11"), Ok(Renamed::Joined { photos: 3 }));
         assert_eq!(ids(&p), ["11", "12"]);
         assert_eq!((p.points[0].role, p.points[0].xyz), (Role::Control, Some([1.0, 2.0, 3.0])));

@@ -2,7 +2,8 @@
 //!
 //! `{n}` is a value; `{n:을|를}` is the particle that follows it, as it is read: after a final consonant, or after a vowel.
 
-use super::particles::after as choose;
+use sightline::report::texts::particles::after as choose;
+
 use super::translate;
 
 /// This language.
@@ -74,6 +75,88 @@ translate! { Korean desk {
     pitch_hint: "화소 크기를 모르면 사진좌표는 픽셀 단위입니다. 대상점 좌표는 어느 쪽이든 같습니다.";
     principal_distance: "주점거리 초기값";
     unknown: "미상";
+
+    // Report
+    report: "보고서";
+    report_sentence: "제출하는 문서입니다. 모든 수치에 단위와 σ 수준을 적습니다.";
+    report_figure: "준비됨";
+    write_report: "보고서 작성";
+    print_or_pdf: "인쇄·PDF 저장";
+    save_html: "HTML 저장";
+    writing_report: "보고서 작성 중";
+    report_settings: "보고서 구성";
+    report_preview: "인쇄할 보고서";
+    report_sections: "구성";
+    section_summary: "요약";
+    section_uncertainty: "불확도 (GUM)";
+    section_observations: "관측값과 미지수";
+    section_network: "관측망";
+    section_control: "기준점, 검사점, 축척";
+    section_lengths: "길이 측정 오차 (VDI/VDE 2634)";
+    section_statistics: "통계와 검정";
+    section_left_out: "제외한 것과 그 까닭";
+    section_settings: "설정과 입력 자료";
+    section_all_observations: "전체 영상 관측값";
+    report_language: "보고서 언어";
+    paper_size: "용지";
+    first_page: "첫 쪽";
+    report_title: "제목 (비우면 프로젝트 이름)";
+    measured_by: "측정자";
+    date_of_report: "날짜 (비우면 오늘)";
+    free_text: "본문";
+    choose_logo: "로고 고르기…";
+    remove_logo: "로고 빼기";
+    logo_kind: "로고는 PNG나 JPEG 파일입니다.";
+    logo_size: "그림이 1 MB보다 큽니다. 더 작은 그림을 로고로 고르십시오.";
+    statements: "정확도 표기";
+    coverage_factor: "포함인자 k";
+    limit_constant(unit): "허용 길이 오차 A, {unit}";
+    limit_per: "A + L / K의 K";
+    limit_hint: "기준점·축척에서 점검용으로 표시한 거리와 비교합니다.";
+    check_only: "점검용";
+    check_only_means: "결과와 비교만 하고 조정에는 쓰지 않습니다";
+    change_report: "보고서 편집";
+
+    // Results: plots and meanings
+    tables: "표";
+    plots: "그림";
+    meanings: "수치의 뜻";
+    what_it_means: "뜻 보기";
+    what_to_do: "할 일:";
+    source: "출처";
+    drawing_plots: "그림 그리는 중";
+    save_svg: "SVG 저장";
+    sigma0_name: "σ₀, 사후 단위중량 표준오차";
+    sigma0_means: "관측값에 대해 가정한 것에 비해 잔차가 얼마나 큰지를 나타내며, 가정이 옳으면 1입니다. 결과의 모든 표준오차에 들어 있습니다.";
+    sigma0_do: "1보다 훨씬 크면 과대오차를 먼저, 다음으로 카메라의 모형화되지 않은 부분을 찾으십시오. 둘 다 아니면 가정한 표준오차가 너무 작은 것입니다. 1보다 훨씬 작으면 너무 큰 것입니다.";
+    global_name: "전체 모형 검정";
+    global_means: "σ₀가 우연히 1과 다를 수 있는지를 봅니다. 문제없는 조정도 100번 중 5번은 우연히 실패합니다.";
+    global_do: "실패하고 σ₀가 1보다 크면 가장 나쁜 관측값부터 보십시오. 1보다 작으면 가정이 지나치게 조심스러울 뿐 좌표는 같습니다.";
+    redundancy_means: "필요한 것보다 많은 관측값의 수이며, 이것이 다른 관측값을 점검합니다.";
+    redundancy_do: "잉여도가 작으면 오차가 숨습니다. 점을 더 많은 사진에서 측정하고 사진을 더하십시오.";
+    rms_residual_means: "조정된 광선이 사진에서 측정한 자리와 얼마나 잘 만나는지를 픽셀로 나타냅니다.";
+    rms_residual_do: "좋은 표적이면 수백분의 일 픽셀입니다. 더 크면 초점이 흐리거나, 점 이름이 틀렸거나, 모형이 렌즈를 나타내지 못하는 것입니다.";
+    rms_sigma_means: "모든 결합점에 대한 좌표의 평균 정밀도(1σ)입니다. 관측이 되풀이되는 정도이며 계통오차는 검사점이 알려 줍니다.";
+    rms_sigma_do: "더 좋게 하려면 교회각을 크게, 더 가까이 또는 긴 렌즈로, 점마다 광선을 더 많이 찍으십시오.";
+    relative_means: "대상물의 최대 치수를 평균 표준오차로 나눈 것으로, 크기가 다른 망을 비교합니다.";
+    relative_do: "1 : 5 000은 손에 든 카메라, 1 : 100 000은 검정된 표적망의 수준입니다.";
+    check_rms_means: "미리 알고 있으나 조정에 쓰지 않은 점에서의 차이이며, 정확도에 대한 유일한 독립적 진술입니다.";
+    check_rms_do: "표준오차보다 훨씬 크면 축척, 기준계, 검사점 자체 또는 카메라가 잘못된 것입니다.";
+    w_name: "w, 관측값 하나의 검정";
+    w_means: "잔차를 자신의 표준오차로 나눈 값입니다. 3.29를 넘는 것은 우연히는 천에 하나입니다.";
+    w_do: "가장 큰 것부터 사진에서 보십시오. 과대오차 하나가 다른 것도 키웁니다. 다시 측정하거나 제외하고 다시 조정하십시오.";
+    r_name: "r, 잉여수";
+    r_means: "이 관측값의 오차 중 자신의 잔차에 드러나는 몫입니다. 1이면 전부, 0이면 전혀 드러나지 않습니다.";
+    r_do: "0.1 미만이면 과대오차가 드러나지 않습니다. 점에 광선을, 사진에 점을 더하십시오.";
+    mdb_name: "탐지 가능 오차와 그 영향";
+    mdb_means: "검정이 80 %의 검정력으로 찾아내는 가장 작은 오차와, 찾아내지 못한 동안 그것이 좌표를 옮기는 양입니다.";
+    mdb_do: "영향이 허용 오차보다 크면 바로 그곳에 점검할 관측이 더 필요합니다.";
+    significance_name: "매개변수의 유의성";
+    significance_means: "왜곡 매개변수를 표준오차로 나눈 값으로, 2 미만이면 0과 구별되지 않습니다.";
+    significance_do: "0으로 고정하거나, 검정 결과를 다른 곳에 쓸 때는 그대로 두십시오.";
+    correlation_name: "상관";
+    correlation_means: "두 매개변수가 서로를 대신하는 정도이며, 0.95를 넘으면 함께만 알려집니다.";
+    correlation_do: "카메라를 90° 돌리고 깊이와 방향을 바꾸어 찍거나, 둘 중 더 세밀한 것을 고정하십시오.";
 
     // Photo view
     photo_view(photo): "사진 {photo}";

@@ -7,9 +7,7 @@
 mod en;
 pub mod errors;
 mod ko;
-mod particles;
 mod reasons;
-mod template;
 pub mod text;
 
 use leptos::prelude::*;
@@ -144,7 +142,7 @@ macro_rules! translate {
     };
     (@method $name:ident ($($value:ident),+) $text:literal) => {
         fn $name(&self, $($value: &dyn std::fmt::Display),+) -> String {
-            $crate::i18n::template::fill($text, &[$((stringify!($value), $value)),+], choose)
+            sightline::report::texts::template::fill($text, &[$((stringify!($value), $value)),+], choose)
         }
     };
 }
@@ -153,6 +151,8 @@ use translate;
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
+
+    use sightline::report::texts::template;
 
     use super::*;
 

@@ -4,9 +4,8 @@ use std::fmt::Display;
 
 use sightline::error::{Damage, Expected, Lack, PhotoModelerPart, Reason, Thing};
 use sightline::initial::Degeneracy;
-
-use super::particles::after;
-use super::template;
+use sightline::report::texts::particles::after;
+use sightline::report::texts::template;
 
 /// A sentence whose particles follow its values.
 fn told(template: &str, values: &[(&str, &dyn Display)]) -> String {
@@ -46,6 +45,7 @@ pub fn reason(reason: &Reason) -> String {
         R::ParameterSigma => "매개변수의 사전 표준오차는 0보다 커야 합니다. 고정하려면 비워 두십시오",
         R::FocalLengthTwice => "f는 fx와 fy를 하나로 나타냅니다. f만, 또는 fx와 fy를 추정하십시오",
 
+        R::OtherAdjustment => "결과가 프로젝트의 다른 상태에 속합니다. 다시 조정하십시오",
         R::DatumPoints => "기준계에는 한 직선 위에 있지 않은 점이 셋 이상 필요합니다",
         R::NoImage => "점의 상이 생기지 않는 곳에서 반복이 끝났습니다. 초기값을 개선하십시오",
         R::StandardErrorsApart { value, usual } => {
@@ -312,6 +312,7 @@ pub fn lack(lack: Lack) -> &'static str {
         Lack::FiducialMarks => "사진지표",
         Lack::Readings => "측정값",
         Lack::Files => "파일",
+        Lack::Adjustment => "광속조정 결과",
     }
 }
 

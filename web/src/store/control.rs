@@ -89,7 +89,8 @@ impl Desk {
     pub fn add_distance(self, from: &str, to: &str, length: &str, sigma: &str) -> Result<(), DistanceFault> {
         let number = |typed: &str| format::parse(typed).unwrap_or(f64::NAN);
         let (from, to) = (from.trim().to_owned(), to.trim().to_owned());
-        let distance = Distance { from: from.clone(), to: to.clone(), length: number(length), sigma: number(sigma) };
+        let distance =
+            Distance { from: from.clone(), to: to.clone(), length: number(length), sigma: number(sigma), check: false };
         let mut project = self.document.with_untracked(|d| (*d.project).clone());
         control::add_distance(&mut project, distance)?;
         self.change(Change::DistanceAdded { from, to }, |document| *document.project_mut() = project);
@@ -107,6 +108,18 @@ impl Desk {
         }
         let change = Change::DistanceEdited { from: distance.from.clone(), to: distance.to.clone() };
         self.change(change, |document| document.project_mut().distances[place] = distance);
+    }
+
+    /// Has a distance compared only, or take part.
+    pub fn set_distance_check(self, place: usize, check: bool) {
+        let ends =
+            self.document.with_untracked(|d| d.project.distances.get(place).map(|d| (d.from.clone(), d.to.clone())));
+        let Some((from, to)) = ends else { return };
+        self.change(Change::DistanceEdited { from, to }, |document| {
+            if let Some(distance) = document.project_mut().distances.get_mut(place) {
+                distance.check = check;
+            }
+        });
     }
 
     pub fn remove_distance(self, place: usize) {

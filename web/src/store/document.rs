@@ -112,6 +112,7 @@ pub enum Change {
     OptionsChosen,
     Adjusted,
     UnitSet,
+    ReportEdited,
     Opened,
 }
 
@@ -184,6 +185,12 @@ impl History {
     /// What would be done again.
     pub fn next(&self) -> Option<&Change> {
         self.future.last().filter(|entry| entry.state.is_some()).map(|entry| &entry.change)
+    }
+
+    /// The result that was there before another, where the two are of different adjustments.
+    pub fn result_before(&self, result: &Outcome) -> Option<&Outcome> {
+        let mut results = self.past.iter().rev().filter_map(|entry| entry.state.as_ref()?.result.as_deref());
+        results.find(|other| other.adjustment != result.adjustment)
     }
 
     /// What has changed since the present result was found, latest last.

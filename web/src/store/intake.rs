@@ -162,7 +162,11 @@ impl Desk {
             };
             project.photos.iter().rev().find(shares).map(|photo| photo.id.clone())
         });
-        cameras::add_photo(project, &file.name, &file.info, file.size, shares.as_deref())
+        let id = cameras::add_photo(project, &file.name, &file.info, file.size, shares.as_deref());
+        if let Some(photo) = project.photos.iter_mut().find(|photo| photo.id == id) {
+            photo.sha256.clone_from(&file.sha256);
+        }
+        id
     }
 }
 
@@ -175,7 +179,15 @@ async fn look_into(file: NamedFile, outcome: Outcome<Open>) -> Result<PhotoFile,
             let bytes = bytes.into_iter().next().ok_or_else(|| failed(Reason::Unreadable(String::new())))?;
             let small = Picture::from_rgba(bytes, opened.small[0], opened.small[1]).await;
             let small = small.map_err(|detail| failed(Reason::Unreadable(detail)))?;
-            Ok(PhotoFile { name, content, size: opened.size, info: opened.info, small, digest: opened.digest })
+            Ok(PhotoFile {
+                name,
+                content,
+                size: opened.size,
+                info: opened.info,
+                small,
+                digest: opened.digest,
+                sha256: opened.sha256,
+            })
         }
         Outcome::Failed(Failure::Refused(error)) => Err(failed(Reason::Engine(error))),
         Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => Err(failed(Reason::Unreadable(detail))),

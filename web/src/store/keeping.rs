@@ -467,7 +467,7 @@ impl Desk {
             match file {
                 (file, Some(content), Some(small)) => {
                     let KeptFile { name, size, info, digest, .. } = file;
-                    here.insert(photo, PhotoFile { name, content, size, info, small, digest });
+                    here.insert(photo, PhotoFile { name, content, size, info, small, digest, sha256: String::new() });
                 }
                 (file, Some(content), None) => without_picture.push(NamedFile { name: file.name, content }),
                 (_, None, _) => {}

@@ -13,6 +13,7 @@ pub mod kept;
 pub mod pictures;
 pub mod plates;
 pub mod pool;
+pub mod report;
 pub mod sample;
 pub mod saving;
 pub mod shelf;
@@ -52,14 +53,15 @@ pub enum Step {
     Control,
     Adjust,
     Results,
+    Report,
     /// Beside the path.
     Experiments,
 }
 
 impl Step {
     /// The steps in their order, without the start page.
-    pub const ROW: [Self; 6] =
-        [Self::Photos, Self::Targets, Self::Identities, Self::Control, Self::Adjust, Self::Results];
+    pub const ROW: [Self; 7] =
+        [Self::Photos, Self::Targets, Self::Identities, Self::Control, Self::Adjust, Self::Results, Self::Report];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -70,6 +72,7 @@ impl Step {
             Self::Control => "control",
             Self::Adjust => "adjust",
             Self::Results => "results",
+            Self::Report => "report",
             Self::Experiments => "experiments",
         }
     }
@@ -140,6 +143,7 @@ pub enum JobKind {
     OpeningProject,
     Sample,
     Experiment,
+    Reporting,
 }
 
 /// A photo's file as it was dropped.
@@ -152,6 +156,8 @@ pub struct PhotoFile {
     pub info: PhotoInfo,
     pub small: Picture,
     pub digest: u64,
+    /// SHA-256, where the file was looked into since it came.
+    pub sha256: String,
 }
 
 /// A file that was not taken, and why.
@@ -260,6 +266,7 @@ pub struct Desk {
     pub job: RwSignal<Option<Job>, LocalStorage>,
     pub pool: StoredValue<Pool, LocalStorage>,
     pub experiments: Experiments,
+    pub reports: report::Reports,
 }
 
 impl Desk {
@@ -306,6 +313,7 @@ impl Desk {
             job: RwSignal::new_local(None),
             pool: StoredValue::new_local(Pool::default()),
             experiments: Experiments::default(),
+            reports: report::Reports::default(),
         }
     }
 

@@ -92,6 +92,9 @@ impl Desk {
         let mut document = Document { project: project.into(), ..Document::default() };
         for (id, name) in photos {
             if let Some((file, detection)) = made.get(&name) {
+                if let Some(photo) = document.project_mut().photos.iter_mut().find(|photo| photo.id == id) {
+                    photo.sha256.clone_from(&file.sha256);
+                }
                 files.insert(id.clone(), file.clone());
                 targets::take_detection(&mut document, &id, detection.clone(), None);
             }
@@ -109,5 +112,13 @@ async fn photo_file(name: String, opened: Opened, bytes: Vec<Bytes>) -> Option<P
     let (photo, small) = (bytes.next()?, bytes.next()?);
     let small = Picture::from_rgba(small, opened.small[0], opened.small[1]).await.ok()?;
     let content = Blob::from_bytes(&photo).ok()?;
-    Some(PhotoFile { name, content, size: opened.size, info: opened.info, small, digest: opened.digest })
+    Some(PhotoFile {
+        name,
+        content,
+        size: opened.size,
+        info: opened.info,
+        small,
+        digest: opened.digest,
+        sha256: opened.sha256,
+    })
 }

@@ -253,7 +253,7 @@ fn content(document: &Document) -> Content {
 }
 
 /// A project's name as a file name.
-fn file_stem(name: &str) -> String {
+pub(super) fn file_stem(name: &str) -> String {
     let safe = |c: char| if c.is_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '-' };
     let stem = name.trim().chars().map(safe).collect::<String>();
     if stem.is_empty() { "project".to_owned() } else { stem }

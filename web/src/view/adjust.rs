@@ -2,7 +2,8 @@
 
 use leptos::prelude::*;
 use sightline::adjustment::{ObservationGroup, Termination, VarianceComponent, VarianceComponents};
-use sightline::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
+use sightline::project::{Camera, DatumKind, Parameter, Project, Role};
+pub use sightline::report::names::{parameter_name, parameter_unit};
 
 use super::advice::Advice;
 use super::control::DatumChoice;
@@ -47,45 +48,6 @@ pub fn Adjust() -> impl IntoView {
             <section class="scroll" tabindex="0" aria-label=text::iterations><Iterations/><GrossErrorRecord/></section>
             <section class="scroll" tabindex="0" aria-label=text::what_lacks><Advice/></section>
         </main>
-    }
-}
-
-/// A parameter as people write it.
-pub fn parameter_name(parameter: Parameter) -> &'static str {
-    match parameter {
-        Parameter::C => "c",
-        Parameter::F => "f",
-        Parameter::Fx => "fx",
-        Parameter::Fy => "fy",
-        Parameter::X0 => "x₀",
-        Parameter::Y0 => "y₀",
-        Parameter::Cx => "cx",
-        Parameter::Cy => "cy",
-        Parameter::K1 => "K₁",
-        Parameter::K2 => "K₂",
-        Parameter::K3 => "K₃",
-        Parameter::P1 => "P₁",
-        Parameter::P2 => "P₂",
-        Parameter::B1 => "B₁",
-        Parameter::B2 => "B₂",
-    }
-}
-
-/// The unit of a parameter, from the camera's photo unit.
-pub fn parameter_unit(camera: &Camera, parameter: Parameter) -> String {
-    let unit = if camera.pixel_pitch.is_some() { "mm" } else { "px" };
-    if matches!(camera.interior, Interior::Opencv { .. }) {
-        let in_pixels =
-            matches!(parameter, Parameter::F | Parameter::Fx | Parameter::Fy | Parameter::Cx | Parameter::Cy);
-        return if in_pixels { "px".to_owned() } else { String::new() };
-    }
-    match parameter {
-        Parameter::K1 => format!("{unit}⁻²"),
-        Parameter::K2 => format!("{unit}⁻⁴"),
-        Parameter::K3 => format!("{unit}⁻⁶"),
-        Parameter::P1 | Parameter::P2 => format!("{unit}⁻¹"),
-        Parameter::B1 | Parameter::B2 => String::new(),
-        _ => unit.to_owned(),
     }
 }
 

@@ -33,6 +33,7 @@ pub fn change_words(change: &Change) -> String {
         Change::OptionsChosen => text::change_options().to_owned(),
         Change::Adjusted => text::change_adjusted().to_owned(),
         Change::UnitSet => text::change_unit().to_owned(),
+        Change::ReportEdited => text::change_report().to_owned(),
         Change::Opened => text::change_opened().to_owned(),
     }
 }

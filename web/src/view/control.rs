@@ -380,7 +380,7 @@ fn Distances() -> impl IntoView {
             <table class="table">
                 <thead><tr>
                     <th class="left">{text::from_point}</th><th class="left">{text::to_point}</th>
-                    <th>{text::length} " " <u>{unit}</u></th><th>"σ " <u>{unit}</u></th><th class="wide"></th>
+                    <th>{text::length} " " <u>{unit}</u></th><th>"σ " <u>{unit}</u></th><th class="left">{text::check_only}</th><th class="wide"></th>
                 </tr></thead>
                 <tbody>
                     {move || distances.get().into_iter().enumerate().map(|(i, d)| view! {
@@ -390,6 +390,8 @@ fn Distances() -> impl IntoView {
                                 attr:class="value" attr:inputmode="decimal" attr:name="distance-length" attr:aria-label=text::length/></td>
                             <td><Field value=Signal::stored(format::editable(d.sigma)) commit=move |typed: String| desk.edit_distance(i, &typed, |d, value| d.sigma = value)
                                 attr:class="value" attr:inputmode="decimal" attr:name="distance-sigma" attr:aria-label="σ"/></td>
+                            <td class="left"><input type="checkbox" name="distance-check" aria-label=text::check_only title=text::check_only_means
+                                prop:checked=d.check on:change=move |e| desk.set_distance_check(i, event::checked(&e))/></td>
                             <td class="left wide"><button class="icon-button small" aria-label=text::remove_distance on:click=move |_| desk.remove_distance(i)><Glyph icon=Icon::Cross size=12/></button></td>
                         </tr>
                     }).collect_view()}

@@ -16,6 +16,7 @@ pub mod photos;
 pub mod picking;
 pub mod plots;
 pub mod projects;
+pub mod report;
 pub mod results;
 pub mod shell;
 pub mod start;

@@ -100,7 +100,7 @@ pub fn ResidualPlot(
         let mut lengths = all.iter().map(|v| v.residual[0].hypot(v.residual[1])).collect::<Vec<_>>();
         lengths.sort_by(f64::total_cmp);
         let typical = lengths.get(lengths.len() * 9 / 10).copied().unwrap_or(0.0);
-        let exaggeration = if typical > 0.0 { round_number(18.0 / (typical * scale)) } else { 1.0 };
+        let exaggeration = if typical > 0.0 { format::round_below(18.0 / (typical * scale)) } else { 1.0 };
         let x = move |at: f64| 12.0 + (at + w / 2.0) * scale;
         let y = move |at: f64| 8.0 + (h / 2.0 - at) * scale;
         let drawn = all.into_iter().map(|v| {
@@ -121,7 +121,7 @@ pub fn ResidualPlot(
             }
         }).collect_view();
         let (factor, unit) = shown.get();
-        let bar = round_number(40.0 / (scale * exaggeration));
+        let bar = format::round_below(40.0 / (scale * exaggeration));
         Some(view! {
             <svg class="plot" viewBox=format!("0 0 {WIDTH} {height:.0}") role="img" aria-label=crate::i18n::text::residuals>
                 <rect class="frame" x="12" y="8" width=w * scale height=h * scale></rect>
@@ -135,30 +135,4 @@ pub fn ResidualPlot(
         })
     };
     view! { <div class="plot-box">{plot}</div> }
-}
-
-/// The largest of 1, 2, 5 times a power of ten that is not above a number.
-fn round_number(x: f64) -> f64 {
-    let power = 10f64.powf(x.log10().floor());
-    let step = x / power;
-    let first = if step >= 5.0 {
-        5.0
-    } else if step >= 2.0 {
-        2.0
-    } else {
-        1.0
-    };
-    first * power
-}
-
-#[cfg(test)]
-mod tests {
-    use super::round_number;
-
-    #[test]
-    fn exaggerations_are_round() {
-        for (x, round) in [(7.3, 5.0), (1234.0, 1000.0), (0.027, 0.02), (1.0, 1.0)] {
-            assert!((round_number(x) / round - 1.0).abs() < 1e-12);
-        }
-    }
 }

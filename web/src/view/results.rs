@@ -1,7 +1,9 @@
 //! Step 6: the result with its statistics. Of a project that changed since, no number is shown.
 
 mod cameras;
+mod drawings;
 mod given;
+mod meanings;
 mod tables;
 mod units;
 
@@ -18,8 +20,10 @@ use crate::i18n::text;
 use crate::store::{Desk, Step};
 
 use cameras::Cameras;
+use drawings::Drawings;
 use given::GivenTable;
 pub use given::{given_kind, given_name};
+use meanings::{Meanings, Statistic};
 use tables::{CheckPoints, PhotosTable, PointsTable, Worst, largest_w};
 use units::{pixel_of, shown_as};
 
@@ -37,7 +41,7 @@ pub fn Results() -> impl IntoView {
 }
 
 #[component]
-fn NoResult() -> impl IntoView {
+pub(super) fn NoResult() -> impl IntoView {
     let desk = expect_context::<Desk>();
     view! {
         <main class="out-of-date">
@@ -49,7 +53,7 @@ fn NoResult() -> impl IntoView {
 }
 
 #[component]
-fn OutOfDate() -> impl IntoView {
+pub(super) fn OutOfDate() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let changes = move || {
         let changes = desk.changes_since_result();
@@ -74,22 +78,57 @@ fn read<T: Default>(desk: Desk, read: impl FnOnce(&Adjustment, &Project) -> T) -
     desk.document.with(|d| d.current().map(|r| read(&r.adjustment, &r.input)).unwrap_or_default())
 }
 
+/// What of the result is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Shown {
+    Tables,
+    Plots,
+    Meanings,
+}
+
 #[component]
 fn Current() -> impl IntoView {
+    let shown = RwSignal::new(Shown::Tables);
+    let explained = RwSignal::new(None::<Statistic>);
+    let views: [(Shown, crate::i18n::Text); 3] =
+        [(Shown::Tables, text::tables), (Shown::Plots, text::plots), (Shown::Meanings, text::meanings)];
     view! {
-        <Hero/>
-        <main class="results">
-            <section class="a1"><Residuals/></section>
-            <section class="a2"><PhotosTable/></section>
-            <section class="b scroll" tabindex="0" aria-label=text::cameras><Cameras/><CheckPoints/><GivenTable/></section>
-            <section class="c1"><PointsTable/></section>
-            <section class="c2"><Worst/></section>
-        </main>
+        <Hero explain=Callback::new(move |statistic| {
+            explained.set(Some(statistic));
+            shown.set(Shown::Meanings);
+        })/>
+        <div class="result-views" role="group" aria-label=text::results>
+            {views.map(|(one, name)| view! {
+                <button class="text-button" data-shown=format!("{one:?}").to_lowercase() aria-pressed=move || (shown.get() == one).to_string()
+                    on:click=move |_| shown.set(one)>{name}</button>
+            }).collect_view()}
+        </div>
+        {move || match shown.get() {
+            Shown::Tables => view! {
+                <main class="results">
+                    <section class="a1"><Residuals/></section>
+                    <section class="a2"><PhotosTable/></section>
+                    <section class="b scroll" tabindex="0" aria-label=text::cameras><Cameras/><CheckPoints/><GivenTable/></section>
+                    <section class="c1"><PointsTable/></section>
+                    <section class="c2"><Worst/></section>
+                </main>
+            }.into_any(),
+            Shown::Plots => view! { <Drawings/> }.into_any(),
+            Shown::Meanings => view! { <Meanings chosen=explained/> }.into_any(),
+        }}
+    }
+}
+
+/// The name of a figure; it opens what the figure means.
+#[component]
+fn Explained(explain: Callback<Statistic>, of: Statistic, name: crate::i18n::Text) -> impl IntoView {
+    view! {
+        <button class="explained" title=text::what_it_means on:click=move |_| explain.run(of)>{name}</button>
     }
 }
 
 #[component]
-fn Hero() -> impl IntoView {
+fn Hero(explain: Callback<Statistic>) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
     let sigma0 = move || read(desk, |a, _| a.sigma0);
@@ -102,48 +141,47 @@ fn Hero() -> impl IntoView {
     view! {
         <h1 class="visually-hidden">{text::results}</h1>
         <div class="hero">
-            <div><span>"σ₀"</span><b class="huge" data-result="sigma0">{move || format::maybe(sigma0(), 3)}</b><small>{text::a_priori_one}</small></div>
+            <div><span><Explained explain of=Statistic::Sigma0 name=|| "σ₀"/></span><b class="huge" data-result="sigma0">{move || format::maybe(sigma0(), 3)}</b><small>{text::a_priori_one}</small></div>
             <div class="test">
                 {move || test().map(|t| view! {
                     <span class=if t.passed { "pass" } else { "fail" }>
                         <Glyph icon=if t.passed { Icon::Check } else { Icon::Cross } size=14/>
                         " " {if t.passed { text::test_passed() } else { text::test_failed() }}
                     </span>
+                    <button class="explained bar-button" aria-label=text::what_it_means title=text::what_it_means on:click=move |_| explain.run(Statistic::GlobalTest)>
                     <TestBar statistic=t.statistic lower=t.lower upper=t.upper/>
+                    </button>
                     <small><span>{format::fixed(t.lower, 0)}</span><b>"χ² " {format::fixed(t.statistic, 1)}</b><span>{format::fixed(t.upper, 0)}</span></small>
                 })}
             </div>
-            <div><span>{text::redundancy}</span><b data-result="redundancy">{move || format::count(redundancy().0)}</b>
+            <div><span><Explained explain of=Statistic::Redundancy name=text::redundancy/></span><b data-result="redundancy">{move || format::count(redundancy().0)}</b>
                 <small>{move || {
                     let (_, observations, unknowns, constraints) = redundancy();
                     let plus = if constraints > 0 { format!(" + {}", format::count(constraints)) } else { String::new() };
                     format!("{} − {}{plus}", format::count(observations), format::count(unknowns))
                 }}</small>
             </div>
-            <div><span>{text::rms_residual} " " <u>"px"</u></span><b data-result="rms-px">{move || format::maybe(rms(), 3)}</b><small>{text::all_image_coordinates}</small></div>
-            <div><span>{text::rms_sigma} " X, Y, Z " <u>{unit}</u></span>
+            <div><span><Explained explain of=Statistic::RmsResidual name=text::rms_residual/> " " <u>"px"</u></span><b data-result="rms-px">{move || format::maybe(rms(), 3)}</b><small>{text::all_image_coordinates}</small></div>
+            <div><span><Explained explain of=Statistic::RmsSigma name=text::rms_sigma/> " X, Y, Z " <u>{unit}</u></span>
                 <b>{move || precision().map(|p| {
                     let decimals = p.rms_sigma.iter().copied().fold(f64::INFINITY, f64::min);
                     p.rms_sigma.map(|s| format::fixed(s, format::decimals_for(decimals))).join("\u{2003}")
                 })}</b>
                 <small>{move || text::points_one_sigma(format::count(points()))}</small>
             </div>
-            <div><span>{text::relative_accuracy}</span>
-                <b>{move || precision().and_then(|p| p.relative).map(|n| format!("1 : {}", format::count(two_digits(n))))}</b>
+            <div><span><Explained explain of=Statistic::RelativeAccuracy name=text::relative_accuracy/></span>
+                <b>{move || precision().and_then(|p| p.relative).map(|n| format!("1 : {}", format::count(format::three_digits(n))))}</b>
                 <small>{move || precision().map(|p| text::largest_dimension(format::fixed(p.largest_dimension, 1), unit.get()))}</small>
             </div>
             {move || check().map(|(rms, n)| view! {
-                <div><span>{text::check_rms} " " <u>{unit}</u></span><b>{format::fixed(rms, 3)}</b><small>{text::n_points(n)}</small></div>
+                <div><span><Explained explain of=Statistic::CheckRms name=text::check_rms/> " " <u>{unit}</u></span><b>{format::fixed(rms, 3)}</b><small>{text::n_points(n)}</small></div>
             })}
-            <div class="hero-action"><button class="button primary" on:click=move |_| export_tables(desk)><Glyph icon=Icon::Save/> {text::export_csv}</button></div>
+            <div class="hero-action">
+                <button class="button" on:click=move |_| export_tables(desk)><Glyph icon=Icon::Save/> {text::export_csv}</button>
+                <button class="button primary" on:click=move |_| desk.go(Step::Report)>{text::write_report} <Glyph icon=Icon::Arrow/></button>
+            </div>
         </div>
     }
-}
-
-/// Three significant digits: more would pretend.
-fn two_digits(n: f64) -> usize {
-    let power = 10f64.powf((n.max(1.0).log10().floor() - 2.0).max(0.0));
-    ((n / power).round() * power) as usize
 }
 
 /// The statistic between its limits.

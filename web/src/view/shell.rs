@@ -7,7 +7,7 @@ use super::changes::change_words;
 use super::icon::{Glyph, Icon};
 use super::projects::{StorageLine, StorageNotices, kept_words};
 use super::results::control_figure;
-use super::{adjust, control, experiments, identities, keys, photos, results, start, targets};
+use super::{adjust, control, experiments, identities, keys, photos, report, results, start, targets};
 use crate::browser::{event, file, page};
 use crate::i18n::{self, errors, experiments as words, text};
 use crate::store::document::Document;
@@ -64,6 +64,7 @@ pub fn App() -> impl IntoView {
                 Step::Control => view! { <control::Control/> }.into_any(),
                 Step::Adjust => view! { <adjust::Adjust/> }.into_any(),
                 Step::Results => view! { <results::Results/> }.into_any(),
+                Step::Report => view! { <report::Report/> }.into_any(),
                 Step::Experiments => view! { <experiments::Experiments/> }.into_any(),
             }}
             <Foot/>
@@ -166,8 +167,9 @@ fn Head() -> impl IntoView {
 #[component]
 fn StepButton(step: Step, number: usize) -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let stale =
-        Memo::new(move |_| matches!(step, Step::Adjust | Step::Results) && desk.document.with(Document::out_of_date));
+    let stale = Memo::new(move |_| {
+        matches!(step, Step::Adjust | Step::Results | Step::Report) && desk.document.with(Document::out_of_date)
+    });
     let figure = move || {
         desk.document.with(|d| match step {
             Step::Photos if !d.project.photos.is_empty() => format::count(d.project.photos.len()),
@@ -176,12 +178,13 @@ fn StepButton(step: Step, number: usize) -> impl IntoView {
             }
             Step::Identities if !d.project.points.is_empty() => format::count(d.project.points.len()),
             Step::Control => control_figure(&d.project),
-            Step::Adjust | Step::Results if d.out_of_date() => text::out_of_date().to_owned(),
+            Step::Adjust | Step::Results | Step::Report if d.out_of_date() => text::out_of_date().to_owned(),
             Step::Adjust => d.current().map_or("–".to_owned(), |r| text::n_iterations(r.adjustment.iterations.len())),
             Step::Results => d
                 .current()
                 .and_then(|r| r.adjustment.sigma0)
                 .map_or("–".to_owned(), |s| format!("σ₀ {}", format::fixed(s, 3))),
+            Step::Report if d.current().is_some() => text::report_figure().to_owned(),
             _ => "–".to_owned(),
         })
     };
@@ -215,6 +218,7 @@ pub fn step_label(step: Step) -> &'static str {
         Step::Control => text::control_and_scale(),
         Step::Adjust => text::adjustment(),
         Step::Results => text::results(),
+        Step::Report => text::report(),
         Step::Experiments => words::experiments(),
     }
 }
@@ -277,6 +281,7 @@ fn job_label(job: &Job) -> &'static str {
         JobKind::OpeningProject => text::opening_project(),
         JobKind::Sample => text::opening_sample(),
         JobKind::Experiment => words::running(),
+        JobKind::Reporting => text::writing_report(),
     }
 }
 

@@ -12,11 +12,13 @@ use sightline::experiments::{self, Experiment};
 use sightline::matching::{MatchOptions, Matching, match_uncoded};
 use sightline::orient::{Note, orient};
 use sightline::project::Project;
+use sightline::report::plots::{Plot, comparison, plots};
+use sightline::report::{self, Report};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
-    Adjust, Adjusted, Adjusting, Content, Detect, Export, ExportExperiment, Match, Measure, Nothing, Open, Opened,
-    Pack, Progress, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served, Service, ShowPhoto, Shown, Unpack,
-    Unpacked,
+    Adjust, Adjusted, Adjusting, Content, Detect, Export, ExportExperiment, MakePlots, MakeReport, Match, Measure,
+    Nothing, Open, Opened, Pack, Progress, ReportMade, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served,
+    Service, ShowPhoto, Shown, Unpack, Unpacked,
 };
 
 use crate::kept::{self, digest, with_photo};
@@ -99,6 +101,24 @@ impl Service<Export> for Engine {
     }
 }
 
+impl Service<MakeReport> for Engine {
+    fn serve(&self, task: MakeReport, _: Files, _: Progress<Nothing>) -> Served<ReportMade> {
+        let Report { page_style, style, body, .. } = report::report(&task.project, Some(&task.adjustment))?;
+        Ok((ReportMade { page_style, style: style.to_owned(), body }, Vec::new()))
+    }
+}
+
+impl Service<MakePlots> for Engine {
+    fn serve(&self, task: MakePlots, _: Files, _: Progress<Nothing>) -> Served<Vec<Plot>> {
+        let MakePlots { project, adjustment, before } = task;
+        let mut all = plots(&project, Some(&adjustment))?;
+        if let Some(before) = before {
+            all.extend(comparison(&project, Some(&adjustment), &before)?);
+        }
+        Ok((all, Vec::new()))
+    }
+}
+
 impl Service<RunExperiment> for Engine {
     fn serve(&self, task: RunExperiment, _: Files, progress: Progress<(usize, usize)>) -> Served<Experiment> {
         let ran = experiments::run(&task.name, &task.options, &mut |done, of| {
@@ -149,7 +169,13 @@ fn look_into(file: &[u8], max_side: u32) -> Result<(Opened, Vec<u8>)> {
     let size = [photo.grey.width, photo.grey.height].map(|side| side as u32);
     let digest = digest(file);
     kept::keep(digest, channel, photo);
-    let opened = Opened { size, info: exif::read(file), small: [small.width, small.height], digest };
+    let opened = Opened {
+        size,
+        info: exif::read(file),
+        small: [small.width, small.height],
+        digest,
+        sha256: report::sha256(file),
+    };
     Ok((opened, small.rgba))
 }
 

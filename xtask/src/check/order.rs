@@ -44,6 +44,7 @@ const ORDERS: [Order; 2] = [
             "render",
             "network",
             "sample",
+            "report",
             "exchange",
             "experiments",
         ],

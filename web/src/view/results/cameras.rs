@@ -17,13 +17,10 @@ pub(super) fn parameter_cells(
     value: f64,
     sigma: Option<f64>,
 ) -> (String, String, String) {
-    let size = value.abs().max(sigma.unwrap_or(0.0));
-    let exponent = if size > 0.0 && size < 0.01 { size.log10().floor() as i32 } else { 0 };
-    let power = 10f64.powi(exponent);
-    let decimals = sigma.map_or(6, |s| format::decimals_for(s / power));
+    let (value, sigma, exponent) = format::with_sigma(value, sigma);
     let unit = parameter_unit(camera, parameter);
     let unit = if exponent == 0 { unit } else { format!("{} {unit}", format::power(exponent)) };
-    (format::fixed(value / power, decimals), sigma.map_or("–".into(), |s| format::fixed(s / power, decimals)), unit)
+    (value, sigma, unit)
 }
 
 #[component]

@@ -98,6 +98,8 @@ fn latin(letters: &[char]) -> Ending {
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     #[test]
     fn particles_follow_the_reading() {

@@ -32,7 +32,6 @@ fn parts(inner: &str) -> (&str, Option<(&str, &str)>) {
 }
 
 /// The names of the values that a template uses, or what is wrong with it.
-#[cfg(test)]
 pub fn values(template: &str) -> Result<std::collections::BTreeSet<String>, String> {
     let mut names = std::collections::BTreeSet::new();
     let mut rest = template;
@@ -52,6 +51,8 @@ pub fn values(template: &str) -> Result<std::collections::BTreeSet<String>, Stri
 #[cfg(test)]
 mod tests {
     use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
 
     fn plural<'a>(value: &str, one: &'a str, other: &'a str) -> &'a str {
         if value == "1" { one } else { other }

@@ -1,0 +1,113 @@
+//! Plots as SVG, each with its title and the sentence that says what it shows: in the report, on the desk and as files.
+//!
+//! They have no style of their own: classes get their colours from `plots.css`, whose variables are the desk's themes or the report's
+//! print colours.
+
+mod chart;
+mod comparison;
+mod convergence;
+mod distortion;
+mod histogram;
+mod network;
+mod radius;
+mod rays;
+mod redundancy;
+mod residuals;
+mod sigmas;
+mod significance;
+mod svg;
+
+use serde::{Deserialize, Serialize};
+
+use super::context::Context;
+use super::html::escaped;
+use crate::adjustment::Adjustment;
+use crate::error::Result;
+use crate::project::Project;
+
+/// Where a plot stands in the report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Group {
+    /// The lens.
+    Cameras,
+    /// Stations, rays and precision.
+    Network,
+    /// The points' precision.
+    Points,
+    /// Tests of the observations.
+    Statistics,
+    /// Residuals.
+    Residuals,
+}
+
+/// A plot.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Plot {
+    /// Name for files, the same in every language.
+    pub name: String,
+    /// Where it belongs.
+    pub group: Group,
+    /// Of one photo among many: shown small.
+    pub small: bool,
+    /// Its title.
+    pub title: String,
+    /// What it shows.
+    pub sentence: String,
+    /// The drawing.
+    pub svg: String,
+}
+
+/// Style of plots wherever they stand.
+pub const STYLE: &str = include_str!("plots.css");
+
+impl Plot {
+    /// A file of its own, with its style.
+    pub fn file(&self) -> String {
+        let style = format!("<style>{}</style>", escaped(STYLE));
+        self.svg.replacen("><title>", &format!(" xmlns=\"http://www.w3.org/2000/svg\">{style}<title>"), 1)
+    }
+}
+
+/// Every plot of a result.
+pub(super) fn all(context: &Context) -> Vec<Plot> {
+    let mut all = Vec::new();
+    all.extend(distortion::plots(context));
+    all.extend(significance::plots(context));
+    all.extend(network::plots(context));
+    all.extend(rays::plots(context));
+    all.extend(sigmas::plots(context));
+    all.extend(histogram::plots(context));
+    all.extend(convergence::plots(context));
+    all.extend(residuals::all_in_one(context));
+    all.extend(radius::plots(context));
+    all.extend(redundancy::plots(context));
+    all.extend(residuals::plots(context));
+    all
+}
+
+/// The plots of an adjusted project, in the language of its report.
+///
+/// # Errors
+/// As [`super::report`].
+pub fn plots(project: &Project, adjustment: Option<&Adjustment>) -> Result<Vec<Plot>> {
+    Ok(all(&super::context(project, adjustment)?))
+}
+
+/// What an adjustment changed beside an earlier one of the same points; none where they share fewer than two.
+///
+/// # Errors
+/// As [`super::report`].
+pub fn comparison(project: &Project, adjustment: Option<&Adjustment>, before: &Adjustment) -> Result<Option<Plot>> {
+    Ok(comparison::plot(&super::context(project, adjustment)?, before))
+}
+
+/// Standard error of the radial distortion of a brown camera at an image radius, in photo units; none without statistics.
+pub fn radial_sigma(camera: &crate::adjustment::AdjustedCamera, radius: f64) -> Option<f64> {
+    distortion::radial_sigma(camera, radius)
+}
+
+/// A name as a file has it.
+fn file_name(text: &str) -> String {
+    text.chars().map(|c| if c.is_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '-' }).take(60).collect()
+}

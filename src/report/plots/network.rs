@@ -1,0 +1,151 @@
+//! The network from above and from the front at one scale, with its error ellipses exaggerated by a round factor that is said.
+
+use super::svg::{Anchor, Svg};
+use super::{Group, Plot};
+use crate::adjustment::AdjustedPoint;
+use crate::project::Role;
+use crate::report::context::Context;
+use crate::report::number::{count, round, round_below};
+use crate::rotation;
+
+const WIDTH: f64 = 520.0;
+/// Rays that are drawn.
+const RAYS: usize = 1500;
+
+pub fn plots(context: &Context) -> Vec<Plot> {
+    let words = context.words;
+    let a = context.adjustment;
+    if a.points.is_empty() || a.photos.is_empty() {
+        return Vec::new();
+    }
+    let all = a.points.iter().map(|p| p.xyz).chain(a.photos.iter().map(|p| p.position));
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for xyz in all {
+        for k in 0..3 {
+            (low[k], high[k]) = (low[k].min(xyz[k]), high[k].max(xyz[k]));
+        }
+    }
+    // One scale for both views: the widest or the highest of them decides.
+    let side = |k: usize| (high[k] - low[k]).max(1e-12);
+    let scale = ((WIDTH - 70.0) / side(0)).min(360.0 / side(1)).min(360.0 / side(2));
+    let typical = context.mean_sigma().unwrap_or(0.0);
+    let exaggeration = if typical > 0.0 { round_below(7.0 / (typical * scale)).max(1.0) } else { 0.0 };
+    let view = |name: &str, title: &str, [h, v]: [usize; 2]| {
+        let view = View { context, low, high, scale, axes: [h, v], exaggeration };
+        let sentence = words.plot_network_says(&count(a.photos.len()), &count(a.points.len()), &round(exaggeration));
+        let svg = view.drawn(title, &sentence);
+        Plot { name: name.into(), group: Group::Network, small: false, title: title.into(), sentence, svg }
+    };
+    vec![
+        view("network-above", words.plot_network_above(), [0, 1]),
+        view("network-front", words.plot_network_front(), [0, 2]),
+    ]
+}
+
+struct View<'a> {
+    context: &'a Context<'a>,
+    low: [f64; 3],
+    high: [f64; 3],
+    scale: f64,
+    /// To the right, and upwards.
+    axes: [usize; 2],
+    exaggeration: f64,
+}
+
+impl View<'_> {
+    fn at(&self, xyz: [f64; 3]) -> [f64; 2] {
+        let [h, v] = self.axes;
+        let middle = (self.low[h] + self.high[h]) / 2.0;
+        [WIDTH / 2.0 + (xyz[h] - middle) * self.scale, 24.0 + (self.high[v] - xyz[v]) * self.scale]
+    }
+
+    fn drawn(&self, title: &str, sentence: &str) -> String {
+        let a = self.context.adjustment;
+        let [h, v] = self.axes;
+        let height = (self.high[v] - self.low[v]) * self.scale + 76.0;
+        let mut svg = Svg::new(WIDTH, height, title, sentence);
+        self.rays(&mut svg);
+        for point in &a.points {
+            self.ellipse(&mut svg, point);
+        }
+        let given: std::collections::HashSet<&str> =
+            self.context.project.points.iter().filter(|p| p.role != Role::Tie).map(|p| p.id.as_str()).collect();
+        for known in [false, true] {
+            let points = a.points.iter().filter(|p| given.contains(p.id.as_str()) == known);
+            let places: Vec<[f64; 2]> = points.map(|p| self.at(p.xyz)).collect();
+            svg.dots(if known { "point given" } else { "point" }, &places, if known { 4.0 } else { 2.2 });
+        }
+        let labels = a.photos.len() <= 60;
+        for photo in &a.photos {
+            self.camera(&mut svg, photo.position, photo.rotation, if labels { &photo.id } else { "" });
+        }
+        let bottom = height - 10.0;
+        let bar = round_below(90.0 / self.scale);
+        let long = bar * self.scale;
+        svg.path("edge", &[[14.0, bottom - 6.0], [14.0, bottom], [14.0 + long, bottom], [14.0 + long, bottom - 6.0]]);
+        svg.label("axis", [20.0 + long, bottom], Anchor::Start, &format!("{} {}", round(bar), self.context.unit));
+        let names = ["X", "Y", "Z"];
+        let axes = format!("{} →  {} ↑", names[h], names[v]);
+        svg.label("strong", [WIDTH - 14.0, bottom], Anchor::End, &axes);
+        svg.finish()
+    }
+
+    fn rays(&self, svg: &mut Svg) {
+        let a = self.context.adjustment;
+        // Each camera's line to the middle of what it sees: all rays would be a grey field.
+        let centroid = |ids: &str| {
+            let seen = a.observations.iter().filter(|o| o.enabled && o.photo == ids).take(RAYS);
+            let places: std::collections::HashSet<&str> = seen.map(|o| o.point.as_str()).collect();
+            let points: Vec<&AdjustedPoint> = a.points.iter().filter(|p| places.contains(p.id.as_str())).collect();
+            let n = points.len() as f64;
+            (n > 0.0).then(|| std::array::from_fn(|k| points.iter().map(|p| p.xyz[k]).sum::<f64>() / n))
+        };
+        let lines: Vec<_> =
+            a.photos.iter().filter_map(|p| Some((self.at(p.position), self.at(centroid(&p.id)?)))).collect();
+        svg.strokes("ray", &lines);
+    }
+
+    /// The ellipse of the two drawn axes: half axes and direction from their covariance.
+    fn ellipse(&self, svg: &mut Svg, point: &AdjustedPoint) {
+        let Some(c) = point.covariance.filter(|_| self.exaggeration > 0.0) else { return };
+        let full = [[c[0], c[1], c[2]], [c[1], c[3], c[4]], [c[2], c[4], c[5]]];
+        let [h, v] = self.axes;
+        let (p, q, r) = (full[h][h], full[h][v], full[v][v]);
+        let middle = (p + r) / 2.0;
+        let half = ((p - r) / 2.0).hypot(q);
+        let angle = 0.5 * (2.0 * q).atan2(p - r);
+        let size = |variance: f64| variance.max(0.0).sqrt() * self.exaggeration * self.scale;
+        let axes = [size(middle + half), size(middle - half)];
+        if axes[0] >= 0.5 {
+            // The drawing counts downwards.
+            svg.ellipse("uncertain", self.at(point.xyz), axes, -angle.to_degrees());
+        }
+    }
+
+    /// A triangle that opens to where the camera looks.
+    fn camera(&self, svg: &mut Svg, position: [f64; 3], angles: [f64; 3], name: &str) {
+        let m = rotation::object_to_camera(angles);
+        let [h, v] = self.axes;
+        let view = [-m[(2, h)], m[(2, v)]];
+        let place = self.at(position);
+        let length = view[0].hypot(view[1]);
+        let d = if length > 1e-6 { [view[0] / length, view[1] / length] } else { [0.0, 0.0] };
+        // Foreshortened as what looks out of the drawing is.
+        let (long, wide) = (3.0 + 8.0 * length, 5.0);
+        let corner =
+            |side: f64| [place[0] + d[0] * long - side * d[1] * wide, place[1] + d[1] * long + side * d[0] * wide];
+        if length > 1e-6 {
+            svg.path("camera", &[place, corner(1.0), corner(-1.0), place]);
+        } else {
+            svg.rect("camera", [place[0] - 3.0, place[1] - 3.0], [6.0, 6.0]);
+        }
+        if !name.is_empty() {
+            let name = if name.chars().count() > 12 {
+                format!("{}…", name.chars().take(11).collect::<String>())
+            } else {
+                name.to_owned()
+            };
+            svg.label("strong", [place[0] - d[0] * 9.0, place[1] - d[1] * 9.0 + 4.0], Anchor::Middle, &name);
+        }
+    }
+}

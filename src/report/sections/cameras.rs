@@ -1,0 +1,113 @@
+//! Cameras: interior orientation with standard errors, what was held, and which parameters go together.
+
+use crate::adjustment::AdjustedCamera;
+use crate::project::{Interior, Parameter};
+use crate::report::context::Context;
+use crate::report::html::{Html, Table};
+use crate::report::names::{parameter_name, parameter_unit};
+use crate::report::number::{compact, count, fixed, maybe, power, with_sigma};
+
+/// Correlations from here on are told.
+const TOLD: f64 = 0.9;
+
+pub fn write(context: &Context, html: &mut Html) {
+    for camera in &context.adjustment.cameras {
+        one(context, camera, html);
+    }
+}
+
+fn one(context: &Context, adjusted: &AdjustedCamera, html: &mut Html) {
+    let (words, camera) = (context.words, &adjusted.camera);
+    let model = match camera.interior {
+        Interior::Brown { .. } => words.model_brown(),
+        Interior::Opencv { .. } => words.model_opencv(),
+    };
+    let photo = adjusted.photo.as_ref().map(|photo| format!(" · {} {photo}", words.photo())).unwrap_or_default();
+    html.h3(&format!("{} {}{photo}, {model}", words.camera(), camera.id));
+    let photos = context.project.photos.iter().filter(|p| p.camera == camera.id && p.enabled).count();
+    let pitch = match camera.pixel_pitch {
+        Some([x, y]) if x == y => format!("{} µm", compact(1000.0 * x)),
+        Some([x, y]) => format!("{} × {} µm", compact(1000.0 * x), compact(1000.0 * y)),
+        None => words.pitch_unknown().to_owned(),
+    };
+    let size = format!("{} × {} px", camera.width, camera.height);
+    html.note(&words.camera_line(&size, &pitch, &count(photos)));
+    let mut table = Table::new()
+        .words("")
+        .words(words.parameter())
+        .number(words.value())
+        .number("σ (1σ)")
+        .words(words.unit())
+        .number(words.ratio());
+    let estimated = |p: &Parameter| adjusted.sigma.contains_key(p);
+    let focal = estimated(&Parameter::F);
+    let shown = |p: &Parameter| match p {
+        Parameter::F => focal,
+        Parameter::Fx => !focal,
+        _ => true,
+    };
+    for parameter in camera.interior.parameters().iter().copied().filter(shown) {
+        let value = camera.interior.get(parameter).unwrap_or(0.0);
+        let sigma = adjusted.sigma.get(&parameter).copied();
+        if sigma.is_none() && value == 0.0 {
+            continue;
+        }
+        let (value, sigma_shown, exponent) = with_sigma(value, sigma);
+        let unit = parameter_unit(camera, parameter);
+        let unit = if exponent == 0 { unit } else { format!("{} {unit}", power(exponent)) };
+        let sigma = if sigma.is_some() { sigma_shown } else { words.held().to_owned() };
+        let ratio = maybe(adjusted.significance.get(&parameter).copied(), 1);
+        table.row(vec![
+            parameter_name(parameter).into(),
+            long_name(context, parameter).into(),
+            value,
+            sigma,
+            unit,
+            ratio,
+        ]);
+    }
+    html.table(table);
+    let zero: Vec<&str> = camera
+        .interior
+        .parameters()
+        .iter()
+        .copied()
+        .filter(|p| *p != Parameter::F && !estimated(p) && camera.interior.get(*p) == Some(0.0))
+        .map(parameter_name)
+        .collect();
+    if !zero.is_empty() {
+        html.note(&words.held_at_zero(&zero.join(", ")));
+    }
+    let pairs = correlated(adjusted);
+    if !pairs.is_empty() {
+        html.note(&words.correlated(&fixed(TOLD, 1), &pairs.join("; ")));
+    }
+}
+
+fn correlated(adjusted: &AdjustedCamera) -> Vec<String> {
+    let names = &adjusted.correlation.names;
+    let shown = |k: usize| names[k].parse().map_or_else(|_| names[k].clone(), |p| parameter_name(p).to_owned());
+    let mut pairs = Vec::new();
+    for i in 0..names.len() {
+        for j in 0..i {
+            let r = adjusted.correlation.matrix.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0);
+            if r.abs() >= TOLD {
+                pairs.push(format!("{} – {} {}", shown(j), shown(i), fixed(r, 2)));
+            }
+        }
+    }
+    pairs
+}
+
+fn long_name(context: &Context, parameter: Parameter) -> &'static str {
+    use Parameter as P;
+    let words = context.words;
+    match parameter {
+        P::C | P::F | P::Fx | P::Fy => words.principal_distance(),
+        P::X0 | P::Y0 | P::Cx | P::Cy => words.principal_point(),
+        P::K1 | P::K2 | P::K3 => words.radial_distortion(),
+        P::P1 | P::P2 => words.decentring_distortion(),
+        P::B1 => words.affinity(),
+        P::B2 => words.shear(),
+    }
+}

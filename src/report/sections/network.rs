@@ -1,0 +1,96 @@
+//! The network: how many rays meet in a point, and where it is weak.
+
+use std::collections::BTreeMap;
+
+use crate::adjustment::Advice;
+use crate::report::context::{Context, listed};
+use crate::report::html::{Html, Table};
+use crate::report::names::parameter_name;
+use crate::report::number::{count, fixed};
+
+pub fn write(context: &Context, html: &mut Html) {
+    let (words, a) = (context.words, context.adjustment);
+    let rays: usize = a.points.iter().map(|p| p.rays).sum();
+    let mean = rays as f64 / a.points.len().max(1) as f64;
+    let fewest = a.points.iter().map(|p| p.rays).min().unwrap_or(0);
+    html.p(&words.network_line(&count(a.photos.len()), &count(a.points.len()), &fixed(mean, 1), &count(fewest)));
+    html.open("div", "two");
+    html.open("div", "").h3(words.points_by_rays()).table(by_rays(context)).close("div");
+    html.open("div", "").h3(words.weakest_points()).table(weakest(context)).close("div");
+    html.close("div");
+    let weak: Vec<String> = a.advice.iter().map(|advice| said(context, advice)).collect();
+    if weak.is_empty() {
+        html.note(words.no_weakness());
+    } else {
+        html.h3(words.weaknesses()).list(&weak);
+    }
+}
+
+fn by_rays(context: &Context) -> Table {
+    let words = context.words;
+    let mut counts = BTreeMap::new();
+    for point in &context.adjustment.points {
+        *counts.entry(point.rays).or_insert(0_usize) += 1;
+    }
+    let mut table = Table::new().number(words.rays()).number(words.points()).number("%");
+    let all = context.adjustment.points.len().max(1) as f64;
+    for (rays, n) in counts {
+        table.row(vec![count(rays), count(n), fixed(100.0 * n as f64 / all, 1)]);
+    }
+    table
+}
+
+fn weakest(context: &Context) -> Table {
+    let (words, unit) = (context.words, context.unit);
+    let mut table = Table::new().words(words.point()).number(words.rays());
+    for axis in ["X", "Y", "Z"] {
+        table = table.low("σ", axis, unit);
+    }
+    let largest = |sigma: &[f64; 3]| sigma.iter().copied().fold(0.0, f64::max);
+    let mut points: Vec<_> = context.adjustment.points.iter().filter_map(|p| Some((p, p.sigma?))).collect();
+    points.sort_by(|a, b| largest(&b.1).total_cmp(&largest(&a.1)));
+    for (point, sigma) in points.into_iter().take(8) {
+        let mut row = vec![point.id.clone(), count(point.rays)];
+        row.extend(sigma.map(|s| context.length(s)));
+        table.row(row);
+    }
+    table
+}
+
+/// A weakness in a sentence.
+fn said(context: &Context, advice: &Advice) -> String {
+    let words = context.words;
+    let name = |name: &str| name.parse().map_or(name.to_owned(), |p| parameter_name(p).to_owned());
+    let pairs = |all: &[(String, String)]| {
+        let names: Vec<String> = all.iter().map(|(a, b)| format!("{a} – {b}")).collect();
+        listed(names.iter().map(String::as_str), 5)
+    };
+    match advice {
+        Advice::HighCorrelation { camera, photo, first, second, correlation } => {
+            let place = photo.as_ref().map_or(camera.clone(), |photo| format!("{camera} · {photo}"));
+            words.weak_correlation(&place, &name(first), &name(second), &fixed(*correlation, 2))
+        }
+        Advice::LowRedundancy { observations, given } => {
+            words.weak_redundancy(&count(observations.len() + given.len()))
+        }
+        Advice::TwoRays { points } => {
+            words.weak_two_rays(&count(points.len()), &listed(points.iter().map(String::as_str), 5))
+        }
+        Advice::NarrowIntersection { points } => {
+            words.weak_narrow(&count(points.len()), &listed(points.iter().map(|(id, _)| id.as_str()), 5))
+        }
+        Advice::BehindCamera { observations } => words.weak_behind(&pairs(observations)),
+        Advice::DistanceUnused { distances } => words.weak_distance_unused(&pairs(distances)),
+        Advice::WeakPrincipalDistance { camera, value, sigma, .. } => {
+            words.weak_principal_distance(camera, &fixed(*value, 2), &fixed(*sigma, 2))
+        }
+        Advice::GrossErrorsUnsettled => words.weak_unsettled().to_owned(),
+        Advice::VarianceComponentsUnsettled => words.weak_components().to_owned(),
+        Advice::SigmasTooSmall { sigma0, .. } => words.weak_sigmas(&fixed(*sigma0, 3)),
+        Advice::UnmodelledAgain { sigma0, .. } => words.weak_unmodelled(&fixed(*sigma0, 3)),
+        Advice::Insignificant { camera, parameter, ratio, .. } => {
+            words.weak_insignificant(camera, &parameter_name(*parameter), &fixed(*ratio, 1))
+        }
+        Advice::Suspected { count: n, .. } => words.weak_suspected(&count(*n)),
+    }
+}

@@ -1,0 +1,39 @@
+//! Exterior orientations with their standard errors.
+
+use crate::report::context::{Context, smallest};
+use crate::report::html::{Html, Table};
+use crate::report::number::{decimals_for, fixed, maybe};
+
+pub fn write(context: &Context, html: &mut Html) {
+    let (words, unit) = (context.words, context.unit);
+    let mut positions = Table::new().words(words.photo()).words(words.file());
+    let mut angles = Table::new().words(words.photo());
+    for axis in ["X", "Y", "Z"] {
+        positions = positions.low(axis, "", unit);
+    }
+    for axis in ["X", "Y", "Z"] {
+        positions = positions.low("σ", axis, unit);
+    }
+    for angle in ["ω", "φ", "κ"] {
+        angles = angles.low(angle, "", "°");
+    }
+    for angle in ["ω", "φ", "κ"] {
+        angles = angles.low("σ", angle, "°");
+    }
+    for photo in &context.adjustment.photos {
+        let decimals = photo.sigma_position.map_or(3, |s| decimals_for(smallest(&s)));
+        let mut row = vec![photo.id.clone(), context.file_of(&photo.id).to_owned()];
+        row.extend(photo.position.map(|x| fixed(x, decimals)));
+        row.extend((0..3).map(|k| maybe(photo.sigma_position.map(|s| s[k]), decimals)));
+        positions.row(row);
+        let sigma = photo.sigma_rotation.map(|s| s.map(f64::to_degrees));
+        let decimals = sigma.map_or(4, |s| decimals_for(smallest(&s)).min(6));
+        let mut row = vec![photo.id.clone()];
+        row.extend(photo.rotation.map(|angle| fixed(angle.to_degrees(), decimals)));
+        row.extend((0..3).map(|k| maybe(sigma.map(|s| s[k]), decimals)));
+        angles.row(row);
+    }
+    html.note(words.orientation_convention());
+    html.h3(words.projection_centres()).table(positions.dense());
+    html.h3(words.angles()).table(angles.dense());
+}

@@ -1,0 +1,122 @@
+//! What a client reads: what was measured, how accurate it is, on what it stands, what was left out.
+
+use crate::adjustment::Termination;
+use crate::project::{DatumKind, Role};
+use crate::report::context::{Context, listed};
+use crate::report::html::{Html, escaped};
+use crate::report::number::{count, fixed};
+
+use super::gross_errors::LeftOut;
+
+pub fn write(context: &Context, html: &mut Html) {
+    let (words, adjustment) = (context.words, context.adjustment);
+    let estimated = adjustment.cameras.iter().any(|camera| !camera.sigma.is_empty());
+    let cameras = context.project.cameras.iter().filter(|camera| {
+        let photos = context.project.photos.iter().filter(|photo| photo.camera == camera.id);
+        photos.into_iter().any(|photo| adjustment.photos.iter().any(|found| found.id == photo.id))
+    });
+    let (points, photos, cameras) =
+        (count(adjustment.points.len()), count(adjustment.photos.len()), count(cameras.count()));
+    let mut lead = if estimated {
+        words.measured_self_calibrating(&points, &photos, &cameras)
+    } else {
+        words.measured(&points, &photos, &cameras)
+    };
+    for sentence in [datum(context), scale(context), tested(context)] {
+        lead = format!("{lead} {sentence}");
+    }
+    html.element("p", "lead", &lead);
+    accuracy(context, html);
+    checked(context, html);
+    let left_out = LeftOut::of(context);
+    html.p(&left_out.sentence(context));
+}
+
+/// What the coordinates refer to.
+pub fn datum(context: &Context) -> String {
+    let words = context.words;
+    let of = |role| context.project.points.iter().filter(move |p| p.role == role && p.xyz.is_some());
+    match context.project.datum.kind {
+        DatumKind::Control => {
+            let ids: Vec<&str> = of(Role::Control).map(|point| point.id.as_str()).collect();
+            words.datum_control(&count(ids.len()), &listed(ids.iter().copied(), 12))
+        }
+        DatumKind::Free => match &context.project.datum.points {
+            Some(points) => words.datum_free_chosen(&count(points.len())),
+            None => words.datum_free().to_owned(),
+        },
+        DatumKind::Minimal => words.datum_minimal().to_owned(),
+    }
+}
+
+/// Where lengths have their size from.
+pub fn scale(context: &Context) -> String {
+    let words = context.words;
+    let distances = used_distances(context);
+    match distances.len() {
+        0 if context.project.datum.kind == DatumKind::Control => words.scale_control().to_owned(),
+        0 => words.scale_none().to_owned(),
+        n => words.scale_distances(&count(n)),
+    }
+}
+
+/// Distances that took part.
+pub fn used_distances<'a>(context: &Context<'a>) -> Vec<&'a crate::adjustment::GivenObservation> {
+    let is_distance = |what: &crate::adjustment::Given| matches!(what, crate::adjustment::Given::Distance { .. });
+    context.adjustment.given.iter().filter(|given| given.enabled && is_distance(&given.what)).collect()
+}
+
+/// Whether the observations agree with what was assumed of them.
+fn tested(context: &Context) -> String {
+    let (words, adjustment) = (context.words, context.adjustment);
+    if adjustment.termination != Termination::Converged {
+        return words.not_converged().to_owned();
+    }
+    let Some((sigma0, test)) = adjustment.sigma0.zip(adjustment.global_test.as_ref()) else {
+        return words.nothing_checked().to_owned();
+    };
+    let sigma0 = fixed(sigma0, 3);
+    let percent = fixed(100.0 * adjustment.criteria.global_alpha, 0);
+    match (test.passed, test.statistic > test.upper) {
+        (true, _) => words.test_passed(&sigma0, &percent),
+        (false, true) => words.test_too_large(&sigma0, &percent),
+        (false, false) => words.test_too_small(&sigma0, &percent),
+    }
+}
+
+/// The probability that a coverage factor stands for, in percent.
+pub fn confidence(k: f64) -> String {
+    let percent = 100.0 * libm::erf(k / std::f64::consts::SQRT_2);
+    // 2 is spoken of as 95 %, 3 as 99.7 %.
+    if percent < 99.0 { fixed(percent.floor(), 0) } else { fixed((percent * 10.0).floor().min(999.0) / 10.0, 1) }
+}
+
+fn accuracy(context: &Context, html: &mut Html) {
+    let words = context.words;
+    let Some(sigma) = context.mean_sigma() else {
+        html.p(words.no_statistics());
+        return;
+    };
+    let k = context.settings().coverage_factor;
+    let (factor, percent) = (fixed(k, usize::from(k.fract() != 0.0)), confidence(k));
+    html.open("div", "stated");
+    let value = format!("± {}", context.with_unit(k * sigma));
+    let sentence = words.known_to(&"\u{1}", &factor, &percent);
+    let (before, after) = sentence.split_once('\u{1}').unwrap_or((sentence.as_str(), ""));
+    html.raw(&format!("<p>{}<b>{}</b>{}</p>\n", escaped(before), escaped(&value), escaped(after)));
+    if let Some((point, axis, sigma)) = context.weakest() {
+        html.note(&words.least_certain(&point, &["X", "Y", "Z"][axis], &context.with_unit(k * sigma)));
+    }
+    html.note(words.within_the_network());
+    html.close("div");
+}
+
+/// What was known beforehand and not used, against what was found.
+fn checked(context: &Context, html: &mut Html) {
+    let (words, adjustment) = (context.words, context.adjustment);
+    if let Some(check) = adjustment.check_statistics.as_ref().filter(|check| check.count > 0) {
+        html.p(&words.check_points_agree(&count(check.count), &context.with_unit(check.rms_all)));
+    } else {
+        html.p(words.no_independent_check());
+    }
+}

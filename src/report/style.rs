@@ -1,0 +1,72 @@
+//! How the report looks: on paper black on white with one blue and one orange, whatever the theme of the desk.
+
+use super::context::Context;
+use crate::project::Paper;
+
+/// Size of the page, its margins, the lines that run above and below every page, and their numbers.
+pub fn page(context: &Context) -> String {
+    let size = match context.settings().paper {
+        Paper::A4 => "A4",
+        Paper::Letter => "letter",
+    };
+    let words = context.words;
+    let version = format!("Sightline {}", env!("CARGO_PKG_VERSION"));
+    let boxes = [
+        ("top-left", "left", 40, quoted(context.title())),
+        ("top-center", "center", 30, quoted(words.report_title())),
+        ("top-right", "right", 30, "counter(page) \" / \" counter(pages)".to_owned()),
+        ("bottom-left", "left", 40, quoted(&words.all_sigmas(&context.unit))),
+        ("bottom-center", "center", 30, quoted(&version)),
+        ("bottom-right", "right", 30, quoted(&context.settings().date)),
+    ];
+    let mut text = format!("@page {{\n  size: {size};\n  margin: 24mm 18mm 22mm;\n");
+    for (place, align, width, content) in boxes {
+        let (edge, baseline) = if place.starts_with("top") { ("bottom", "bottom") } else { ("top", "top") };
+        let space = if edge == "bottom" {
+            "padding-bottom: 2mm; margin-bottom: 4mm"
+        } else {
+            "padding-top: 2mm; margin-top: 4mm"
+        };
+        text.push_str(&format!(
+            "  @{place} {{ content: {content}; width: {width}%; text-align: {align}; vertical-align: {baseline}; \
+             border-{edge}: 0.5pt solid #50585e; {space}; color: #50585e; font: 7.5pt {FONT}; }}\n"
+        ));
+    }
+    text.push_str("}\n");
+    text
+}
+
+/// A text as CSS has it in quotes; nothing in it can end the quotes, the rule or the element.
+fn quoted(text: &str) -> String {
+    let mut safe = String::from("\"");
+    for c in text.chars().take(80) {
+        match c {
+            '"' | '\\' | '<' | '>' => safe.push_str(&format!("\\{:x} ", c as u32)),
+            c if c.is_control() => safe.push(' '),
+            c => safe.push(c),
+        }
+    }
+    safe.push('"');
+    safe
+}
+
+const FONT: &str = "-apple-system, \"Segoe UI\", Roboto, \"Noto Sans\", \"Apple SD Gothic Neo\", \"Malgun Gothic\", \"Noto Sans KR\", \"Noto Sans CJK KR\", sans-serif";
+
+/// Style of what stands on the pages. Every rule is below `.report`, or a plot's.
+pub const STYLE: &str = concat!(include_str!("style.css"), include_str!("plots.css"));
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn a_title_stays_in_its_quotes() {
+        assert_eq!(quoted("a\"b\\c</style>\n"), "\"a\\22 b\\5c c\\3c /style\\3e  \"");
+        let rules = STYLE.lines().filter(|line| line.ends_with('{') && !line.starts_with([' ', '@']));
+        assert!(
+            rules.clone().count() > 30 && rules.clone().all(|line| line.contains(".report") || line.contains(".plot"))
+        );
+    }
+}

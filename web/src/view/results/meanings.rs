@@ -1,0 +1,151 @@
+//! What each statistic means: a sentence, its formula, where it comes from, and what to do about it.
+
+use leptos::prelude::*;
+
+use crate::i18n::{Text, text};
+
+/// A statistic that is explained.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Statistic {
+    Sigma0,
+    GlobalTest,
+    Redundancy,
+    RmsResidual,
+    RmsSigma,
+    RelativeAccuracy,
+    CheckRms,
+    W,
+    RedundancyNumber,
+    Detectable,
+    Significance,
+    Correlation,
+}
+
+/// Its name, what it means, its formula, its source, and what to do.
+struct Meaning {
+    of: Statistic,
+    name: Text,
+    means: Text,
+    formula: &'static str,
+    source: &'static str,
+    what_to_do: Text,
+}
+
+const MEANINGS: [Meaning; 12] = [
+    Meaning {
+        of: Statistic::Sigma0,
+        name: text::sigma0_name,
+        means: text::sigma0_means,
+        formula: "σ₀ = √(vᵀPv / r)",
+        source: "Mikhail & Ackermann 1976",
+        what_to_do: text::sigma0_do,
+    },
+    Meaning {
+        of: Statistic::GlobalTest,
+        name: text::global_name,
+        means: text::global_means,
+        formula: "χ²(2.5 %, r) ≤ vᵀPv ≤ χ²(97.5 %, r)",
+        source: "Baarda 1968",
+        what_to_do: text::global_do,
+    },
+    Meaning {
+        of: Statistic::Redundancy,
+        name: text::redundancy,
+        means: text::redundancy_means,
+        formula: "r = n − u + d",
+        source: "Mikhail & Ackermann 1976",
+        what_to_do: text::redundancy_do,
+    },
+    Meaning {
+        of: Statistic::RmsResidual,
+        name: text::rms_residual,
+        means: text::rms_residual_means,
+        formula: "√(Σ v² / n)",
+        source: "Luhmann et al. 2020, 4.4",
+        what_to_do: text::rms_residual_do,
+    },
+    Meaning {
+        of: Statistic::RmsSigma,
+        name: text::rms_sigma,
+        means: text::rms_sigma_means,
+        formula: "σ = σ₀ √q,  rms = √(Σ σ² / n)",
+        source: "Fraser 1984",
+        what_to_do: text::rms_sigma_do,
+    },
+    Meaning {
+        of: Statistic::RelativeAccuracy,
+        name: text::relative_accuracy,
+        means: text::relative_means,
+        formula: "1 : (D / σ̄)",
+        source: "Fraser 1984",
+        what_to_do: text::relative_do,
+    },
+    Meaning {
+        of: Statistic::CheckRms,
+        name: text::check_rms,
+        means: text::check_rms_means,
+        formula: "√(Σ Δ² / 3n)",
+        source: "Luhmann et al. 2020, 7.2",
+        what_to_do: text::check_rms_do,
+    },
+    Meaning {
+        of: Statistic::W,
+        name: text::w_name,
+        means: text::w_means,
+        formula: "w = v / (σ √r)",
+        source: "Baarda 1968",
+        what_to_do: text::w_do,
+    },
+    Meaning {
+        of: Statistic::RedundancyNumber,
+        name: text::r_name,
+        means: text::r_means,
+        formula: "r = (Qv P)ᵢᵢ",
+        source: "Förstner 1979",
+        what_to_do: text::r_do,
+    },
+    Meaning {
+        of: Statistic::Detectable,
+        name: text::mdb_name,
+        means: text::mdb_means,
+        formula: "∇ = δ₀ σ / √r",
+        source: "Baarda 1968",
+        what_to_do: text::mdb_do,
+    },
+    Meaning {
+        of: Statistic::Significance,
+        name: text::significance_name,
+        means: text::significance_means,
+        formula: "|value| / σ",
+        source: "Fraser 1982",
+        what_to_do: text::significance_do,
+    },
+    Meaning {
+        of: Statistic::Correlation,
+        name: text::correlation_name,
+        means: text::correlation_means,
+        formula: "ρ = σᵢⱼ / (σᵢ σⱼ)",
+        source: "Fraser 1982",
+        what_to_do: text::correlation_do,
+    },
+];
+
+/// The list, with the chosen one open.
+#[component]
+pub(super) fn Meanings(chosen: RwSignal<Option<Statistic>>) -> impl IntoView {
+    view! {
+        <main class="meanings scroll" tabindex="0" aria-label=text::meanings>
+            {MEANINGS.into_iter().map(|meaning| {
+                let open = move || chosen.get() == Some(meaning.of);
+                view! {
+                    <details prop:open=open>
+                        <summary>{meaning.name} <code>{meaning.formula}</code></summary>
+                        <p>{meaning.means}</p>
+                        <p><b>{text::what_to_do}</b> " " {meaning.what_to_do}</p>
+                        <p class="note">{text::source} ": " {meaning.source}</p>
+                    </details>
+                }
+            }).collect_view()}
+        </main>
+    }
+}
