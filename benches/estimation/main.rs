@@ -1,7 +1,7 @@
 //! Estimation on seeded networks whose truth is known: `cargo xtask bench estimation`, or with a number of samples
 //! `cargo bench --bench estimation -- 20`.
 
-#![allow(dead_code, missing_docs)]
+#![allow(dead_code, reason = "the networks are shared with the tests, which want more of them")]
 
 #[path = "../../tests/engine/networks.rs"]
 mod networks;

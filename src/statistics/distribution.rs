@@ -59,17 +59,23 @@ pub fn chi_squared_quantile(p: f64, r: usize) -> f64 {
     x
 }
 
+/// Critical value of Student's t with r degrees of freedom at [`ALPHA`], two-sided: of an error that has no part in the
+/// sigma0 it is compared with. None without degrees of freedom.
+pub fn critical_t(r: usize) -> Option<f64> {
+    match r {
+        0 => None,
+        // Normal to five digits beyond.
+        10_000.. => Some(critical_w()),
+        _ => Some(StudentsT::new(0.0, 1.0, r as f64).ok()?.inverse_cdf(1.0 - ALPHA / 2.0)),
+    }
+}
+
 /// Critical value of Pope's τ with r degrees of freedom at [`ALPHA`], two-sided: from Student's t with r - 1. None with
 /// fewer than two degrees of freedom, where τ is always 1.
 pub fn critical_tau(r: usize) -> Option<f64> {
-    if r < 2 {
-        return None;
-    }
-    let degrees = (r - 1) as f64;
-    // Student's t is normal to five digits beyond.
-    let t =
-        if r > 10_000 { critical_w() } else { StudentsT::new(0.0, 1.0, degrees).ok()?.inverse_cdf(1.0 - ALPHA / 2.0) };
-    Some((r as f64).sqrt() * t / (degrees + t * t).sqrt())
+    let degrees = r.checked_sub(1)?;
+    let t = critical_t(degrees)?;
+    Some((r as f64).sqrt() * t / (degrees as f64 + t * t).sqrt())
 }
 
 #[cfg(test)]

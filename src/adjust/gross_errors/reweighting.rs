@@ -1,4 +1,8 @@
 //! Robust estimation: weights from standardised residuals until they settle, their scale, and the variance of the result.
+//!
+//! The way begins at what data snooping decides, as that of an MM-estimate does at a solution of high breakdown (V. J.
+//! Yohai 1987): in poorly controlled networks Huber's weights alone are carried away by a wrong observation that holds
+//! its own place. What stands out there has no weight as long as it stands out.
 
 use crate::adjust::problem::additional::{self, Observed};
 use crate::adjust::solve::session::{Log, RobustVariance, Session, Solution};
@@ -11,7 +15,7 @@ use crate::statistics::distribution::critical_w;
 
 use super::robust::{factor, predicting, prediction, scale, variance};
 use super::snooping::{Item, TESTABLE};
-use super::start::least;
+use super::start::{LEAST, least};
 
 /// Robust weights that change less are settled.
 const SETTLED: f64 = 1e-4;
@@ -40,6 +44,12 @@ pub struct Standards {
     pub given: Vec<f64>,
 }
 
+/// What data snooping takes out: per ray and per additional observation.
+struct Outside {
+    rays: Vec<bool>,
+    given: Vec<bool>,
+}
+
 impl Session<'_> {
     /// Robust weights from a state near the solution; returns whether they settled. Sets the variance of the result.
     ///
@@ -60,7 +70,21 @@ impl Session<'_> {
             })
             .collect();
         let before = self.state.clone();
-        self.reweighted(kind, options, log, (&given, &own), record).or_else(|_| {
+        let found = self.standing_out(options, log);
+        let out = Outside {
+            rays: (0..self.network.rays.len()).map(|ray| found.contains(&Item::Ray(ray))).collect(),
+            given: given.iter().map(|observed| found.contains(&Item::Given(*observed))).collect(),
+        };
+        if !found.is_empty() {
+            // The weights that belong to its values.
+            let factor = |out: &bool| if *out { LEAST } else { 1.0 };
+            self.weights = out.rays.iter().map(|out| [factor(out); 2]).collect();
+            self.given_factors = out.given.iter().map(factor).collect();
+            for (k, observed) in given.iter().enumerate() {
+                observed.set_sqrt_weight(&mut self.network, own[k] * self.given_factors[k]);
+            }
+        }
+        self.reweighted(kind, options, log, (&given, &own), &out, record).or_else(|_| {
             // Weights must not take away what determines the network: it is solved without them.
             self.state = before;
             self.forget_weights(&own);
@@ -75,6 +99,7 @@ impl Session<'_> {
         options: &AdjustOptions,
         log: &mut Log<'_>,
         (given, own): (&[Observed], &[f64]),
+        out: &Outside,
         record: &mut Vec<GrossError>,
     ) -> Result<bool> {
         let started = std::mem::take(&mut self.weights);
@@ -94,8 +119,9 @@ impl Session<'_> {
                     if *stage == Robust::Huber && turn < SCALING_ROUNDS {
                         s = at_least(options.robust_scale, scale(&self.standardised(&residuals, &standards)));
                     }
-                    let change = self.weigh_rays(*stage, &residuals, &standards, &kept_rays, s);
-                    let change = change.max(self.weigh_given(*stage, given, own, &standards, &kept_given, s));
+                    let change = self.weigh_rays(*stage, &residuals, &standards, (&kept_rays, &out.rays), s);
+                    let change =
+                        change.max(self.weigh_given(*stage, (given, own), &standards, (&kept_given, &out.given), s));
                     if change < SETTLED {
                         settled = true;
                         break;
@@ -282,14 +308,16 @@ impl Session<'_> {
         kind: Robust,
         residuals: &[[f64; 2]],
         standards: &Standards,
-        kept: &[bool],
+        (kept, out): (&[bool], &[bool]),
         s: f64,
     ) -> f64 {
         let mut change = 0.0_f64;
         for ray in 0..self.weights.len() {
+            let both = [0, 1].map(|side| self.standardised_ray(residuals, standards, ray, side).filter(|_| !kept[ray]));
+            // Both coordinates come from one mark.
+            let outside = out[ray] && both.iter().flatten().any(|t| t.abs() > critical_w() * s);
             for side in 0..2 {
-                let t = self.standardised_ray(residuals, standards, ray, side).filter(|_| !kept[ray]);
-                let new = t.map_or(1.0, |t| factor(kind, t / s).sqrt().max(least(t)));
+                let new = both[side].map_or(1.0, |t| weight(kind, t, s, outside));
                 change = change.max((new - self.weights[ray][side]).abs());
                 self.weights[ray][side] = new;
             }
@@ -300,10 +328,9 @@ impl Session<'_> {
     fn weigh_given(
         &mut self,
         kind: Robust,
-        given: &[Observed],
-        own: &[f64],
+        (given, own): (&[Observed], &[f64]),
         standards: &Standards,
-        kept: &[bool],
+        (kept, out): (&[bool], &[bool]),
         s: f64,
     ) -> f64 {
         let mut change = 0.0_f64;
@@ -311,7 +338,7 @@ impl Session<'_> {
             let e = observed.residual(&self.network, &self.state) * own[k];
             let t = prediction(e, self.given_factors[k].powi(2), standards.given[k], TESTABLE);
             let new = match t.filter(|_| !kept[k]) {
-                Some(t) => factor(kind, t / s).sqrt().max(least(t)),
+                Some(t) => weight(kind, t, s, out[k] && t.abs() > critical_w() * s),
                 None => 1.0,
             };
             change = change.max((new - self.given_factors[k]).abs());
@@ -345,6 +372,11 @@ impl Session<'_> {
         }));
         Ok(needed)
     }
+}
+
+/// Square root of the factor on the weight of an observation whose error is t standard errors, at the scale s.
+fn weight(kind: Robust, t: f64, s: f64, outside: bool) -> f64 {
+    if outside { least(t) } else { factor(kind, t / s).sqrt().max(least(t)) }
 }
 
 /// The scale of weights and decisions: unless asked never below that of the a priori standard errors.

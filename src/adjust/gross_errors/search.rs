@@ -6,7 +6,7 @@
 //! kept and named.
 
 use crate::adjust::equations::right_hand_side;
-use crate::adjust::problem::additional::LeftOut;
+use crate::adjust::problem::additional::{self, LeftOut};
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
 use crate::adjust::solve::session::{Log, Session, unsound};
@@ -14,7 +14,7 @@ use crate::adjust::statistics::cofactors::Cofactors;
 use crate::adjustment::{AdjustOptions, Advice, Given, GrossError, GrossErrorAction, StatisticsChoice, Termination};
 use crate::error::Result;
 use crate::project::Project;
-use crate::statistics::distribution::critical_tau;
+use crate::statistics::distribution::critical_t;
 
 use super::robust::{predicting, prediction, scale};
 use super::snooping::{Decision, Item, TESTABLE, Tests, consequences, decide, items, vanishing};
@@ -89,24 +89,66 @@ impl Session<'_> {
         left_out: &mut LeftOut,
         record: &mut Vec<GrossError>,
     ) -> Result<bool> {
-        let mut search = self.search();
-        let first = self.stand_out(options, &search)?;
-        let mut ended = self.take_out_at_once(options, log, &mut search, first, record)?;
-        if ended {
-            ended = self.one_at_a_time(options, log, &mut search, record)?;
-        }
-        self.redundancy = search.all;
-        for (item, _) in search.items.iter().zip(&search.out).filter(|(_, out)| out.is_some()) {
+        let (out, ended) = self.searched(options, log, record)?;
+        for item in out {
             match item {
-                Item::Ray(ray) => left_out.observations[self.network.rays[*ray].row] = true,
+                Item::Ray(ray) => left_out.observations[self.network.rays[ray].row] = true,
                 Item::Given(observed) => left_out.given.push(observed.key(&self.network)),
             }
         }
+        Ok(ended)
+    }
+
+    /// What data snooping takes out, for robust weights to begin with; nothing where it comes to no end. The session keeps
+    /// its weights, and the values of the solution without these.
+    pub fn standing_out(&mut self, options: &AdjustOptions, log: &mut Log<'_>) -> Vec<Item> {
+        let (state, weights, factors) = (self.state.clone(), self.weights.clone(), self.given_factors.clone());
+        let given = additional::all(&self.network);
+        let own: Vec<f64> = given.iter().map(|observed| observed.sqrt_weight(&self.network)).collect();
+        let found = self.searched(options, log, &mut Vec::new());
+        (self.weights, self.given_factors) = (weights, factors);
+        for (observed, own) in given.iter().zip(own) {
+            observed.set_sqrt_weight(&mut self.network, own);
+        }
+        match found {
+            Ok((out, true)) => out,
+            _ => {
+                self.state = state;
+                Vec::new()
+            }
+        }
+    }
+
+    /// What the search takes out, and whether it came to an end; weights are the observations' own again.
+    fn searched(
+        &mut self,
+        options: &AdjustOptions,
+        log: &mut Log<'_>,
+        record: &mut Vec<GrossError>,
+    ) -> Result<(Vec<Item>, bool)> {
+        let mut search = self.search();
+        let redundancy = search.all;
+        let result = self.search_from_start(options, log, &mut search, record);
+        self.redundancy = redundancy;
+        let ended = result?;
         let back: Vec<(Item, f64)> = search.items.iter().copied().zip(search.own.iter().copied()).collect();
         back.into_iter().for_each(|(item, own)| self.weigh(item, own, 1.0));
         self.weights = Vec::new();
         self.given_factors = Vec::new();
-        Ok(ended)
+        let out = search.items.iter().zip(&search.out).filter(|(_, out)| out.is_some()).map(|(item, _)| *item);
+        Ok((out.collect(), ended))
+    }
+
+    fn search_from_start(
+        &mut self,
+        options: &AdjustOptions,
+        log: &mut Log<'_>,
+        search: &mut Search,
+        record: &mut Vec<GrossError>,
+    ) -> Result<bool> {
+        let first = self.stand_out(options, search)?;
+        let ended = self.take_out_at_once(options, log, search, first, record)?;
+        Ok(ended && self.one_at_a_time(options, log, search, record)?)
     }
 
     /// Observations and others that stand out of a robust start, with their statistics, the largest first; none where it comes to no
@@ -144,7 +186,7 @@ impl Session<'_> {
 
     /// What stands out of the robust start, largest statistic first: the error with which all others predict it.
     fn stand_out(&mut self, options: &AdjustOptions, search: &Search) -> Result<Vec<(usize, f64, f64)>> {
-        let Some(limit) = critical_tau(search.all) else { return Ok(Vec::new()) };
+        let Some(limit) = critical_t(search.all) else { return Ok(Vec::new()) };
         let weights = self.weights.clone();
         let solution = self.finish(&full(options), false)?;
         let Some(cofactors) = &solution.cofactors else { return Ok(Vec::new()) };

@@ -4,11 +4,12 @@
 //! projection centres, distances and observed parameters. The test statistic is Pope's τ, e/(σ0 √r_i), with σ0 from the
 //! adjustment, since the a priori standard errors of real images are seldom right (A. J. Pope 1976). Observations taken
 //! out stay in the equations with a vanishing weight, so that their prediction error e/(σ0 √(1 + q)) is at hand: they come
-//! back when it is below the same limit.
+//! back when it is below the limit of Student's t, since σ0 is one they have no part in. With little redundancy that one
+//! is far wider than τ's, and what chance has taken out would else never return.
 
 use crate::adjust::problem::additional::{self, Observed};
 use crate::adjust::problem::network::Network;
-use crate::statistics::distribution::critical_tau;
+use crate::statistics::distribution::{critical_t, critical_tau};
 
 /// Square root of the weight of what is taken out, and what it pulls at most in standard errors.
 const VANISHING: f64 = 1e-4;
@@ -71,9 +72,10 @@ pub enum Decision {
 
 /// The next step. Items in `settled` are not taken out; those taken out have the square root of their weight in `removed`.
 pub fn decide(tests: &[Tests], removed: &[Option<f64>], settled: &[bool], redundancy: usize, sigma0: f64) -> Decision {
-    let Some(limit) = critical_tau(redundancy).filter(|_| sigma0 > 0.0) else { return Decision::Done };
+    let limits = critical_tau(redundancy).zip(critical_t(redundancy)).filter(|_| sigma0 > 0.0);
+    let Some((limit, limit_outside)) = limits else { return Decision::Done };
     let mut worst = (0, limit);
-    let mut best = (0, limit);
+    let mut best = (0, limit_outside);
     for (item, tests) in tests.iter().enumerate() {
         let largest = |variance: &dyn Fn(f64) -> Option<f64>| {
             let one = |(e, q): (f64, f64)| variance(q).map(|r| (e / (sigma0 * r.sqrt())).abs());
@@ -98,8 +100,8 @@ pub fn decide(tests: &[Tests], removed: &[Option<f64>], settled: &[bool], redund
     }
     if worst.1 > limit {
         Decision::Remove { item: worst.0, statistic: worst.1, limit }
-    } else if best.1 < limit {
-        Decision::Restore { item: best.0, statistic: best.1, limit }
+    } else if best.1 < limit_outside {
+        Decision::Restore { item: best.0, statistic: best.1, limit: limit_outside }
     } else {
         Decision::Done
     }
