@@ -29,7 +29,8 @@ pub struct Matched {
     pub wrong: usize,
 }
 
-fn target(u: f64, v: f64) -> Target {
+/// A bare target at a place.
+pub fn target(u: f64, v: f64) -> Target {
     Target {
         id: 0,
         u,

@@ -3,7 +3,7 @@
 //! Reading trusts nothing: a foreign or damaged archive, names that point elsewhere and archives that unpack to more than
 //! the limits are errors. A bare `project.json` is taken for a project file too.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::io::{Cursor, Read, Write};
 
 use serde::Serialize;
@@ -128,8 +128,10 @@ impl Package {
         for (photo, detection) in &self.targets {
             at.extend(detection.targets.iter().map(|t| ((photo.as_str(), [t.u.to_bits(), t.v.to_bits()]), t.id)));
         }
+        let numbers: HashSet<(&str, u32)> =
+            self.targets.iter().flat_map(|(photo, d)| d.targets.iter().map(|t| (photo.as_str(), t.id))).collect();
         for o in &mut self.project.observations {
-            let known = |id: &u32| self.targets.get(&o.photo).is_some_and(|d| d.target(*id).is_some());
+            let known = |id: &u32| numbers.contains(&(o.photo.as_str(), *id));
             let here = || at.get(&(o.photo.as_str(), [o.u.to_bits(), o.v.to_bits()])).copied();
             o.target = o.target.filter(known).or_else(here);
         }

@@ -3,31 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::orientation::{network, uniform};
+use crate::seeded::dots::target;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use sightline::detection::{Polarity, Quality, Target};
 use sightline::matching::{MatchOptions, Matching, PhotoTargets, match_uncoded};
 use sightline::project::{Point, Project};
-
-fn target(u: f64, v: f64) -> Target {
-    Target {
-        id: 0,
-        u,
-        v,
-        sigma_u: 0.05,
-        sigma_v: 0.05,
-        covariance_uv: 0.0,
-        major: 14.0,
-        minor: 11.0,
-        angle: 0.3,
-        contrast: 90.0,
-        polarity: Polarity::Bright,
-        code: None,
-        code_family: None,
-        code_candidates: Vec::new(),
-        quality: Quality::default(),
-    }
-}
 
 /// A network of which `named` points keep their names; the other observations become bare targets among `clutter` more
 /// per photo. Also what each bare target truly is, by photo and pixel.

@@ -1,7 +1,7 @@
 //! Orientation over seeded networks and single photos with a truth: the short form of `cargo xtask bench orient`.
 
 #[path = "../../benches/orient/dots.rs"]
-mod dots;
+pub mod dots;
 #[path = "../../benches/orient/network.rs"]
 mod network;
 
