@@ -16,7 +16,9 @@ mod solve;
 mod statistics;
 mod variance_components;
 
-use crate::adjustment::{AdjustOptions, Adjustment, Advice, Iteration, Measured, StatisticsChoice, Termination};
+use crate::adjustment::{
+    AdjustOptions, Adjustment, Advice, Iteration, Measured, ResidualPlace, StatisticsChoice, Termination,
+};
 use crate::error::Result;
 use crate::features::{self, Function};
 use crate::project::{Project, Role};
@@ -120,6 +122,34 @@ pub fn measured(project: &Project, adjustment: &Adjustment) -> Result<Measured> 
     let options = AdjustOptions { statistics, covariance_of: Vec::new(), ..adjustment.options.clone() };
     let Adjustment { features, systems, .. } = adjust(&apply(project, adjustment), &options, &mut |_| true)?;
     Ok(Measured { features, systems })
+}
+
+/// How the plain adjustment of a project ends, and its values: no statistics, no advice, no search for what is wrong.
+///
+/// # Errors
+/// As [`adjust`].
+pub(crate) fn ending(project: &Project, options: &AdjustOptions) -> Result<(Termination, Project)> {
+    project.validate()?;
+    let weighted = unmodelled::weighted(project, options.unmodelled)?;
+    let sized = eccentric::sized(weighted, options.target_diameter)?;
+    let ready = far_points::brought_back(sized);
+    let project = ready.as_ref();
+    let mut session = Session::new(project, &LeftOut::nothing(project))?;
+    session.start_at(&far_points::control_starts(project));
+    let termination = session.iterate(options, &mut Log { iterations: Vec::new(), on_iteration: &mut |_| true })?;
+    Ok((termination, report::values::applied(&session)))
+}
+
+/// The values alone of a sound document without circular targets, for orientations that adjust on their way: no
+/// statistics, no advice, no search for what is wrong. Ends at steps shorter than `negligible` standard errors. None
+/// where the document cannot be adjusted, its equations are singular, or nothing converges.
+pub(crate) fn values(project: &Project, max_iterations: usize, negligible: f64) -> Option<Project> {
+    let ready = far_points::brought_back(std::borrow::Cow::Borrowed(project));
+    let project = ready.as_ref();
+    let mut session = Session::new(project, &LeftOut::nothing(project)).ok()?;
+    session.start_at(&far_points::control_starts(project));
+    let (termination, singular) = session.steps(ResidualPlace::Corrected, max_iterations, negligible, &mut |_| true);
+    (!singular && termination != Termination::Diverged).then(|| report::values::applied(&session))
 }
 
 /// The project with the adjusted values as new initial values. What is given stays as given: control and check

@@ -13,6 +13,7 @@ mod absolute;
 mod ambiguity;
 mod aside;
 mod block;
+mod bridge;
 mod growth;
 mod models;
 mod neighbour;

@@ -36,9 +36,19 @@ pub struct Case {
     pub photos: usize,
     pub distance: Distance,
     pub wrong: f64,
+    /// Points and rays a point, where they are not left to chance.
+    pub size: Option<[f64; 2]>,
 }
 
 impl Case {
+    /// 60 photos with 300 points, seen in 6, 15 or 40 photos: kinds and knowledge of c in turns, every other clean.
+    pub fn large(seed: u64) -> Self {
+        let k = seed as usize;
+        let distance = [Distance::Unknown, Distance::Within30, Distance::Within5][k % 3];
+        let size = Some([300.0, [6.0, 15.0, 40.0][k / 7 % 3]]);
+        Self { seed, kind: k % 7, photos: 60, distance, wrong: [0.0, 0.02][k % 2], size }
+    }
+
     /// The case of a number: kinds, knowledge of c and shares of wrong identities in turns, sizes at random.
     pub fn of(seed: u64, most_photos: usize) -> Self {
         let mut g = ChaCha8Rng::seed_from_u64(seed ^ 0x5eed);
@@ -50,7 +60,7 @@ impl Case {
         // All around an object it takes more photos until neighbours overlap.
         let fewest = [4, 4, 8, 12, 8, 4, 5][k % 7];
         let photos = photos.max(fewest);
-        Self { seed, kind: k % 7, photos, distance, wrong: [0.0, 0.02, 0.05, 0.1][k / 21 % 4] }
+        Self { seed, kind: k % 7, photos, distance, wrong: [0.0, 0.02, 0.05, 0.1][k / 21 % 4], size: None }
     }
 }
 
@@ -174,6 +184,8 @@ pub fn network(case: &Case) -> Network {
     let rays_wanted = 2.6 + 5.0 * unit(&mut g).powi(2);
     let points = ((14.0 + 25.0 * unit(&mut g)) * case.photos as f64 / rays_wanted.min(6.0)).round() as usize + 12;
     let points = points.min(300.max(case.photos * 8));
+    let [points, rays_wanted] = case.size.map_or([points as f64, rays_wanted], |size| size);
+    let points = points as usize;
     let noise = |g: &mut ChaCha8Rng| NOISE_PX * gauss(g);
     let mut seen: Vec<(usize, usize, [f64; 2])> = Vec::new();
     for n in 0..points {

@@ -3,3 +3,4 @@
 pub mod additional;
 mod extent;
 pub mod result;
+pub mod values;

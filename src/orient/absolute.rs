@@ -4,6 +4,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::block::{Block, Mark};
+use super::bridge;
 use crate::initial::robust::quantile;
 use crate::initial::similarity::{Similarity, fit_robust};
 use crate::initial::{Pose, Spread};
@@ -45,7 +46,8 @@ const AGREEING: f64 = 0.5;
 ///
 /// Tried are the similarity over common points and projection centres, and for every photo that both have oriented the
 /// one that keeps its pose and takes the scale from the distances of common points. What decides is how many common
-/// points of the model appear where the block's photos show them, and the other way round.
+/// points of the model appear where the block's photos show them, and the other way round. Where too few points are
+/// determined in both, photos of either are oriented relative to each other ([`bridge`]).
 pub(super) fn joined(block: &Block, model: &Block) -> Option<Block> {
     let points: Vec<(usize, Vector3<f64>, Vector3<f64>)> =
         (0..block.marks.len()).filter_map(|k| Some((k, model.marks[k].xyz?, block.marks[k].xyz?))).collect();
@@ -79,9 +81,15 @@ pub(super) fn joined(block: &Block, model: &Block) -> Option<Block> {
             best = Some((agreeing, compared, moved));
         }
     }
-    let (agreeing, compared, moved) = best?;
-    let enough = agreeing + photos.len() >= FEWEST_AGREEING && agreeing as f64 >= AGREEING * compared as f64;
-    enough.then(|| merged(block.clone(), moved))
+    if let Some((agreeing, compared, moved)) = best
+        && agreeing + photos.len() >= FEWEST_AGREEING
+        && agreeing as f64 >= AGREEING * compared as f64
+    {
+        return Some(merged(block.clone(), moved));
+    }
+    let mut moved = model.clone();
+    transform(&mut moved, &bridge::similarity(block, model)?);
+    Some(merged(block.clone(), moved))
 }
 
 /// Of the common points, those whose place in one model appears where a photo of the other shows it, both ways.

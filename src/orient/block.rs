@@ -83,6 +83,9 @@ pub(super) struct Block {
 
 /// Tolerances within which a ray is near the point of a pair: two rays place a point less well than all of them.
 const NEAR_A_PAIR: f64 = 4.0;
+/// Among so many rays no other set is looked for once this share of them meets.
+const MANY: usize = 5;
+const MOST: f64 = 0.7;
 /// Disagreement, as a share of the longer side of the photo, that unmodelled distortion and a rough principal distance
 /// may cause.
 const ROUGH: f64 = 4e-3;
@@ -247,12 +250,6 @@ impl Block {
         (0..self.sights.len()).filter(|&s| self.sights[s].taken && self.misfit_px(s).is_some()).count()
     }
 
-    /// Measurements of points that are measured twice or known.
-    pub fn offered(&self) -> usize {
-        let useful = self.marks.iter().filter(|m| m.sights.len() > 1 || m.known.is_some());
-        useful.map(|m| m.sights.len()).sum()
-    }
-
     /// Takes the given coordinates as the points' own and is in their system from now on.
     pub fn anchor(&mut self) {
         self.anchored = true;
@@ -352,6 +349,10 @@ impl Block {
                 }
             }
             let Some(found) = settled else { continue };
+            if rays.len() >= MANY && set.len() as f64 >= MOST * rays.len() as f64 {
+                let out = everything.iter().filter(|k| !set.contains(k)).map(|&k| which[k]).collect();
+                return Ok((found, out));
+            }
             let rms = set.iter().map(|&k| excess(&found.point, k).powi(2)).sum::<f64>() / set.len() as f64;
             let better = best.as_ref().is_none_or(|(n, least, ..)| set.len() > *n || set.len() == *n && rms < *least);
             let same = best.as_ref().is_some_and(|(.., other)| *other == set);
@@ -390,7 +391,7 @@ impl Block {
     }
 
     /// Compares every measurement with the present poses and points: keeps the noise, and takes those measurements
-    /// that agree within [`AGREEING`] robust standard deviations. A point that some of its rays disagree with is
+    /// that agree within [`AGREEING`] robust standard deviations. A point that many of its rays disagree with is
     /// intersected anew from the largest set of rays that meet, since it may be the point that is wrong.
     pub fn review(&mut self) {
         let lengths: Vec<f64> = (0..self.sights.len()).filter_map(|s| self.misfit_px(s)).collect();
@@ -412,7 +413,8 @@ impl Block {
             };
             let compared = self.marks[point].sights.iter().filter(|&&s| self.misfit_px(s).is_some()).count();
             let before = agreeing(self);
-            if held || before == compared {
+            let stands = compared >= MANY && before as f64 >= MOST * compared as f64;
+            if held || stands || before == compared {
                 continue;
             }
             let old = self.marks[point].xyz;
@@ -445,18 +447,30 @@ impl Block {
 
     /// What residuals have to be multiplied with, since the parameters take their share: √(n/(n - u)), up to 3.
     fn shrinkage(&self) -> f64 {
-        let mut count = 0;
-        let mut points = 0;
+        let (compared, unknowns) = self.counts();
+        let spare = (2 * compared).saturating_sub(unknowns).max(1);
+        (2.0 * compared as f64 / spare as f64).sqrt().clamp(1.0, 3.0)
+    }
+
+    /// Measurements in oriented photos of points that two of these show, or that are known.
+    pub fn offered(&self) -> usize {
+        let rays = |m: &Mark| m.sights.iter().filter(|&&s| self.views[self.sights[s].photo].pose.is_some()).count();
+        let counted = self.marks.iter().map(|m| (rays(m), self.anchored && m.known.is_some()));
+        counted.filter(|&(rays, known)| rays > 1 || known).map(|(rays, _)| rays).sum()
+    }
+
+    /// Measurements in oriented photos of points that have coordinates and two such measurements, and the unknowns of
+    /// these photos and points.
+    pub fn counts(&self) -> (usize, usize) {
+        let (mut compared, mut points) = (0, 0);
         for mark in self.marks.iter().filter(|m| m.xyz.is_some()) {
             let rays = mark.sights.iter().filter(|&&s| self.views[self.sights[s].photo].pose.is_some()).count();
             if rays >= 2 {
-                count += 2 * rays;
+                compared += rays;
                 points += usize::from(!(self.anchored && mark.control));
             }
         }
-        let unknowns = 6 * self.views.iter().filter(|v| v.pose.is_some() && !v.given).count() + 3 * points;
-        let spare = count.saturating_sub(unknowns).max(1);
-        (count as f64 / spare as f64).sqrt().clamp(1.0, 3.0)
+        (compared, 6 * self.views.iter().filter(|v| v.pose.is_some() && !v.given).count() + 3 * points)
     }
 }
 

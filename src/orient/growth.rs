@@ -21,11 +21,17 @@ const CAREFUL: usize = 6;
 
 /// Orients every photo that can be reached from those oriented so far.
 pub(super) fn grow(block: &mut Block) {
+    grow_to(block, usize::MAX, Freedom::Distance);
+}
+
+/// The same until `most` photos are oriented, refining with a given freedom.
+pub(super) fn grow_to(block: &mut Block, most: usize, freedom: Freedom) {
     // Number of points each photo was last tried with in vain: it is tried again when it sees more.
     let mut tried = vec![0; block.views.len()];
     let mut refined_at = block.oriented();
+    let mut pairs = neighbour::Pairs::default();
     block.intersect_new(GOOD_ANGLE);
-    loop {
+    while block.oriented() < most {
         let oriented = match next_photo(block, &tried) {
             Some(photo) => {
                 let oriented = resect(block, photo);
@@ -36,13 +42,13 @@ pub(super) fn grow(block: &mut Block) {
             }
             None => {
                 if block.oriented() > refined_at {
-                    refine(block, Freedom::Distance);
+                    refine(block, freedom);
                     refined_at = block.oriented();
                     tried.fill(0);
                     continue;
                 }
                 // The last resorts before giving up: relative orientation to neighbours, points from narrow rays.
-                if !neighbour::orient_one(block) {
+                if !neighbour::orient_one(block, &mut pairs) {
                     let before = block.marks.iter().filter(|m| m.xyz.is_some()).count();
                     block.intersect_new(0.0);
                     if block.marks.iter().filter(|m| m.xyz.is_some()).count() == before {
@@ -58,13 +64,13 @@ pub(super) fn grow(block: &mut Block) {
         }
         block.intersect_new(GOOD_ANGLE);
         if block.oriented() < CAREFUL || block.oriented() * 3 >= refined_at * 4 {
-            refine(block, Freedom::Distance);
+            refine(block, freedom);
             refined_at = block.oriented();
             tried.fill(0);
         }
     }
     if block.oriented() > refined_at || block.noise_px.is_none() {
-        refine(block, Freedom::Distance);
+        refine(block, freedom);
     }
     block.intersect_new(0.0);
 }

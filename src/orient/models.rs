@@ -6,14 +6,15 @@ use super::block::{Block, longer_side, set_principal_distance_px};
 use super::growth::grow;
 use super::principal_distance;
 use super::refine::{Freedom, refine};
-use super::seed::{Outcome, from_first_pair};
+use super::seed::{Cores, Outcome, grown_out};
 
 /// Principal distances tried, as multiples of the assumed one or of the given one, when the first leaves large
 /// residuals.
 const OTHER_ASSUMED: [f64; 4] = [1.6, 0.65, 2.8, 0.45];
 const OTHER_GIVEN: [f64; 2] = [1.25, 0.8];
-/// Models built, at most.
+/// Models built, at most, and cores grown over all photos for each where none stands beyond doubt.
 const MOST_MODELS: usize = 8;
+const MOST_GROWN: usize = 3;
 
 /// The photos oriented together, and those that could not be joined to them.
 pub(super) struct Models {
@@ -113,8 +114,8 @@ fn from_images(block: &Block, sources: &[Option<DistanceSource>], used: &[bool],
     } else {
         &[][..]
     };
-    let wanted = block.views.iter().filter(|v| !v.sights.is_empty()).count();
-    let mut best: Option<(Outcome, Block)> = None;
+    let mut cores: Vec<(Outcome, Block)> = Vec::new();
+    let mut grown: Vec<(Outcome, Block)> = Vec::new();
     for factor in std::iter::once(&1.0).chain(others) {
         let mut trial = block.clone();
         for &camera in &assumed {
@@ -126,14 +127,25 @@ fn from_images(block: &Block, sources: &[Option<DistanceSource>], used: &[bool],
             set_principal_distance_px(&mut trial.cameras[camera], px);
         }
         trial.refresh_rays();
-        let Some(model) = from_first_pair(&trial, used, fine_px) else { continue };
-        let outcome = Outcome::of(&model);
-        if best.as_ref().is_none_or(|(other, _)| outcome.better_than(other)) {
-            best = Some((outcome, model));
-        }
-        if outcome.is_final(wanted, block.offered(), fine_px) {
-            break;
+        for core in Cores::new(&trial, used, fine_px) {
+            let outcome = Outcome::of(&core);
+            if grown.len() >= MOST_GROWN || !outcome.is_evident(&core, fine_px) {
+                cores.push((outcome, core));
+                continue;
+            }
+            let model = grown_out(core, fine_px);
+            let outcome = Outcome::of(&model);
+            if outcome.is_evident(&model, fine_px) {
+                return Some(model);
+            }
+            grown.push((outcome, model));
         }
     }
-    best.map(|(_, model)| model)
+    cores.sort_by(|(a, _), (b, _)| b.told.total_cmp(&a.told));
+    for (_, core) in cores.into_iter().take(MOST_GROWN) {
+        let model = grown_out(core, fine_px);
+        grown.push((Outcome::of(&model), model));
+    }
+    let best = grown.into_iter().reduce(|a, b| if b.0.told > a.0.told { b } else { a });
+    best.map(|(_, model)| model).filter(|model| model.oriented() >= 2)
 }

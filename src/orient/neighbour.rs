@@ -4,15 +4,17 @@
 //! photo gives a value of it, and so does the line to a second neighbour; the value that most measurements agree with is
 //! taken. Measurements of points that are not determined yet vote by the distance from their epipolar lines.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector3;
 
 use super::block::Block;
 use crate::initial::Pose;
 use crate::initial::intersection::{Ray, intersect};
-use crate::initial::relative::relative_orientation;
+use crate::initial::relative::{Relative, relative_orientation};
 
 /// Fewest common points with a neighbour, and neighbours that are tried.
-const FEWEST_COMMON: usize = 5;
+pub(super) const FEWEST_COMMON: usize = 5;
 const MOST_NEIGHBOURS: usize = 4;
 /// Share of the photo's comparable measurements that has to agree.
 const AGREEING: f64 = 0.5;
@@ -21,11 +23,43 @@ const AGREEING: f64 = 0.5;
 const UNKNOWNS: usize = 6;
 const SPARE: usize = 2;
 
+/// Relative orientations of pairs found so far, with the principal distance they were found with.
+#[derive(Default)]
+pub(super) struct Pairs(BTreeMap<[usize; 2], (f64, Vec<Relative>)>);
+
+/// Change of the principal distance beyond which a pair is oriented anew.
+const CHANGED: f64 = 0.01;
+
+impl Pairs {
+    /// The relative orientations of `photo` to `neighbour` that three fifths of their common points agree with.
+    fn of(&mut self, block: &Block, neighbour: usize, photo: usize) -> &[Relative] {
+        let units = block.pixels_per_unit(photo);
+        let found = self.0.entry([neighbour, photo]).or_default();
+        if (found.0 / units - 1.0).abs() > CHANGED {
+            let all = relative(block, block, neighbour, photo);
+            *found = (units, all);
+        }
+        &found.1
+    }
+}
+
+/// The relative orientations of a photo of `other` to one of `block` that three fifths of their common points agree with.
+pub(super) fn relative(block: &Block, other: &Block, first: usize, second: usize) -> Vec<Relative> {
+    let common = block.common(first, second).into_iter();
+    let (a, b): (Vec<_>, Vec<_>) =
+        common.filter_map(|(a, b)| Some((block.sights[a].ray?, other.sights[b].ray?))).unzip();
+    let seed = (second * block.views.len() + first) as u64;
+    let tolerance = other.tolerance_px(second) / other.pixels_per_unit(second);
+    let mut found = relative_orientation(&a, &b, tolerance, seed).unwrap_or_default();
+    found.retain(|r| 5 * r.inliers.iter().filter(|i| **i).count() >= 3 * a.len());
+    found
+}
+
 /// Orients the photo for which there is most evidence; whether there is one.
-pub(super) fn orient_one(block: &mut Block) -> bool {
+pub(super) fn orient_one(block: &mut Block, pairs: &mut Pairs) -> bool {
     let mut best: Option<(usize, usize, Pose)> = None;
     for photo in (0..block.views.len()).filter(|&k| block.views[k].pose.is_none()) {
-        if let Some((votes, pose)) = best_pose(block, photo)
+        if let Some((votes, pose)) = best_pose(block, photo, pairs)
             && best.as_ref().is_none_or(|(most, ..)| votes > *most)
         {
             best = Some((votes, photo, pose));
@@ -47,8 +81,7 @@ struct Bearing {
     direction: Vector3<f64>,
 }
 
-fn best_pose(block: &Block, photo: usize) -> Option<(usize, Pose)> {
-    let units = block.pixels_per_unit(photo);
+fn best_pose(block: &Block, photo: usize, pairs: &mut Pairs) -> Option<(usize, Pose)> {
     let mut neighbours: Vec<(usize, usize)> = (0..block.views.len())
         .filter(|&k| block.views[k].pose.is_some())
         .map(|k| (block.common(k, photo).len(), k))
@@ -58,12 +91,7 @@ fn best_pose(block: &Block, photo: usize) -> Option<(usize, Pose)> {
     let mut bearings = Vec::new();
     for &(_, neighbour) in neighbours.iter().take(MOST_NEIGHBOURS) {
         let Some(own) = block.views[neighbour].pose else { continue };
-        let common = block.common(neighbour, photo).into_iter();
-        let (a, b): (Vec<_>, Vec<_>) =
-            common.filter_map(|(a, b)| Some((block.sights[a].ray?, block.sights[b].ray?))).unzip();
-        let seed = (photo * block.views.len() + neighbour) as u64;
-        let Ok(found) = relative_orientation(&a, &b, block.tolerance_px(photo) / units, seed) else { continue };
-        for relative in found.iter().filter(|r| 5 * r.inliers.iter().filter(|i| **i).count() >= 3 * a.len()) {
+        for relative in pairs.of(block, neighbour, photo) {
             bearings.push(Bearing {
                 attitude: relative.pose.object_to_camera * own.object_to_camera,
                 from: own.centre,

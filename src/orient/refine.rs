@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::block::{Block, principal_distance_px};
-use crate::adjust::{adjust, apply};
+use crate::adjust::{adjust, values};
 use crate::adjustment::{AdjustOptions, Adjustment, ResidualPlace, StatisticsChoice, Termination};
 use crate::initial::Pose;
 use crate::project::{Camera, Datum, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
@@ -26,8 +26,14 @@ pub(super) enum Freedom {
 /// Fewest photos of a network, and measurements per camera, that a principal distance is estimated from.
 const FEWEST_PHOTOS: usize = 3;
 const FEWEST_SIGHTS: usize = 30;
-/// Most adjustments in a row.
+/// Most adjustments in a row, each of so many iterations at most.
 const MOST_ROUNDS: usize = 4;
+const MOST_ITERATIONS: usize = 30;
+/// Steps shorter than this part of the standard errors end an adjustment on the way: what follows tells measurements
+/// apart by several of them.
+const NEGLIGIBLE: f64 = 0.3;
+/// While photos are still to come, a model is settled when no more than one in so many measurements changes sides.
+const FEW: usize = 100;
 /// Largest factor a principal distance may change by in one refinement.
 const LARGEST_CHANGE: f64 = 2.0;
 
@@ -44,9 +50,9 @@ pub(super) fn refine(block: &mut Block, freedom: Freedom) {
         // Again as long as it changes which measurements agree: those that stood out of a rough model come back in.
         for _ in 0..MOST_ROUNDS {
             let Some(next) = attempt(&best, step) else { break };
-            let settled = next.sights.iter().zip(&best.sights).all(|(a, b)| a.taken == b.taken);
+            let changed = next.sights.iter().zip(&best.sights).filter(|(a, b)| a.taken != b.taken).count();
             best = next;
-            if settled {
+            if changed == 0 || freedom != Freedom::Everything && changed * FEW <= best.agreeing() {
                 break;
             }
         }
@@ -90,17 +96,7 @@ pub(super) fn distance_sigmas_px(block: &Block) -> Vec<Option<f64>> {
 
 fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
     let part = part(block, freedom)?;
-    let options = AdjustOptions {
-        max_iterations: 30,
-        statistics: StatisticsChoice::None,
-        residuals: ResidualPlace::Corrected,
-        ..AdjustOptions::default()
-    };
-    let adjustment = adjust(&part, &options, &mut |_| true).ok()?;
-    if adjustment.termination == Termination::Diverged {
-        return None;
-    }
-    let adjusted = apply(&part, &adjustment);
+    let adjusted = values(&part, MOST_ITERATIONS, NEGLIGIBLE)?;
     let mut next = block.clone();
     for camera in adjusted.cameras {
         let place = next.cameras.iter_mut().find(|c| c.id == camera.id)?;

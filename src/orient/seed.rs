@@ -1,11 +1,11 @@
 //! A first pair for networks without known points.
 //!
 //! Pairs that share many points are oriented relative to each other; the ones with many agreeing points and good
-//! intersection angles become starts. Every start is grown over all photos, since only the whole network tells a true
-//! start from the mirror solution of a plane or from a wrong principal distance.
+//! intersection angles become starts. A start is grown over a few photos, a core, which tells a true start from the
+//! mirror solution of a plane or from a wrong principal distance; only a core that stands is grown over all photos.
 
 use super::block::{Block, longer_side};
-use super::growth::grow;
+use super::growth::grow_to;
 use super::refine::{Freedom, refine};
 use crate::initial::Pose;
 use crate::initial::relative::{Relative, relative_orientation};
@@ -31,7 +31,7 @@ pub(super) struct Outcome {
     pub agreeing: usize,
     /// What the agreement tells: with every measurement that agrees, the logarithm of how much narrower the noise is than
     /// the photo. Few photos that fit to a tenth of a pixel tell more than all of them at twenty.
-    told: f64,
+    pub told: f64,
 }
 
 /// Residuals, as a share of the photo, below which smaller ones tell nothing more.
@@ -46,52 +46,74 @@ impl Outcome {
         let narrower = (side / noise_px.max(FINEST * side)).max(1.0).ln();
         Self { photos: block.oriented(), noise_px, agreeing, told: agreeing as f64 * narrower }
     }
+}
 
-    pub fn better_than(&self, other: &Self) -> bool {
-        self.told > other.told
-    }
+/// Photos of a model that tells whether it started well, and what it takes to be sure: photos and spare observations.
+const CORE: usize = 8;
+const FEWEST_EVIDENT: usize = 5;
+const SPARE: usize = 30;
 
-    /// Everything that can be is oriented and the residuals are measuring noise: nothing better is to be expected.
-    pub fn is_final(&self, wanted: usize, offered: usize, fine_px: f64) -> bool {
-        self.photos >= wanted && self.noise_px <= fine_px && self.agreeing as f64 >= MOSTLY * offered as f64
+impl Outcome {
+    /// Whether the model stands beyond doubt, so that no other start is looked at: its residuals are measuring noise in
+    /// more observations than it has unknowns to bend.
+    pub fn is_evident(&self, block: &Block, fine_px: f64) -> bool {
+        let all = block.views.iter().filter(|v| !v.sights.is_empty()).count();
+        let (_, unknowns) = block.counts();
+        self.photos >= FEWEST_EVIDENT.min(all)
+            && self.noise_px <= fine_px
+            && self.agreeing as f64 >= MOSTLY * block.offered() as f64
+            && 2 * self.agreeing >= unknowns + SPARE
     }
 }
 
-/// The block grown from its best first pair among photos without pose; none when no pair can be oriented.
-///
-/// `fine_px` is the noise below which a network that holds all photos is taken without looking further; photos in `used`
-/// start no pair.
-pub(super) fn from_first_pair(block: &Block, used: &[bool], fine_px: f64) -> Option<Block> {
-    let wanted = block.views.iter().filter(|v| !v.sights.is_empty()).count();
-    let offered = block.offered();
-    let mut best: Option<(Outcome, Block)> = None;
-    for start in starts(block, used).into_iter().take(MOST_STARTS) {
-        let mut trial = block.clone();
-        // A model of its own: what is oriented already comes in again by growth.
-        trial.anchored = false;
-        trial.views.iter_mut().for_each(|view| view.pose = None);
-        trial.marks.iter_mut().for_each(|mark| mark.xyz = None);
-        trial.noise_px = None;
-        let [first, second] = start.photos;
-        trial.views[first].pose = Some(Pose::identity());
-        trial.views[second].pose = Some(start.relative.pose);
-        for ((a, b), taken) in block.common(first, second).into_iter().zip(&start.relative.inliers) {
-            trial.sights[a].taken = *taken;
-            trial.sights[b].taken = *taken;
-        }
-        grow(&mut trial);
-        if trial.noise_px.is_none_or(|noise| noise > fine_px) {
-            refine(&mut trial, Freedom::Everything);
-        }
-        let outcome = Outcome::of(&trial);
-        if best.as_ref().is_none_or(|(other, _)| outcome.better_than(other)) {
-            best = Some((outcome, trial));
-        }
-        if outcome.is_final(wanted, offered, fine_px) {
-            break;
-        }
+/// Small models from the most promising first pairs, among photos that are not in `used`.
+pub(super) struct Cores<'a> {
+    block: &'a Block,
+    starts: std::vec::IntoIter<Start>,
+    fine_px: f64,
+}
+
+impl<'a> Cores<'a> {
+    pub fn new(block: &'a Block, used: &[bool], fine_px: f64) -> Self {
+        let mut starts = starts(block, used);
+        starts.truncate(MOST_STARTS);
+        Self { block, starts: starts.into_iter(), fine_px }
     }
-    best.map(|(_, block)| block).filter(|block| block.oriented() >= 2)
+}
+
+impl Iterator for Cores<'_> {
+    type Item = Block;
+
+    fn next(&mut self) -> Option<Block> {
+        let start = self.starts.next()?;
+        let mut model = self.block.clone();
+        // A model of its own: what is oriented already comes in again by growth.
+        model.anchored = false;
+        model.views.iter_mut().for_each(|view| view.pose = None);
+        model.marks.iter_mut().for_each(|mark| mark.xyz = None);
+        model.noise_px = None;
+        let [first, second] = start.photos;
+        model.views[first].pose = Some(Pose::identity());
+        model.views[second].pose = Some(start.relative.pose);
+        for ((a, b), taken) in model.common(first, second).into_iter().zip(&start.relative.inliers) {
+            model.sights[a].taken = *taken;
+            model.sights[b].taken = *taken;
+        }
+        grow_to(&mut model, CORE, Freedom::Distance);
+        if model.noise_px.is_none_or(|noise| noise > self.fine_px) {
+            refine(&mut model, Freedom::Everything);
+        }
+        Some(model)
+    }
+}
+
+/// A core with all photos it reaches.
+pub(super) fn grown_out(mut model: Block, fine_px: f64) -> Block {
+    grow_to(&mut model, usize::MAX, Freedom::Everything);
+    if model.noise_px.is_none_or(|noise| noise > fine_px) {
+        refine(&mut model, Freedom::Everything);
+    }
+    model
 }
 
 /// Number of common points of every pair of unused photos, most first.

@@ -6,25 +6,31 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::Vector3;
 
 use super::block::Block;
-use crate::adjust::{adjust, apply};
+use crate::adjust::ending;
 use crate::adjustment::{AdjustOptions, StatisticsChoice, Termination};
 use crate::error::{Defect, Error};
+use crate::initial::intersection::SMALLEST_ANGLE;
 use crate::project::{Project, Role};
 
-/// Adjustments tried, at most.
-const MOST_TRIALS: usize = 6;
-/// Angle between the rays of a point, 0.3°, below which it has run away, and 1.5°, below which it may be what does not settle.
-const RUN_AWAY: f64 = 0.005;
-const NARROW: f64 = 0.026;
+/// Adjustments tried, at most: the search ends when nothing more is found; this only bounds its time.
+const MOST_TRIALS: usize = 20;
+/// Iterations more in which it is seen what does not come to rest.
+const MORE: usize = 3;
+/// Movement in them, as a share of the distance from the nearest photo, of a point that does not come to rest, and the
+/// part of the largest one from which points are given up together: one that runs away drags its neighbours along.
+const RESTLESS: f64 = 1e-4;
+const TOGETHER: f64 = 0.3;
+/// Where more than one point in so many moves it is the network that does, and no point is to blame.
+const FEW: usize = 10;
 
 /// Gives up points and photos of the block until `as_project` of it can be adjusted, or nothing more is found.
 pub(super) fn settle(block: &mut Block, as_project: impl Fn(&Block) -> Project) {
     for _ in 0..MOST_TRIALS {
         let project = as_project(block);
         let options = AdjustOptions { statistics: StatisticsChoice::None, ..AdjustOptions::default() };
-        let (points, photos) = match adjust(&project, &options, &mut |_| true) {
-            Ok(adjustment) if adjustment.termination == Termination::Converged => return,
-            Ok(adjustment) => (runaways(&apply(&project, &adjustment)), BTreeSet::new()),
+        let (points, photos) = match ending(&project, &options) {
+            Ok((Termination::Converged, _)) => return,
+            Ok((_, adjusted)) => (runaways(&adjusted, &options), BTreeSet::new()),
             Err(Error::RankDefect { defects }) => named(&defects),
             Err(_) => return,
         };
@@ -64,8 +70,8 @@ fn named(defects: &[Defect]) -> (BTreeSet<String>, BTreeSet<String>) {
     (points, photos)
 }
 
-/// The points whose rays have become parallel, or else the one whose rays are nearest to it.
-fn runaways(project: &Project) -> BTreeSet<String> {
+/// The points whose rays have become parallel, or else those that a few more iterations move most.
+fn runaways(project: &Project, options: &AdjustOptions) -> BTreeSet<String> {
     let centres: BTreeMap<&str, Vector3<f64>> =
         project.photos.iter().filter_map(|p| Some((p.id.as_str(), p.position?.into()))).collect();
     let mut rays: BTreeMap<&str, Vec<Vector3<f64>>> = BTreeMap::new();
@@ -77,19 +83,28 @@ fn runaways(project: &Project) -> BTreeSet<String> {
         .collect();
     for o in project.observations.iter().filter(|o| o.enabled) {
         if let (Some(centre), Some(point)) = (centres.get(o.photo.as_str()), xyz.get(o.point.as_str())) {
-            rays.entry(&o.point).or_default().push((point - centre).normalize());
+            rays.entry(&o.point).or_default().push(point - centre);
         }
     }
     let widest = |rays: &[Vector3<f64>]| {
-        let pairs = rays.iter().enumerate().flat_map(|(k, a)| rays[k + 1..].iter().map(move |b| a.cross(b).norm()));
-        pairs.fold(0.0, f64::max)
+        let pairs = rays.iter().enumerate().flat_map(|(k, a)| rays[k + 1..].iter().map(move |b| (a, b)));
+        pairs.map(|(a, b)| a.cross(b).norm() / (a.norm() * b.norm())).fold(0.0, f64::max)
     };
-    let mut angles: Vec<(f64, &str)> = rays.iter().map(|(id, rays)| (widest(rays), *id)).collect();
-    angles.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let away: BTreeSet<String> =
-        angles.iter().take_while(|(angle, _)| !(*angle >= RUN_AWAY)).map(|(_, id)| (*id).to_owned()).collect();
+    let parallel = rays.iter().filter(|(_, rays)| !(widest(rays) >= SMALLEST_ANGLE));
+    let away: BTreeSet<String> = parallel.map(|(id, _)| (*id).to_owned()).collect();
     if !away.is_empty() {
         return away;
     }
-    angles.first().filter(|(angle, _)| *angle < NARROW).map(|(_, id)| (*id).to_owned()).into_iter().collect()
+    let more = AdjustOptions { max_iterations: MORE, ..options.clone() };
+    let Ok((_, later)) = ending(project, &more) else { return away };
+    let moved = later.points.iter().filter_map(|p| {
+        let (before, near) = (xyz.get(p.id.as_str())?, rays.get(p.id.as_str())?);
+        let distance = near.iter().map(|ray| ray.norm()).fold(f64::INFINITY, f64::min);
+        Some(((Vector3::from(p.xyz?) - before).norm() / distance, p.id.as_str()))
+    });
+    let moved: Vec<(f64, &str)> = moved.collect();
+    let most = moved.iter().map(|(share, _)| *share).fold(0.0, f64::max);
+    let restless = moved.iter().filter(|(share, _)| *share > RESTLESS.max(TOGETHER * most));
+    let restless: BTreeSet<String> = restless.map(|(_, id)| (*id).to_owned()).collect();
+    if restless.len() * FEW <= moved.len() { restless } else { BTreeSet::new() }
 }

@@ -105,6 +105,16 @@ fn seeded_networks_are_oriented_and_none_is_wrong_in_silence() {
     assert!(100 * right >= 97 * solvable, "{lost:?}");
 }
 
+/// 60 photos with 300 points, seen in six photos or in fifteen: whole and right.
+#[test]
+fn large_networks_are_oriented_whole() {
+    for seed in [1, 3, 8, 9] {
+        let network = network::network(&Case::large(seed));
+        let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
+        assert!(verdict.right && verdict.silent == 0 && !verdict.silent_c, "seed {seed}: {verdict:?}");
+    }
+}
+
 /// 600 bare dots in three to twelve photos: at least 98 % are found, none wrong, at the noise's own tolerance and at a wide one.
 #[test]
 fn bare_dots_get_their_own_names_or_none() {

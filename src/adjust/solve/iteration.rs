@@ -12,8 +12,8 @@ use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
 use crate::adjustment::{Iteration, Termination};
 
-/// Steps shorter than this part of the standard errors end the iteration.
-const NEGLIGIBLE: f64 = 1e-5;
+/// Steps shorter than this part of the standard errors end the iteration of an adjustment whose result is handed out.
+pub const NEGLIGIBLE: f64 = 1e-5;
 /// A step this much shorter than the one before leaves the factor of the equations as it is: the next step solves them for a
 /// new right-hand side alone (simplified Newton iteration; P. Deuflhard, Newton Methods, 2004).
 const KEEPING: f64 = 0.01;
@@ -49,6 +49,8 @@ pub struct Setting<'a> {
     pub redundancy: usize,
     /// Largest number of iterations.
     pub max_iterations: usize,
+    /// Steps shorter than this part of the standard errors end the iteration.
+    pub negligible: f64,
 }
 
 /// How it ended.
@@ -63,7 +65,7 @@ pub struct Outcome {
 
 /// Iterates; `normal` is working space. `log` receives every iteration and says whether to go on.
 pub fn iterate(setting: &Setting<'_>, normal: &mut Normal, log: &mut dyn FnMut(Iteration) -> bool) -> Outcome {
-    let Setting { context, pins, redundancy, max_iterations } = *setting;
+    let Setting { context, pins, redundancy, max_iterations, negligible } = *setting;
     let Context { network, layout, .. } = context;
     let mut state = context.state.clone();
     let rounding = rounding(network);
@@ -100,7 +102,7 @@ pub fn iterate(setting: &Setting<'_>, normal: &mut Normal, log: &mut dyn FnMut(I
             damping: lambda,
         });
         let usable = trial.is_sound() && solution.decrement.is_finite() && lost.is_empty();
-        let limit = NEGLIGIBLE * NEGLIGIBLE * before / unit + rounding;
+        let limit = negligible * negligible * before / unit + rounding;
         let contraction = length.filter(|_| lambda == 0.0).map(|length| solution.decrement.max(0.0).sqrt() / length);
         // What is left after the step, when the steps go on shrinking as they did.
         let left = match contraction {

@@ -18,7 +18,7 @@ use crate::adjustment::{AdjustOptions, Covariance, Iteration, ResidualPlace, Sta
 use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::project::{Distance, Project};
 
-use super::iteration::{Outcome, Setting, iterate, rounding};
+use super::iteration::{NEGLIGIBLE, Outcome, Setting, iterate, rounding};
 
 /// The network at the present values; not a method, since the normal equations are borrowed beside it.
 macro_rules! context {
@@ -176,28 +176,42 @@ impl<'a> Session<'a> {
 
     /// The iteration with its eccentricity corrections held.
     fn iterate_held(&mut self, options: &AdjustOptions, log: &mut Log<'_>) -> Result<Termination> {
-        let pins = self.pins();
-        let setting = Setting {
-            context: context!(self, options.residuals),
-            pins: &pins,
-            redundancy: self.redundancy,
-            max_iterations: options.max_iterations,
-        };
         let mut each = |iteration: Iteration| {
             let going = (log.on_iteration)(&iteration);
             log.iterations.push(iteration);
             going
         };
-        let Outcome { state, termination, singular } = iterate(&setting, &mut self.normal, &mut each);
+        let (termination, singular) = self.steps(options.residuals, options.max_iterations, NEGLIGIBLE, &mut each);
+        if singular && termination != Termination::Stopped { Err(self.rank_defect()) } else { Ok(termination) }
+    }
+
+    /// Iterates to steps shorter than `negligible` standard errors; the second value tells whether the equations stayed
+    /// singular.
+    pub fn steps(
+        &mut self,
+        place: ResidualPlace,
+        max_iterations: usize,
+        negligible: f64,
+        each: &mut dyn FnMut(Iteration) -> bool,
+    ) -> (Termination, bool) {
+        let pins = self.pins();
+        let setting = Setting {
+            context: context!(self, place),
+            pins: &pins,
+            redundancy: self.redundancy,
+            max_iterations,
+            negligible,
+        };
+        let Outcome { state, termination, singular } = iterate(&setting, &mut self.normal, each);
         self.state = state;
         self.state.orthonormalise();
-        if !singular.is_empty() && termination != Termination::Stopped {
-            return Err(self.rank_defect());
+        if !singular.is_empty() {
+            return (termination, true);
         }
         if let Some(datum) = &self.datum {
             datum.align(&mut self.state, &self.initial);
         }
-        Ok(termination)
+        (termination, false)
     }
 
     /// A new session without the observations in `left_out`, from this one's values.
