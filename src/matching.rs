@@ -3,8 +3,10 @@
 mod cluster;
 mod coded;
 mod epipolar;
+mod epipolar_line;
 mod gross;
 mod photo;
+mod predict;
 mod snap;
 mod uncoded;
 
@@ -12,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 pub use coded::{Coded, name_coded};
 pub use gross::{Cleaned, disagreeing, without_gross_errors};
+pub use predict::{EpipolarLine, PhotoPrediction, PredictOptions, Prediction, predict};
 pub use snap::{Mark, Snapped, Unsnapped, UnsnappedReason, snap};
 pub use uncoded::{MatchOptions, Matching, match_uncoded};
 

@@ -211,6 +211,23 @@ pub fn match_uncoded(
     matched().map(|matching| value::write(&matching)).map_err(|error| thrown(&error))
 }
 
+/// Predicts where a point should be in every oriented photo: epipolar lines, places and their covariances.
+#[wasm_bindgen(js_name = predict, unchecked_return_type = "Prediction")]
+pub fn predict_point(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "string")] point: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "Adjustment | null")] adjustment: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "PredictOptions")] options: JsValue,
+) -> Thrown {
+    let predicted = || {
+        let options: matching::PredictOptions = value::options(&options, &[])?;
+        let absent = adjustment.is_undefined() || adjustment.is_null();
+        let adjustment = if absent { None } else { Some(value::read(&adjustment, "adjustment")?) };
+        matching::predict(&value::project(&project)?, adjustment.as_ref(), &value::text(&point, "point")?, &options)
+    };
+    predicted().map(|prediction| value::write(&prediction)).map_err(|error: Error| thrown(&error))
+}
+
 /// Fills in every initial value that can be found; the project comes back with `notes` on what was assumed and what could not be
 /// found.
 #[wasm_bindgen(js_name = orient, unchecked_return_type = "OrientedProject")]

@@ -720,6 +720,39 @@ export interface Matching {
   doubtful: Doubtful[];
 }
 
+export interface PredictOptions {
+  /** Photos in which epipolar lines are wanted [null: all]. */
+  lines_in?: string[] | null;
+}
+
+/** Where a point should be, from the rays it has. */
+export interface Prediction {
+  point: string;
+  /** Oriented photos in which it is measured and takes part. */
+  rays: number;
+  /** Null below two rays, or where they do not meet. */
+  xyz: [number, number, number] | null;
+  sigma: [number, number, number] | null;
+  /** Every oriented photo. */
+  photos: PhotoPrediction[];
+}
+
+/** Where a point should be in one photo, pixels; its own measurement there takes no part in it. */
+export interface PhotoPrediction {
+  photo: string;
+  measured: [number, number] | null;
+  place: [number, number] | null;
+  /** uu, uv, vv of the place. */
+  covariance: [number, number, number] | null;
+  /** Whether the place lies in the picture. */
+  inside: boolean;
+  /** Distance of the measurement from the place, in pixels and in standard errors of both. */
+  off_px: number | null;
+  off_sigmas: number | null;
+  /** Where the ray of each other photo runs: corners in order. */
+  lines: { from: string; course: [number, number][] }[];
+}
+
 /** Something to say about an orientation: an assumption, or what could not be found and why. */
 export type Note =
   | { note: "principal_distance"; camera: string; value: number; source: "known_points" | "assumed" }

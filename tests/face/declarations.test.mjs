@@ -102,6 +102,7 @@ test('every field that the engine returns is declared, and every declared field 
     literal('film', 'S.ReducedFilm', sightline.reduceFilm({ 'plate.txt': 'c 100\nfiducial a 0 0\nfiducial b 50 0\nfiducial c 0 40\nfiducial d 50 40\ndistortion 10 1\ndistortion 20 2\ndistortion 30 4\ndistortion 40 6\n1 a 0 0\n1 b 50 0\n1 c 0 40\n1 d 50 40\n1 7 10 10' })),
     literal('experiment', 'S.Experiment', sightline.runExperiment('film')),
     literal('matching', 'S.Matching', sightline.matchUncoded(project, photosOf(project))),
+    literal('prediction', 'S.Prediction', sightline.predict(project, 'p1', adjustments[0])),
     ...adjustments.map((adjustment, k) => literal(`adjustment${k}`, 'S.Adjustment', adjustment)),
     literal('measured', 'S.Measured', measuredLater),
     literal('renaming', 'S.Renaming', sightline.nearestNames(featured.points, [{ id: 'near', xyz: project.points[0].xyz }], 1)),
@@ -129,6 +130,7 @@ test('the options that are declared are those that exist', () => {
     ['DetectOptions', (options) => sightline.detectGray(1, 1, new Uint8Array(1), options)],
     ['ExperimentOptions', (options) => sightline.runExperiment('film', options)],
     ['NameCodedOptions', (options) => sightline.nameCoded([], options)],
+    ['PredictOptions', (options) => sightline.predict(sightline.simulate(network()), 'p1', null, options)],
     ['MatchOptions', (options) => sightline.matchUncoded(sightline.simulate(network()), [], options)],
   ]) {
     const body = declared.split(`export interface ${name} {`)[1].split('\n}')[0];

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use sightline::adjustment::{AdjustOptions, Adjustment, Iteration};
+use sightline::adjustment::{AdjustOptions, AdjustedPhoto, Adjustment, Iteration};
 use sightline::detection::{DetectOptions, Detection, Target};
 use sightline::exif::PhotoInfo;
 use sightline::experiments::{Experiment, ExperimentOptions};
-use sightline::matching::{Matching, PhotoTargets};
+use sightline::matching::{Matching, PhotoTargets, PredictOptions, Prediction};
 use sightline::orient::Note;
-use sightline::project::Project;
+use sightline::project::{Datum, Project};
 use sightline::report::plots::Plot;
 use sightline::{Error, Result};
 
@@ -154,6 +154,22 @@ tasks! {
         /** Of the photos. */ pub project: Project,
         /** Of each photo. */ pub targets: Vec<PhotoTargets>,
     } => Vec<Note>, Matching;
+    /// Find where the photos of a project stand, as far as its measurements tell.
+    Situate { /** Measurements and what is known. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Situated;
+    /// Predict where a point should be in every oriented photo.
+    Predict {
+        /** Cameras, oriented photos, the point and its observations. */ pub project: Project,
+        /** Standard errors of the photos. */ pub adjustment: Option<Adjustment>,
+        /** Which. */ pub point: String,
+        /** Of the prediction. */ pub options: PredictOptions,
+    } => Nothing, Prediction;
+    /// Cut a part out of a photo, for the screen; its bytes come along.
+    ShowPart {
+        /** Of the file. */ pub digest: u64,
+        /** First column. */ pub left: u32,
+        /** First row. */ pub top: u32,
+        /** Columns and rows. */ pub side: u32,
+    } => Nothing, Shown;
     /// Write a project file with the photos that come along; its bytes come back.
     Pack { /** All but photos. */ pub content: Content, /** Of the photos. */ pub names: Vec<String> } => Nothing, ();
     /// Read a project file; the photos' bytes come along.
@@ -228,6 +244,45 @@ pub struct ReportMade {
     pub style: String,
     /// HTML.
     pub body: String,
+}
+
+/// Where the photos of a project stand: cameras and oriented photos, without points and observations.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Situated {
+    /// Cameras and photos.
+    pub project: Project,
+    /// Standard errors of the photos and of unit weight, where the measurements determine them.
+    pub adjustment: Option<Adjustment>,
+}
+
+impl Situated {
+    /// Of a project with its adjusted values: what predictions are made from, and no more.
+    pub fn of(oriented: Project, adjustment: Option<&Adjustment>) -> Self {
+        let project = Project {
+            points: Vec::new(),
+            observations: Vec::new(),
+            distances: Vec::new(),
+            datum: Datum::default(),
+            set_aside: Vec::new(),
+            ..oriented
+        };
+        // Of the correlations those of the orientation are needed, the first six.
+        let photo = |photo: &AdjustedPhoto| {
+            let mut photo = photo.clone();
+            if let Some(c) = &mut photo.correlation {
+                c.names.truncate(6);
+                c.matrix.truncate(6);
+                c.matrix.iter_mut().for_each(|row| row.truncate(6));
+            }
+            photo
+        };
+        let adjustment = adjustment.map(|a| Adjustment {
+            sigma0: a.sigma0,
+            photos: a.photos.iter().map(photo).collect(),
+            ..Adjustment::default()
+        });
+        Self { project, adjustment }
+    }
 }
 
 /// On the way to an adjustment.

@@ -170,6 +170,23 @@ pub fn remove(project: &mut Project, id: &str) {
     project.points.retain(|p| p.id != id);
 }
 
+/// The first name from this one on that is not in use: its number at the end counts up.
+pub fn next_free(project: &Project, name: &str) -> String {
+    let used = project.points.iter().map(|p| p.id.as_str()).collect::<BTreeSet<_>>();
+    let digits = name.len() - name.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    let (stem, number) = name.split_at(name.len() - digits);
+    let mut next = number.parse::<u64>().unwrap_or(0);
+    let mut candidate = name.to_owned();
+    while candidate.is_empty() || used.contains(candidate.as_str()) {
+        next = next.saturating_add(1);
+        candidate = format!("{stem}{next:0digits$}");
+        if next == u64::MAX {
+            return free_name(project);
+        }
+    }
+    candidate
+}
+
 /// A point name that is not in use, apart from the numbers of coded targets.
 pub fn free_name(project: &Project) -> String {
     let largest = project.points.iter().filter_map(|p| p.id.parse::<u64>().ok()).max().unwrap_or(0);
@@ -290,6 +307,18 @@ mod tests {
         assert!(!nudge(&mut p, "9", "11", [0.5, -1.0]));
         switch_observation(&mut p, "1", "11", false);
         assert!(!p.observations[0].enabled && p.observations[2].enabled);
+    }
+
+    #[test]
+    fn names_of_a_series_count_up_and_keep_their_form() {
+        let p = project();
+        assert_eq!(next_free(&p, "A"), "A");
+        assert_eq!(next_free(&p, "11"), "14");
+        let mut p = p;
+        p.points.extend(["A", "P07", "P08"].map(|id| Point { id: id.into(), ..Point::default() }));
+        assert_eq!((next_free(&p, "A"), next_free(&p, "P07")), ("A1".into(), "P09".into()));
+        p.points.push(Point { id: u64::MAX.to_string(), ..Point::default() });
+        assert!(!next_free(&p, &u64::MAX.to_string()).is_empty());
     }
 
     #[test]

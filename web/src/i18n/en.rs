@@ -378,6 +378,36 @@ declare! { desk {
     point_went(point): "Point {point} was measured nowhere else and went with its last observation.";
     both_in_photo(from, to, photo): "Photo {photo} shows both {from} and {to}: they cannot be one point.";
 
+    // Measuring by hand
+    measuring_by_hand: "Measuring by hand";
+    point_by_point: "Point by point";
+    point_by_point_how: "Each click measures a point and shows the next photo that should have it (M)";
+    click_next_point: "Click the next point.";
+    click_point_here(point): "Click point {point} here.";
+    point_is_measured_here(point): "Point {point} is measured here.";
+    is_it(point, off, reach): "Is this target point {point}? It lies {off} px from where it should be (3σ {reach} px).";
+    is_it_of_two(point, off, reach, second):
+        "Is this target point {point}? It lies {off} px from where it should be (3σ {reach} px), a second one {second} px.";
+    should_be_here(point, reach): "Point {point} should be here, 3σ {reach} px: measure there?";
+    yes: "Yes";
+    next_place: "Next photo";
+    next_point: "Next point";
+    in_all_it_should_be: "The point is measured in every photo that should show it.";
+    this_point_in_photos: "This point in its photos";
+    predicted: "predicted";
+    off_by(px): "{px} px off";
+    not_in(n): "not in {n} {n:photo|photos}";
+    layers: "Layers";
+    layer_ellipses: "ellipses";
+    layer_names: "names";
+    layer_predicted: "where the point should be";
+    layer_epipolar: "epipolar lines";
+    brightness: "brightness";
+    picture_contrast: "contrast";
+    as_it_is: "As it is";
+
+    rows_marked(n): "{n} marked";
+
     // Control and scale
     control_and_scale: "Control, scale";
     control_sentence(control, check, distances):

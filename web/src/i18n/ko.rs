@@ -370,6 +370,36 @@ translate! { Korean desk {
     point_went(point): "점 {point}{point:은|는} 다른 관측이 없어 마지막 관측과 함께 지웠습니다.";
     both_in_photo(from, to, photo): "사진 {photo}에 {from} 점과 {to} 점이 모두 있어 한 점이 될 수 없습니다.";
 
+    // Measuring by hand
+    measuring_by_hand: "수동 측정";
+    point_by_point: "점별 측정";
+    point_by_point_how: "클릭할 때마다 점을 측정하고 그 점이 보일 다음 사진으로 넘어갑니다 (M)";
+    click_next_point: "다음 점을 클릭하십시오.";
+    click_point_here(point): "이 사진에서 점 {point}{point:을|를} 클릭하십시오.";
+    point_is_measured_here(point): "점 {point}{point:은|는} 이 사진에서 이미 측정했습니다.";
+    is_it(point, off, reach): "이 표적이 점 {point}입니까? 예측 위치에서 {off} px 떨어져 있습니다 (3σ {reach} px).";
+    is_it_of_two(point, off, reach, second):
+        "이 표적이 점 {point}입니까? 예측 위치에서 {off} px 떨어져 있고 (3σ {reach} px), 또 하나는 {second} px 떨어져 있습니다.";
+    should_be_here(point, reach): "점 {point}의 예측 위치입니다 (3σ {reach} px). 여기서 측정합니까?";
+    yes: "예";
+    next_place: "다음 사진";
+    next_point: "다음 점";
+    in_all_it_should_be: "이 점은 보여야 할 모든 사진에서 측정되었습니다.";
+    this_point_in_photos: "사진별로 본 이 점";
+    predicted: "예측";
+    off_by(px): "{px} px 벗어남";
+    not_in(n): "사진 {n}매에는 없음";
+    layers: "표시 항목";
+    layer_ellipses: "타원";
+    layer_names: "점번호";
+    layer_predicted: "예측 위치";
+    layer_epipolar: "에피폴라선";
+    brightness: "밝기";
+    picture_contrast: "대비";
+    as_it_is: "원래대로";
+
+    rows_marked(n): "{n}행 선택";
+
     // Control and scale
     control_and_scale: "기준점·축척";
     control_sentence(control, check, distances): "기준점 {control}개, 검사점 {check}개, 거리 {distances}개.";

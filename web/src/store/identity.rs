@@ -9,9 +9,9 @@ use sightline::matching::{Mark, Matching, Snapped, snap};
 use sightline::project::{Observation, Sigma};
 use sightline_protocol::Measure;
 
-use super::Desk;
 use super::document::Change;
 use super::pool::Outcome;
+use super::{Desk, Kind};
 use crate::edit::points::{self, Naming, Renamed};
 use crate::edit::targets;
 use crate::format;
@@ -31,53 +31,6 @@ impl Desk {
         let (photo, point) = self.selection.with(|s| (s.photo.clone(), s.point.clone()));
         let (photo, point) = (photo?, point?);
         self.document.with(|d| d.project.observations.iter().find(|o| o.photo == photo && o.point == point).cloned())
-    }
-
-    /// Chooses a point everywhere; a photo that shows it comes forward unless the present one does.
-    pub fn select_point(self, point: &str) {
-        let place = self.document.with_untracked(|d| {
-            let of_point = || d.project.observations.iter().filter(|o| o.point == point);
-            let here = self.selection.with_untracked(|s| s.photo.clone());
-            of_point().find(|o| Some(&o.photo) == here.as_ref()).or_else(|| of_point().next()).cloned()
-        });
-        self.selection.update(|s| {
-            s.point = Some(point.to_owned());
-            (s.target, s.spot) = (None, None);
-            if let Some(observation) = &place {
-                s.photo = Some(observation.photo.clone());
-            }
-        });
-        self.centre_on.set(place.map(|o| [o.u, o.v]));
-    }
-
-    /// Chooses a point in one photo.
-    pub fn select_observation(self, photo: &str, point: &str) {
-        self.selection.update(|s| {
-            s.photo = Some(photo.to_owned());
-            s.point = Some(point.to_owned());
-            (s.target, s.spot) = (None, None);
-        });
-        let place = self.document.with_untracked(|d| {
-            let here = |o: &&Observation| o.photo == photo && o.point == point;
-            d.project.observations.iter().find(here).map(|o| [o.u, o.v])
-        });
-        self.centre_on.set(place);
-    }
-
-    /// What a click in the photo means: the target there with the name it has, else an observation that lies on no target.
-    pub fn choose_in_photo(self, photo: &str, target: Option<usize>, point: Option<String>) {
-        self.selection.update(|s| {
-            s.photo = Some(photo.to_owned());
-            (s.target, s.point, s.spot) = (target, point, None);
-        });
-    }
-
-    /// Chooses a place of the photo that has no target, to be named.
-    pub fn choose_spot(self, photo: &str, spot: [f64; 2]) {
-        self.selection.update(|s| {
-            s.photo = Some(photo.to_owned());
-            (s.target, s.point, s.spot) = (None, None, Some(spot));
-        });
     }
 
     /// Gives a place of the photo a name: a target's centre, or a place set by hand.
@@ -108,13 +61,6 @@ impl Desk {
             Naming { elsewhere: true, .. } => self.tell_here(move || text::name_moved(&point, &photo)),
             _ if by_hand => self.tell_here(|| text::placed_by_hand().to_owned()),
             _ => {}
-        }
-    }
-
-    /// Leaves the chosen target or place without a name.
-    pub fn ask_no_more(self) {
-        if self.selection.with_untracked(|s| s.point.is_none() && (s.target.is_some() || s.spot.is_some())) {
-            self.selection.update(|s| (s.target, s.spot) = (None, None));
         }
     }
 
@@ -160,6 +106,10 @@ impl Desk {
                 point = Some(code);
             }
         });
+        let unnamed = point.is_none();
+        if unnamed && self.series.with_untracked(Option::is_some) {
+            return self.take_in_series(photo, Asked::Target(at));
+        }
         self.choose_in_photo(photo, Some(at), point);
     }
 
@@ -211,7 +161,10 @@ impl Desk {
         let mut renamed = None;
         let change = Change::Renamed { from: from.clone(), to: to.clone() };
         self.change(change, |d| renamed = points::rename(d.project_mut(), &from, &to).ok());
-        self.selection.update(|s| s.point = Some(to.clone()));
+        self.selection.update(|s| {
+            s.point = Some(to.clone());
+            s.renamed(Kind::Points, &from, &to);
+        });
         match renamed {
             Some(Renamed::Joined { photos }) => {
                 self.tell_here(move || text::points_joined(&from, &to, format::count(photos)));

@@ -10,12 +10,16 @@ pub mod identity;
 pub mod intake;
 pub mod keeping;
 pub mod kept;
+pub mod marking;
+pub mod parts;
 pub mod pictures;
 pub mod plates;
 pub mod pool;
+pub mod predicting;
 pub mod report;
 pub mod sample;
 pub mod saving;
+pub mod selection;
 pub mod shelf;
 pub mod texts;
 
@@ -39,7 +43,10 @@ use document::{Change, Document, History};
 use experiments::Experiments;
 use identity::Marks;
 use keeping::{Keeper, Kept};
+use marking::Series;
 use pool::{Batch, Pool};
+use predicting::Predicting;
+pub use selection::{Kind, Marking, Selection};
 use shelf::Shelved;
 
 /// The steps of the path, and the page before it.
@@ -110,17 +117,6 @@ impl Theme {
     }
 }
 
-/// What is chosen, the same in photo, table and plot.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Selection {
-    pub photo: Option<String>,
-    pub point: Option<String>,
-    /// Place in the photo's list of targets.
-    pub target: Option<usize>,
-    /// A place in the photo that is no target, waiting for a name.
-    pub spot: Option<[f64; 2]>,
-}
-
 /// Work under way, in the one action slot.
 #[derive(Clone)]
 pub struct Job {
@@ -182,6 +178,24 @@ pub enum Reason {
     NoList,
 }
 
+/// What is drawn over photos, each to be switched off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layers {
+    pub ellipses: bool,
+    pub names: bool,
+    pub predicted: bool,
+    pub epipolar: bool,
+    /// How bright and how rich in contrast photos are shown; 1 is as they are.
+    pub brightness: f64,
+    pub contrast: f64,
+}
+
+impl Default for Layers {
+    fn default() -> Self {
+        Self { ellipses: true, names: true, predicted: true, epipolar: true, brightness: 1.0, contrast: 1.0 }
+    }
+}
+
 /// A question that something waits for; cancelling it is always possible.
 #[derive(Clone)]
 pub struct Asking {
@@ -225,6 +239,13 @@ pub struct Desk {
     pub cursor: RwSignal<Option<[f64; 2]>>,
     /// A place in the photo that the photo view should show.
     pub centre_on: RwSignal<Option<[f64; 2]>>,
+    /// A place that the photo view should show closely, and how many pixels around it.
+    pub show_place: RwSignal<Option<([f64; 2], f64)>>,
+    /// Whether points are measured one after the other through the photos.
+    pub series: RwSignal<Option<Series>>,
+    pub predicting: Predicting,
+    /// What is drawn over photos.
+    pub layers: RwSignal<Layers>,
     /// Whether clicks in a photo place points freely, as with Alt.
     pub placing: RwSignal<bool>,
     pub detect_options: RwSignal<DetectOptions>,
@@ -240,6 +261,7 @@ pub struct Desk {
     pub pasted: RwSignal<Option<Pasted>>,
     pub files: RwSignal<BTreeMap<String, PhotoFile>, LocalStorage>,
     pictures: RwSignal<Vec<pictures::Shown>, LocalStorage>,
+    parts: RwSignal<Vec<parts::Part>, LocalStorage>,
     pub problems: RwSignal<Vec<Problem>>,
     pub notice: RwSignal<Option<Notice>>,
     pub asking: RwSignal<Option<Asking>, LocalStorage>,
@@ -286,6 +308,10 @@ impl Desk {
             selection: RwSignal::default(),
             cursor: RwSignal::default(),
             centre_on: RwSignal::default(),
+            show_place: RwSignal::default(),
+            series: RwSignal::default(),
+            predicting: Predicting::default(),
+            layers: RwSignal::default(),
             placing: RwSignal::default(),
             // Whoever has coded targets expects them to be read; photos without rings are the same either way.
             detect_options: RwSignal::new(DetectOptions { codes: Codes::Auto, ..DetectOptions::default() }),
@@ -296,6 +322,7 @@ impl Desk {
             pasted: RwSignal::default(),
             files: RwSignal::new_local(BTreeMap::new()),
             pictures: RwSignal::new_local(Vec::new()),
+            parts: RwSignal::new_local(Vec::new()),
             problems: RwSignal::default(),
             notice: RwSignal::default(),
             asking: RwSignal::new_local(None),
@@ -487,36 +514,5 @@ impl Desk {
             self.job.set(None);
             (job.keep)();
         }
-    }
-
-    /// Takes back what is chosen or asked.
-    pub fn escape(self) {
-        self.asking.set(None);
-        self.selection.update(|s| {
-            s.point = None;
-            (s.target, s.spot) = (None, None);
-        });
-    }
-
-    /// Shows a photo further on in the list.
-    pub fn next_photo(self, step: isize) {
-        let next = self.document.with_untracked(|d| {
-            let now = self.selection.with_untracked(|s| s.photo.clone());
-            let place = d.project.photos.iter().position(|p| Some(&p.id) == now.as_ref()).unwrap_or(0);
-            d.project.photos.get(place.checked_add_signed(step)?).map(|p| p.id.clone())
-        });
-        if let Some(photo) = next {
-            self.select_photo(&photo);
-        }
-    }
-
-    /// Shows a photo, with nothing in it chosen.
-    pub fn select_photo(self, photo: &str) {
-        self.selection.update(|s| {
-            if s.photo.as_deref() != Some(photo) {
-                s.photo = Some(photo.to_owned());
-                (s.target, s.spot) = (None, None);
-            }
-        });
     }
 }

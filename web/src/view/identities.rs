@@ -9,6 +9,7 @@ use sightline::project::{Observation, Role};
 use super::field::Field;
 use super::icon::{Glyph, Icon};
 use super::loupe::Loupe;
+use super::marking::MarkingBar;
 use super::photo_view::{Click, Mark, PhotoView, Style};
 use super::picking::{Question, chosen_target, pick, spot_mark};
 use super::shell::TitleBar;
@@ -18,7 +19,7 @@ use crate::browser::{event, file};
 use crate::format;
 use crate::i18n::{text, text::role_word};
 use crate::store::texts::Reading;
-use crate::store::{Desk, Step};
+use crate::store::{Desk, Kind, Step};
 
 #[component]
 pub fn Identities() -> impl IntoView {
@@ -91,6 +92,7 @@ pub fn NamedPhoto() -> impl IntoView {
     view! {
         <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click>
             <Question/>
+            <MarkingBar/>
             <Show when=move || target.with(Option::is_some)>
                 <div class="docked-loupe"><Loupe target/></div>
             </Show>
@@ -216,7 +218,7 @@ fn PointsTable() -> impl IntoView {
                 <span>{text::points} " " <span class="id">{move || format::count(rows.with(Vec::len))}</span></span>
                 <CopyButton columns rows/>
             </h2>
-            <NumberTable label=text::points columns rows chosen on_choose=Callback::new(move |id: String| desk.select_point(&id)) sorting/>
+            <NumberTable label=text::points columns rows chosen on_choose=Callback::new(move |id: String| desk.select_point(&id)) sorting kind=Kind::Points/>
         </section>
     }
 }

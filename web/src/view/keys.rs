@@ -31,6 +31,10 @@ pub fn in_photo(desk: Desk, key: &Key) -> bool {
     }
     match key.key.as_str() {
         "Delete" | "Backspace" => return remove(desk),
+        "y" | "Y" => return answer(desk, |desk| desk.take_candidate()),
+        "n" | "N" => return answer(desk, |desk| desk.next_place()),
+        "p" | "P" if untrack(|| desk.in_series()) => desk.finish_point(),
+        "m" | "M" => desk.switch_series(),
         "PageDown" => desk.next_photo(1),
         "PageUp" => desk.next_photo(-1),
         "ArrowLeft" => return nudge(desk, key, [-1.0, 0.0]),
@@ -40,6 +44,15 @@ pub fn in_photo(desk: Desk, key: &Key) -> bool {
         _ => return false,
     }
     true
+}
+
+/// Answers what is asked about the chosen point; without one the key is not used.
+fn answer(desk: Desk, verb: fn(Desk)) -> bool {
+    let chosen = desk.selection.with_untracked(|s| s.point.is_some());
+    if chosen {
+        verb(desk);
+    }
+    chosen
 }
 
 fn remove(desk: Desk) -> bool {

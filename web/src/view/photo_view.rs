@@ -7,13 +7,15 @@ use leptos::html::Canvas;
 use leptos::prelude::*;
 
 use super::icon::{Glyph, Icon};
+use super::insets::Insets;
 use super::keys;
+use super::layers::{LayerChoice, draw_prediction};
 use super::transform::Placement;
 use crate::browser::canvas::{SizeWatch, Surface, TEXT_SIZE};
-use crate::browser::event::{self, Pointer};
+use crate::browser::event::{self, Key, Pointer};
 use crate::format;
 use crate::i18n::text;
-use crate::store::Desk;
+use crate::store::{Desk, Layers};
 
 /// How a mark is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,8 +71,11 @@ pub fn PhotoView(
 ) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let canvas = NodeRef::<Canvas>::new();
+    // The picture has a canvas of its own, so that brightness and contrast leave the marks alone.
+    let below = NodeRef::<Canvas>::new();
     let bounds = RwSignal::new([0.0_f64; 2]);
     let placement = RwSignal::new(None::<Placement>);
+    let cross = RwSignal::new(None::<[f64; 2]>);
     let watch = StoredValue::new_local(None);
     canvas.on_load(move |element| {
         watch.set_value(SizeWatch::new(&element, move |element| {
@@ -134,28 +139,109 @@ pub fn PhotoView(
             desk.centre_on.set(None);
         }
     });
+    // A place looked for is shown closely, as far as the photo has pixels for it.
+    Effect::new(move |_| {
+        let Some((place, reach)) = desk.show_place.get() else { return };
+        let [w, h] = bounds.get();
+        if w > 0.0 && frame.get().is_some() {
+            placement.update(|p| {
+                if let Some(p) = p {
+                    let scale = (w.min(h) / (2.0 * reach)).clamp(p.scale.min(1.0), 4.0);
+                    *p = p.centred(place, scale, w, h);
+                }
+            });
+            desk.show_place.set(None);
+        }
+    });
+    Effect::new(move |_| {
+        bounds.track();
+        desk.theme.track();
+        let (Some(element), Some(placement)) = (below.get(), placement.get()) else { return };
+        let Some(surface) = Surface::new(&element) else { return };
+        if let Some((photo, size, _)) = frame.get() {
+            draw_photo(desk, &surface, &photo, size, placement);
+        }
+    });
     Effect::new(move |_| {
         bounds.track();
         desk.theme.track();
         let (Some(element), Some(placement)) = (canvas.get(), placement.get()) else { return };
         let Some(surface) = Surface::new(&element) else { return };
-        if let Some((photo, size, _)) = frame.get() {
-            draw_photo(desk, &surface, &photo, size, placement);
-            marks.with(|marks| draw_marks(&surface, placement, marks));
+        let layers = desk.layers.get();
+        if frame.get().is_some() {
+            if let Some(predicted) = desk.prediction_here() {
+                draw_prediction(&surface, placement, &predicted, layers);
+            }
+            marks.with(|marks| draw_marks(&surface, placement, marks, layers));
             strokes.with(|strokes| draw_strokes(&surface, placement, strokes));
+            if let Some([x, y]) = cross.get() {
+                surface.pen(&surface.token("--p-accent"), 1.0, &[]);
+                for (dx, dy) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
+                    surface.line(x + 4.0 * dx, y + 4.0 * dy, x + 24.0 * dx, y + 24.0 * dy);
+                }
+            }
         }
     });
 
     let pointers = StoredValue::new(BTreeMap::<i32, Pointer>::new());
     let travelled = StoredValue::new(0.0_f64);
     let space = RwSignal::new(false);
+    // Where the keys have taken the cross, on the screen: Enter there is a click.
+    let steer = move |key: &Key| {
+        let [w, h] = bounds.get_untracked();
+        let Some(p) = placement.get_untracked() else { return false };
+        let at = cross.get_untracked().unwrap_or([w / 2.0, h / 2.0]);
+        let pixel = |at: [f64; 2]| {
+            let [u, v] = p.to_pixel(at);
+            ([u, v], (0.0..=p.size[0]).contains(&u) && (0.0..=p.size[1]).contains(&v))
+        };
+        let step = match (key.modifiers.shift, key.modifiers.alt) {
+            (true, _) => 64.0,
+            (_, true) => 1.0,
+            _ => 12.0,
+        };
+        let by = match key.key.as_str() {
+            "ArrowLeft" => [-step, 0.0],
+            "ArrowRight" => [step, 0.0],
+            "ArrowUp" => [0.0, -step],
+            "ArrowDown" => [0.0, step],
+            "Enter" => {
+                let ([u, v], inside) = pixel(at);
+                let free = key.modifiers.alt || desk.placing.get_untracked();
+                on_click.run(Click { u, v, reach: 12.0 / p.scale, inside, free });
+                return true;
+            }
+            "+" | "=" => {
+                placement.set(Some(p.zoomed(1.5, at)));
+                return true;
+            }
+            "-" => {
+                placement.set(Some(p.zoomed(1.0 / 1.5, at)));
+                return true;
+            }
+            "0" => {
+                fit();
+                return true;
+            }
+            "1" => {
+                zoom_to(1.0);
+                return true;
+            }
+            _ => return false,
+        };
+        let at = [(at[0] + by[0]).clamp(0.0, w), (at[1] + by[1]).clamp(0.0, h)];
+        cross.set(Some(at));
+        let (place, inside) = pixel(at);
+        desk.cursor.set(inside.then_some(place));
+        true
+    };
     let hold = move |e: leptos::ev::KeyboardEvent, held: bool| {
         let key = event::key(&e);
         let used = if key.key == " " {
             space.set(held);
             true
         } else {
-            held && keys::in_photo(desk, &key)
+            held && !key.modifiers.control && (keys::in_photo(desk, &key) || steer(&key))
         };
         if used {
             e.prevent_default();
@@ -163,6 +249,7 @@ pub fn PhotoView(
     };
     let down = move |e: leptos::ev::PointerEvent| {
         let pointer = event::pointer(&e);
+        cross.set(None);
         event::capture(&e);
         travelled.set_value(if pointer.button == 0 && !space.get_untracked() { 0.0 } else { 100.0 });
         pointers.update_value(|all| {
@@ -247,13 +334,17 @@ pub fn PhotoView(
                 {title}
                 <span class="summary">{move || summary.get()}</span>
                 <span class="gap"></span>
+                <button class="stage-button words" title=text::point_by_point_how aria-pressed=move || desk.in_series().to_string() data-action="series"
+                    on:click=move |_| desk.switch_series()>{text::point_by_point}</button>
                 <button class="stage-button words" title=text::place_freely_how aria-pressed=move || desk.placing.get().to_string()
                     on:click=move |_| desk.placing.update(|on| *on = !*on)>{text::place_freely}</button>
+                <LayerChoice/>
                 <button class="stage-button" aria-label=text::fit title=text::fit on:click=move |_| fit()><Glyph icon=Icon::Fit/></button>
                 <button class="stage-button" on:click=move |_| zoom_to(1.0)>"1:1"</button>
                 <span class="zoom">{percent}</span>
             </div>
             <div class="stage-body">
+                <canvas node_ref=below class="picture" aria-hidden="true" style:filter=move || desk.layers.with(filter)></canvas>
                 <canvas
                     node_ref=canvas
                     class="photo"
@@ -276,6 +367,7 @@ pub fn PhotoView(
                 {absent}
                 {children.map(|children| children())}
             </div>
+            <Insets/>
             <div class="legend">
                 <span class="key"></span>{text::legend_measured}
                 <span class="key selected"></span>{text::legend_selected}
@@ -286,6 +378,11 @@ pub fn PhotoView(
             </div>
         </div>
     }
+}
+
+/// Brightness and contrast as a style sheet says it.
+fn filter(layers: &Layers) -> String {
+    format!("brightness({}) contrast({})", layers.brightness, layers.contrast)
 }
 
 fn draw_photo(desk: Desk, surface: &Surface, photo: &str, [w, h]: [f64; 2], placement: Placement) {
@@ -303,7 +400,7 @@ fn draw_photo(desk: Desk, surface: &Surface, photo: &str, [w, h]: [f64; 2], plac
     }
 }
 
-fn draw_marks(surface: &Surface, placement: Placement, marks: &[Mark]) {
+fn draw_marks(surface: &Surface, placement: Placement, marks: &[Mark], layers: Layers) {
     let pen = |style: Style| match style {
         Style::Measured => surface.pen(&surface.token("--p-a"), 1.25, &[]),
         Style::Selected => surface.pen(&surface.token("--p-accent"), 2.0, &[]),
@@ -318,7 +415,8 @@ fn draw_marks(surface: &Surface, placement: Placement, marks: &[Mark]) {
     let shown = marks.iter().filter(on_screen).collect::<Vec<_>>();
     for style in [Style::Measured, Style::Rejected, Style::Doubtful, Style::Selected] {
         pen(style);
-        for mark in shown.iter().filter(|m| m.style == style) {
+        let drawn = layers.ellipses || style == Style::Selected;
+        for mark in shown.iter().filter(|m| drawn && m.style == style) {
             let [x, y] = placement.to_screen([mark.u, mark.v]);
             let half = |axis: f64| (axis / 2.0 * placement.scale).max(3.0);
             surface.ellipse(x, y, half(mark.major), half(mark.minor), placement.angle_on_screen(mark.angle));
@@ -335,7 +433,9 @@ fn draw_marks(surface: &Surface, placement: Placement, marks: &[Mark]) {
             }
         }
     }
-    draw_labels(surface, placement, &shown);
+    if layers.names {
+        draw_labels(surface, placement, &shown);
+    }
 }
 
 /// Names below their targets where there is room; bold for coded ones, a chip for the selected one.

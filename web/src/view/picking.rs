@@ -16,7 +16,9 @@ use crate::store::identity::Asked;
 pub fn pick(desk: Desk, click: Click) {
     let Some(photo) = desk.selection.with_untracked(|s| s.photo.clone()) else { return };
     if click.free {
-        if click.inside {
+        if click.inside && desk.series.with_untracked(Option::is_some) {
+            desk.take_in_series(&photo, Asked::Spot([click.u, click.v]));
+        } else if click.inside {
             desk.choose_spot(&photo, [click.u, click.v]);
         }
         return;
@@ -32,6 +34,15 @@ pub fn pick(desk: Desk, click: Click) {
         (observation_of(&d.project, &photo, targets[target].id).map(|o| o.point.clone()), Some(target))
     });
     let nothing = point.is_none() && target.is_none();
+    if desk.series.with_untracked(Option::is_some) && point.is_none() {
+        // The point that is looked for stays chosen while its next place is measured.
+        match target {
+            Some(target) => desk.take_in_series(&photo, Asked::Target(target)),
+            None if click.inside => desk.measure_at(&photo, click.u, click.v),
+            None => {}
+        }
+        return;
+    }
     desk.choose_in_photo(&photo, target, point);
     if nothing && click.inside {
         desk.measure_at(&photo, click.u, click.v);

@@ -12,7 +12,7 @@ use crate::browser::{event, file, page};
 use crate::i18n::{self, errors, experiments as words, text};
 use crate::store::document::Document;
 use crate::store::experiments::from_hash;
-use crate::store::{Asking, Desk, Job, JobKind, Step, Theme};
+use crate::store::{Asking, Desk, Job, JobKind, Kind, Step, Theme};
 use crate::{format, i18n::language};
 
 /// The desk.
@@ -27,6 +27,7 @@ pub fn App() -> impl IntoView {
     });
     Effect::new(move || desk.drop_stale_notice());
     desk.start_keeping();
+    desk.start_predicting();
     page::listen_to_network(move || desk.offline.set(page::is_offline()));
     page::listen_to_start(move |told| match told {
         page::Told::Update => desk.update.set(true),
@@ -370,6 +371,8 @@ fn Foot() -> impl IntoView {
             text::in_photos(format::count(rays))
         })
     };
+    let marked =
+        move || Some(desk.marked(Kind::Points).len()).filter(|n| *n > 1).map(|n| text::rows_marked(format::count(n)));
     let place =
         move || desk.cursor.get().map(|[u, v]| format!("u {}   v {} px", format::fixed(u, 1), format::fixed(v, 1)));
     view! {
@@ -382,6 +385,7 @@ fn Foot() -> impl IntoView {
                     <span class="dot"></span>
                     <b>{chosen}</b>
                     <span>{rays}</span>
+                    <span>{marked}</span>
                 </Show>
             </div>
             <div class="read-out">{place}</div>

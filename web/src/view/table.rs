@@ -13,6 +13,7 @@ use crate::browser::{event, page};
 use crate::edit::natural;
 use crate::format;
 use crate::i18n::text;
+use crate::store::{Desk, Kind, Marking};
 
 /// A heading: a word or a symbol, with its unit.
 #[derive(Clone)]
@@ -155,7 +156,11 @@ pub fn NumberTable(
     /// Opens what a row is about: a double click, Enter on the chosen row, or the arrow at its end.
     #[prop(optional, into)]
     on_open: Option<Callback<String>>,
+    /// What its rows are: many of them can be marked, with Control and Shift.
+    #[prop(optional, into)]
+    kind: Option<Kind>,
 ) -> impl IntoView {
+    let desk = expect_context::<Desk>();
     let sorted = Memo::new(move |_| {
         let mut rows = rows.get();
         if let Some(sorting) = sorting.get() {
@@ -209,6 +214,13 @@ pub fn NumberTable(
         }
         true
     });
+    let choose = move |key: String, how: Marking| match kind {
+        Some(kind) if how != Marking::Only => {
+            let order = sorted.with_untracked(|rows| rows.iter().map(|row| row.key.clone()).collect::<Vec<_>>());
+            desk.choose_row(kind, &key, how, &order);
+        }
+        _ => on_choose.run(key),
+    };
     let keydown = move |e: leptos::ev::KeyboardEvent| {
         let at = chosen.get_untracked().and_then(|key| untrack(|| place(&key)));
         let page = (height.get_untracked() / row_height.get_untracked()) as usize;
@@ -221,9 +233,14 @@ pub fn NumberTable(
             return open.run(row);
         }
         let to = if key.on_table { neighbour(&key.key, at, rows, page.saturating_sub(2).max(1)) } else { None };
-        if let Some(key) = to.and_then(|to| sorted.with_untracked(|rows| rows.get(to).map(|row| row.key.clone()))) {
+        if let Some(row) = to.and_then(|to| sorted.with_untracked(|rows| rows.get(to).map(|row| row.key.clone()))) {
             e.prevent_default();
-            on_choose.run(key);
+            choose(row, if key.modifiers.shift { Marking::Range } else { Marking::Only });
+        }
+        if let (true, "a" | "A", true, Some(kind)) = (key.on_table, key.key.as_str(), key.modifiers.control, kind) {
+            e.prevent_default();
+            let all = sorted.with_untracked(|rows| rows.iter().map(|row| row.key.clone()).collect());
+            desk.selection.update(|s| s.mark_all(kind, all));
         }
     };
     let sort_by = move |column: usize| {
@@ -238,7 +255,7 @@ pub fn NumberTable(
     let gap = move |rows: usize| format!("{}px", rows as f64 * row_height.get());
     view! {
         <div class="scroll table-frame" node_ref=frame on:scroll=move |_| measure() on:pointerenter=move |_| measure()>
-            <table class=format!("table {class}") aria-label=label role="grid" tabindex="0" on:keydown=keydown
+            <table class=format!("table {class}") aria-label=label role="grid" aria-multiselectable=kind.map(|_| "true") tabindex="0" on:keydown=keydown
                 aria-rowcount=move || (sorted.with(|rows| rows.len()) + 1).to_string()>
                 <thead>
                     <tr>
@@ -274,7 +291,7 @@ pub fn NumberTable(
                             sorted.with(|rows| rows[first.min(rows.len())..last.min(rows.len())].to_vec())
                         }
                         key=Row::fingerprint
-                        children=move |row| view! { <TableRow row chosen on_choose on_open/> }
+                        children=move |row| view! { <TableRow row chosen choose=Callback::new(move |(key, how)| choose(key, how)) on_open kind/> }
                     />
                     <tr class="gap" aria-hidden="true" style:height=move || gap(sorted.with(|rows| rows.len()) - window.get().1)></tr>
                 </tbody>
@@ -287,19 +304,33 @@ pub fn NumberTable(
 fn TableRow(
     row: Row,
     chosen: Signal<Option<String>>,
-    on_choose: Callback<String>,
+    choose: Callback<(String, Marking)>,
     on_open: Option<Callback<String>>,
+    kind: Option<Kind>,
 ) -> impl IntoView {
+    let desk = expect_context::<Desk>();
     let key = StoredValue::new(row.key.clone());
     let is_chosen = Memo::new(move |_| chosen.with(|c| c.as_ref().is_some_and(|c| key.with_value(|key| key == c))));
+    let is_marked = Memo::new(move |_| {
+        kind.is_some_and(|kind| desk.selection.with(|s| key.with_value(|key| s.is_marked(kind, key))))
+    });
+    let clicked = move |e: leptos::ev::MouseEvent| {
+        let how = match (e.shift_key(), e.ctrl_key() || e.meta_key()) {
+            (true, _) => Marking::Range,
+            (_, true) => Marking::Besides,
+            _ => Marking::Only,
+        };
+        choose.run((key.get_value(), how));
+    };
     view! {
         <tr
             class="data"
+            class:marked=is_marked
             class:chosen=is_chosen
             class:off=row.off
             data-key=row.key
-            aria-selected=move || is_chosen.get().to_string()
-            on:click=move |_| on_choose.run(key.get_value())
+            aria-selected=move || (is_chosen.get() || is_marked.get()).to_string()
+            on:click=clicked
             on:dblclick=move |_| if let Some(open) = on_open { open.run(key.get_value()) }
         >
             {row.cells.into_iter().map(|cell| view! {

@@ -7,6 +7,7 @@ use sightline::ring_code::Family;
 use super::field::Field;
 use super::icon::{Glyph, Icon};
 use super::loupe::Loupe;
+use super::marking::MarkingBar;
 use super::photo_view::{Click, Mark, PhotoView, Style, half_turn_degrees};
 use super::picking::{Question, chosen_target, pick, spot_mark};
 use super::shell::TitleBar;
@@ -58,7 +59,7 @@ pub fn Targets() -> impl IntoView {
         <FamilyQuestion/>
         <main class="targets">
             <Strip/>
-            <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click><Question targets=false/></PhotoView>
+            <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click><Question targets=false/><MarkingBar/></PhotoView>
             <aside class="inspector" tabindex="0" aria-label=text::target>
                 <Loupe target=selected/>
                 <TargetDetails/>

@@ -3,13 +3,14 @@
 use std::collections::HashSet;
 
 use sightline::adjust::{adjust, apply};
-use sightline::adjustment::{AdjustOptions, StatisticsChoice};
+use sightline::adjustment::{AdjustOptions, StatisticsChoice, Termination};
 use sightline::decode::Photo;
 use sightline::detection::{Channel, Codes, DetectOptions, Detection, Target};
 use sightline::exchange::export;
 use sightline::exchange::package::{self, Package};
 use sightline::experiments::{self, Experiment};
-use sightline::matching::{MatchOptions, Matching, match_uncoded};
+use sightline::image::Samples;
+use sightline::matching::{MatchOptions, Matching, Prediction, match_uncoded, predict};
 use sightline::orient::{Note, orient};
 use sightline::project::Project;
 use sightline::report::plots::{Plot, comparison, plots};
@@ -17,8 +18,8 @@ use sightline::report::{self, Report};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
     Adjust, Adjusted, Adjusting, Content, Detect, Export, ExportExperiment, MakePlots, MakeReport, Match, Measure,
-    Nothing, Open, Opened, Pack, Progress, ReportMade, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served,
-    Service, ShowPhoto, Shown, Unpack, Unpacked,
+    Nothing, Open, Opened, Pack, Predict, Progress, ReportMade, RunExperiment, Sample, SamplePhoto, SamplePhotoMade,
+    Served, Service, ShowPart, ShowPhoto, Shown, Situate, Situated, Unpack, Unpacked,
 };
 
 use crate::kept::{self, digest, with_photo};
@@ -76,6 +77,55 @@ impl Service<Match> for Engine {
         let adjustment = adjust(&oriented, &options, &mut |_| true)?;
         let matching = match_uncoded(&apply(&oriented, &adjustment), &task.targets, &MatchOptions::default())?;
         Ok((matching, Vec::new()))
+    }
+}
+
+impl Service<Situate> for Engine {
+    fn serve(&self, task: Situate, _: Files, _: Progress<Nothing>) -> Served<Situated> {
+        let oriented = with_what_is_oriented(&task.project, &mut |_| {})?;
+        let options = AdjustOptions {
+            unmodelled: task.options.unmodelled,
+            target_diameter: task.options.target_diameter,
+            ..AdjustOptions::default()
+        };
+        // Where the network does not carry an adjustment yet, its initial values serve.
+        let situated = match adjust(&oriented, &options, &mut |_| true) {
+            Ok(adjustment) if adjustment.termination == Termination::Converged => {
+                Situated::of(apply(&oriented, &adjustment), Some(&adjustment))
+            }
+            _ => Situated::of(oriented, None),
+        };
+        Ok((situated, Vec::new()))
+    }
+}
+
+impl Service<Predict> for Engine {
+    fn serve(&self, task: Predict, _: Files, _: Progress<Nothing>) -> Served<Prediction> {
+        let predicted = predict(&task.project, task.adjustment.as_ref(), &task.point, &task.options)?;
+        Ok((predicted, Vec::new()))
+    }
+}
+
+impl Service<ShowPart> for Engine {
+    fn serve(&self, task: ShowPart, files: Files, _: Progress<Nothing>) -> Served<Shown> {
+        let part = |photo: &Photo| {
+            let grey = &photo.grey;
+            let (left, top) = ((task.left as usize).min(grey.width), (task.top as usize).min(grey.height));
+            let (width, height) =
+                ((grey.width - left).min(task.side as usize), (grey.height - top).min(task.side as usize));
+            let mut rgba = Vec::with_capacity(4 * width * height);
+            for row in top..top + height {
+                for at in row * grey.width + left..row * grey.width + left + width {
+                    let value = match &grey.samples {
+                        Samples::U8(samples) => samples[at],
+                        Samples::U16(samples) => (samples[at] >> 8) as u8,
+                    };
+                    rgba.extend([value, value, value, 255]);
+                }
+            }
+            Ok((Shown { width: width as u32, height: height as u32 }, vec![rgba]))
+        };
+        with_photo(first(&files), task.digest, Channel::default(), part)
     }
 }
 

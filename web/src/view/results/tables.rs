@@ -7,7 +7,7 @@ use super::read;
 use super::units::{common_unit, factors};
 use crate::format;
 use crate::i18n::text;
-use crate::store::{Desk, Step};
+use crate::store::{Desk, Kind, Step};
 use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 
 /// Differences at the check points.
@@ -74,7 +74,7 @@ pub(super) fn PhotosTable() -> impl IntoView {
             <span>{text::photos} " " <span class="id">{move || rows.with(Vec::len)}</span></span>
             <CopyButton columns rows/>
         </h2>
-        <NumberTable label=text::photos columns rows chosen on_choose=Callback::new(move |id: String| desk.select_photo(&id)) sorting/>
+        <NumberTable label=text::photos columns rows chosen on_choose=Callback::new(move |id: String| desk.select_photo(&id)) sorting kind=Kind::Photos/>
     }
 }
 
@@ -120,7 +120,7 @@ pub(super) fn PointsTable() -> impl IntoView {
             <span>{text::points} " " <span class="id">{move || format::count(rows.with(Vec::len))}</span></span>
             <CopyButton columns rows/>
         </h2>
-        <NumberTable label=text::points columns rows chosen on_choose=Callback::new(move |id: String| desk.select_point(&id)) sorting/>
+        <NumberTable label=text::points columns rows chosen on_choose=Callback::new(move |id: String| desk.select_point(&id)) sorting kind=Kind::Points/>
     }
 }
 
@@ -194,6 +194,6 @@ pub(super) fn Worst() -> impl IntoView {
             <span class="aside">{text::baarda}</span>
             <CopyButton columns rows/>
         </h2>
-        <NumberTable label=text::worst_observations columns rows chosen on_choose=choose on_open=open sorting/>
+        <NumberTable label=text::worst_observations columns rows chosen on_choose=choose on_open=open sorting kind=Kind::Observations/>
     }
 }

@@ -1,0 +1,290 @@
+//! Where a point should be: its epipolar lines, its predicted place and the standard errors of that, photo by photo.
+//!
+//! The point is intersected from the rays it has. A ray's covariance in ideal coordinates is Σ = Σₗ + A·Cₑ·Aᵀ: of the
+//! measurement, and of the photo's exterior orientation (A its derivatives, Cₑ from the adjustment). With B the derivatives
+//! by the point, its covariance is C = (Σ Bᵀ Σ⁻¹ B)⁻¹, and its image in another photo has B·C·Bᵀ + A·Cₑ·Aᵀ. Errors that
+//! photos share (of the interior orientation, of a datum) are left out: they cancel to a large part. Where the point is
+//! measured already, its own ray takes no part in where it should be.
+
+use nalgebra::{Matrix2, Matrix2x3, Matrix3, Matrix6, SMatrix, Vector2, Vector3};
+use serde::{Deserialize, Serialize};
+
+use super::epipolar_line::epipolar_line;
+use super::photo::OrientedPhoto;
+use crate::adjustment::{AdjustedPhoto, Adjustment};
+use crate::camera::pixel_from_camera_point;
+use crate::detection::Target;
+use crate::error::{Error, Place, Result, Thing};
+use crate::initial::intersection::{Ray, intersect};
+use crate::initial::pose::image_jacobian;
+use crate::project::{Observation, Project};
+use crate::rotation;
+
+/// Options of [`predict`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct PredictOptions {
+    /// Photos in which epipolar lines are wanted; null: in all.
+    pub lines_in: Option<Vec<String>>,
+}
+
+/// Where a point should be.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Prediction {
+    /// Identifier of the point.
+    pub point: String,
+    /// Oriented photos in which it is measured and takes part.
+    pub rays: usize,
+    /// Object coordinates from these rays; null below two, or where they do not meet.
+    pub xyz: Option<[f64; 3]>,
+    /// Their standard errors.
+    pub sigma: Option<[f64; 3]>,
+    /// Every oriented photo, in the project's order.
+    pub photos: Vec<PhotoPrediction>,
+}
+
+/// Where a point should be in one photo. Pixels.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PhotoPrediction {
+    /// Identifier of the photo.
+    pub photo: String,
+    /// Where it is measured, taking part or not.
+    pub measured: Option<[f64; 2]>,
+    /// Where the rays of the other photos have it; null below two of them, or where it is behind the camera.
+    pub place: Option<[f64; 2]>,
+    /// Covariance of that place: uu, uv, vv.
+    pub covariance: Option<[f64; 3]>,
+    /// Whether that place lies in the picture.
+    pub inside: bool,
+    /// Distance of the measurement from that place.
+    pub off_px: Option<f64>,
+    /// The same in standard errors of both together (Mahalanobis distance).
+    pub off_sigmas: Option<f64>,
+    /// Where the ray of each other photo runs.
+    pub lines: Vec<EpipolarLine>,
+}
+
+/// Where the ray of one photo runs in another.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EpipolarLine {
+    /// The photo whose ray it is.
+    pub from: String,
+    /// Its course, curved by the distortion: corners in order.
+    pub course: Vec<[f64; 2]>,
+}
+
+/// No measurement is taken for better than this, pixels: what is not modelled stays.
+const FINEST_PX: f64 = 0.1;
+/// 99.73 % of a normal distribution of two dimensions lie within so many standard errors.
+const GATE: f64 = 3.44;
+/// Steps of the difference quotients: radians, and shares of the distance.
+const STEP: f64 = 1e-6;
+
+/// An oriented photo, with the covariance of X, Y, Z, omega, phi, kappa.
+struct Station {
+    photo: OrientedPhoto,
+    position: [f64; 3],
+    rotation: [f64; 3],
+    covariance: Matrix6<f64>,
+}
+
+/// A measurement of the point.
+struct Sight {
+    station: usize,
+    pixel: [f64; 2],
+    image: [f64; 2],
+    sigma_px: f64,
+}
+
+/// Predicts where `point` should be in every oriented photo of the project.
+///
+/// `adjustment` is the project's, for the standard errors of its photos and of unit weight; without it the orientation
+/// counts as free of errors. Of the project only cameras, photos and the point's observations are read.
+///
+/// # Errors
+/// Those of [`Project::validate`]; [`Error::Unknown`] where the project has no such point.
+pub fn predict(
+    project: &Project,
+    adjustment: Option<&Adjustment>,
+    point: &str,
+    options: &PredictOptions,
+) -> Result<Prediction> {
+    project.validate()?;
+    if !project.points.iter().any(|p| p.id == point) {
+        return Err(Error::Unknown { kind: Thing::Point, name: point.into(), at: Place::default() });
+    }
+    let stations = stations(project, adjustment);
+    let sigma0 = adjustment.and_then(|a| a.sigma0).filter(|s| s.is_finite() && *s > 0.0).unwrap_or(1.0);
+    let mine = project.observations.iter().filter(|o| o.point == point).collect::<Vec<_>>();
+    let sights = mine.iter().filter(|o| o.enabled).filter_map(|o| sight(&stations, o, sigma0)).collect::<Vec<_>>();
+    let all = meet(&stations, &sights.iter().collect::<Vec<_>>());
+    let wanted = |photo: &str| options.lines_in.as_ref().is_none_or(|wanted| wanted.iter().any(|w| w == photo));
+    let photos = stations.iter().enumerate().map(|(k, station)| {
+        let others = sights.iter().filter(|s| s.station != k).collect::<Vec<_>>();
+        let own = others.len() < sights.len();
+        let met = if own { meet(&stations, &others) } else { all };
+        let measured = mine.iter().find(|o| o.photo == station.photo.id).map(|o| [o.u, o.v]);
+        let mut predicted = station.predicted(measured, met);
+        if let Some(sight) = sights.iter().find(|s| s.station == k) {
+            predicted.off_sigmas = predicted.distance(sight.pixel, sight.sigma_px);
+        }
+        if wanted(&station.photo.id) {
+            let line = |s: &&Sight| {
+                let from = &stations[s.station].photo;
+                let course = epipolar_line(from, &station.photo, s.image);
+                (course.len() > 1).then(|| EpipolarLine { from: from.id.clone(), course })
+            };
+            predicted.lines = others.iter().filter_map(line).collect();
+        }
+        predicted
+    });
+    let photos = photos.collect();
+    let sigma = all.map(|(_, c)| [0, 1, 2].map(|k| c[(k, k)].max(0.0).sqrt()));
+    Ok(Prediction { point: point.into(), rays: sights.len(), xyz: all.map(|(x, _)| x.into()), sigma, photos })
+}
+
+fn stations(project: &Project, adjustment: Option<&Adjustment>) -> Vec<Station> {
+    let adjusted = |id: &str| adjustment.and_then(|a| a.photos.iter().find(|p| p.id == id));
+    let station = |photo: OrientedPhoto| {
+        let (position, rotation) =
+            project.photos.iter().find(|p| p.id == photo.id).and_then(|p| Some((p.position?, p.rotation?)))?;
+        let covariance = adjusted(&photo.id).and_then(covariance).unwrap_or_default();
+        Some(Station { photo, position, rotation, covariance })
+    };
+    OrientedPhoto::all(project).into_iter().filter_map(station).collect()
+}
+
+/// Covariance of a photo's six elements from their standard errors and correlations.
+fn covariance(photo: &AdjustedPhoto) -> Option<Matrix6<f64>> {
+    let (position, angles) = (photo.sigma_position?, photo.sigma_rotation?);
+    let sigma = |k: usize| if k < 3 { position[k] } else { angles[k - 3] };
+    let correlation = |i: usize, j: usize| match &photo.correlation {
+        _ if i == j => 1.0,
+        Some(c) => c.matrix.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0),
+        None => 0.0,
+    };
+    let covariance = Matrix6::from_fn(|i, j| sigma(i) * sigma(j) * correlation(i, j));
+    covariance.iter().all(|c| c.is_finite()).then_some(covariance)
+}
+
+fn sight(stations: &[Station], o: &Observation, sigma0: f64) -> Option<Sight> {
+    let station = stations.iter().position(|s| s.photo.id == o.photo)?;
+    let image = stations[station].photo.ray([o.u, o.v])?;
+    let [su, sv] = o.sigma.both();
+    let sigma_px = (0.5 * (su * su + sv * sv)).sqrt() * sigma0;
+    let sigma_px = if sigma_px.is_finite() { sigma_px.max(FINEST_PX) } else { FINEST_PX };
+    Some(Sight { station, pixel: [o.u, o.v], image, sigma_px })
+}
+
+/// The point that sights meet in, with its covariance.
+fn meet(stations: &[Station], sights: &[&Sight]) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+    let in_image = |s: &Sight| s.sigma_px / stations[s.station].photo.principal_distance_px;
+    let rays = sights.iter().map(|s| {
+        let pose = stations[s.station].photo.pose;
+        Ray { pose, image: s.image, weight: in_image(s).powi(-2) }
+    });
+    let met = intersect(&rays.collect::<Vec<_>>()).ok()?;
+    let mut normal = Matrix3::zeros();
+    for s in sights {
+        let station = &stations[s.station];
+        let measured = Matrix2::identity() * in_image(s).powi(2);
+        let weight = (measured + station.of_pose(&met.point)?).try_inverse()?;
+        let by_point = station.by_point(&met.point);
+        normal += by_point.transpose() * weight * by_point;
+    }
+    let covariance = normal.try_inverse()?;
+    (met.point.iter().chain(covariance.iter()).all(|x| x.is_finite())).then_some((met.point, covariance))
+}
+
+impl Station {
+    /// Derivatives of ideal coordinates by the point.
+    fn by_point(&self, point: &Vector3<f64>) -> Matrix2x3<f64> {
+        let pose = &self.photo.pose;
+        image_jacobian(&pose.to_camera(point)) * pose.object_to_camera
+    }
+
+    /// Covariance of ideal coordinates from that of the exterior orientation, by difference quotients.
+    fn of_pose(&self, point: &Vector3<f64>) -> Option<Matrix2<f64>> {
+        if self.covariance == Matrix6::zeros() {
+            return Some(Matrix2::zeros());
+        }
+        let reach = (point - Vector3::from(self.position)).norm();
+        let image = |k: usize, step: f64| {
+            let (mut position, mut rotation) = (self.position, self.rotation);
+            if k < 3 {
+                position[k] += step
+            } else {
+                rotation[k - 3] += step
+            };
+            let p = rotation::object_to_camera(rotation) * (point - Vector3::from(position));
+            (p.z < 0.0).then(|| Vector2::new(-p.x / p.z, -p.y / p.z))
+        };
+        let mut by_pose = SMatrix::<f64, 2, 6>::zeros();
+        for k in 0..6 {
+            let step = if k < 3 { STEP * reach } else { STEP };
+            by_pose.set_column(k, &((image(k, step)? - image(k, -step)?) / (2.0 * step)));
+        }
+        Some(by_pose * self.covariance * by_pose.transpose())
+    }
+
+    fn pixel(&self, [x, y]: [f64; 2]) -> Option<Vector2<f64>> {
+        pixel_from_camera_point(&self.photo.camera, Vector3::new(x, y, -1.0)).map(Vector2::from)
+    }
+
+    /// Where the photo should show what other photos met in.
+    fn predicted(&self, measured: Option<[f64; 2]>, met: Option<(Vector3<f64>, Matrix3<f64>)>) -> PhotoPrediction {
+        let mut predicted = PhotoPrediction { photo: self.photo.id.clone(), measured, ..PhotoPrediction::default() };
+        let place = || {
+            let (point, cofactors) = met?;
+            let image = self.photo.pose.image(&point)?;
+            let by_point = self.by_point(&point);
+            let ideal = by_point * cofactors * by_point.transpose() + self.of_pose(&point)?;
+            let step = |k: usize, h: f64| self.pixel([0, 1].map(|j| image[j] + if j == k { h } else { 0.0 }));
+            let quotient = |k: usize| Some((step(k, STEP)? - step(k, -STEP)?) / (2.0 * STEP));
+            let scale = Matrix2::from_columns(&[quotient(0)?, quotient(1)?]);
+            let c = scale * ideal * scale.transpose();
+            let finite = c.iter().all(|x| x.is_finite());
+            finite.then_some((self.pixel(image)?, [c[(0, 0)], c[(0, 1)], c[(1, 1)]], self.photo.shows(&point)))
+        };
+        if let Some((pixel, covariance, inside)) = place() {
+            predicted.place = Some(pixel.into());
+            predicted.covariance = Some(covariance);
+            predicted.inside = inside;
+            predicted.off_px = measured.map(|[u, v]| (pixel - Vector2::new(u, v)).norm());
+        }
+        predicted
+    }
+}
+
+impl PhotoPrediction {
+    /// Half axes and angle (from u towards v) of the ellipse of so many standard errors about the place.
+    pub fn ellipse(&self, sigmas: f64) -> Option<[f64; 3]> {
+        let [uu, uv, vv] = self.covariance?;
+        let (mean, difference) = (0.5 * (uu + vv), 0.5 * (uu - vv));
+        let radius = difference.hypot(uv);
+        let axis = |variance: f64| sigmas * variance.max(0.0).sqrt();
+        Some([axis(mean + radius), axis(mean - radius), 0.5 * uv.atan2(difference)])
+    }
+
+    /// Distance of a measurement of standard error `sigma_px` from the place, in standard errors of both.
+    pub fn distance(&self, [u, v]: [f64; 2], sigma_px: f64) -> Option<f64> {
+        let ([pu, pv], [uu, uv, vv]) = (self.place?, self.covariance?);
+        let own = sigma_px.max(FINEST_PX).powi(2);
+        let both = Matrix2::new(uu + own, uv, uv, vv + own).try_inverse()?;
+        let d = Vector2::new(u - pu, v - pv);
+        Some((d.transpose() * both * d)[0].max(0.0).sqrt())
+    }
+
+    /// Targets that may be the point, nearest first: their places in the list, with their distances in standard errors.
+    pub fn candidates(&self, targets: &[Target]) -> Vec<(usize, f64)> {
+        let sigma = |t: &Target| (0.5 * (t.sigma_u.powi(2) + t.sigma_v.powi(2))).sqrt();
+        let near = |(k, t): (usize, &Target)| Some((k, self.distance([t.u, t.v], sigma(t)).filter(|d| *d <= GATE)?));
+        let mut found = targets.iter().enumerate().filter_map(near).collect::<Vec<_>>();
+        found.sort_by(|a, b| a.1.total_cmp(&b.1));
+        found
+    }
+}
+
+#[cfg(test)]
+#[path = "predict/tests.rs"]
+mod tests;

@@ -1,0 +1,555 @@
+//! The document as tables: what stands in each cell. Nothing is copied until a row is looked at, so that a hundred thousand
+//! rows cost no more than their order.
+
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, HashMap};
+
+use serde::{Deserialize, Serialize};
+use sightline::adjustment::AdjustedObservation;
+use sightline::project::Role;
+
+use super::natural;
+use crate::edit::cameras::distance_parameter;
+use crate::store::document::{Document, Outcome};
+use crate::store::selection::{Kind, observation_key};
+
+/// The tables.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Table {
+    Photos,
+    Cameras,
+    #[default]
+    Points,
+    Observations,
+    Distances,
+    /// Points with given coordinates.
+    Control,
+    /// Targets with their names.
+    Identities,
+}
+
+/// Columns of the tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Col {
+    Id,
+    File,
+    Camera,
+    TakesPart,
+    Count,
+    Width,
+    Height,
+    Pitch,
+    Distance,
+    Model,
+    Rays,
+    Role,
+    X,
+    Y,
+    Z,
+    SigmaX,
+    SigmaY,
+    SigmaZ,
+    Diameter,
+    Photo,
+    Point,
+    U,
+    V,
+    Sigma,
+    ResidualX,
+    ResidualY,
+    W,
+    Redundancy,
+    From,
+    To,
+    Length,
+    Target,
+    Code,
+    Contrast,
+}
+
+/// What stands in a cell.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    Nothing,
+    Words(String),
+    Count(usize),
+    /// With its decimals.
+    Number(f64, usize),
+    Flag(bool),
+    Role(Role),
+}
+
+impl Table {
+    pub const ALL: [Self; 7] = [
+        Self::Photos,
+        Self::Cameras,
+        Self::Points,
+        Self::Observations,
+        Self::Distances,
+        Self::Control,
+        Self::Identities,
+    ];
+
+    /// What its rows are to the selection.
+    pub fn kind(self) -> Kind {
+        match self {
+            Self::Photos => Kind::Photos,
+            Self::Cameras => Kind::Cameras,
+            Self::Points | Self::Control => Kind::Points,
+            Self::Observations => Kind::Observations,
+            Self::Distances => Kind::Distances,
+            Self::Identities => Kind::Targets,
+        }
+    }
+
+    pub fn columns(self) -> &'static [Col] {
+        use Col::{
+            Camera, Code, Contrast, Count, Diameter, Distance, File, From, Height, Id, Length, Model, Photo, Pitch,
+            Point, Rays, Redundancy, ResidualX, ResidualY, Role, Sigma, SigmaX, SigmaY, SigmaZ, TakesPart, Target, To,
+            U, V, W, Width, X, Y, Z,
+        };
+        match self {
+            Self::Photos => &[Id, File, Camera, TakesPart, Count, X, Y, Z],
+            Self::Cameras => &[Id, Width, Height, Pitch, Distance, Model, Count],
+            Self::Points => &[Id, Rays, Role, X, Y, Z, SigmaX, SigmaY, SigmaZ, Diameter],
+            Self::Observations => &[Photo, Point, U, V, Sigma, TakesPart, ResidualX, ResidualY, W, Redundancy],
+            Self::Distances => &[From, To, Length, Sigma],
+            Self::Control => &[Id, Role, X, Y, Z, SigmaX, SigmaY, SigmaZ, Rays],
+            Self::Identities => &[Photo, Target, Code, Point, U, V, Sigma, Contrast],
+        }
+    }
+
+    /// Columns that together tell the rows apart.
+    pub fn names(self) -> &'static [Col] {
+        match self {
+            Self::Photos | Self::Cameras | Self::Points | Self::Control => &[Col::Id],
+            Self::Observations => &[Col::Photo, Col::Point],
+            Self::Distances => &[Col::From, Col::To],
+            Self::Identities => &[Col::Photo, Col::Target],
+        }
+    }
+
+    /// Whether a cell of the column can be changed.
+    pub fn editable(self, col: Col) -> bool {
+        use Col::{
+            Camera, Diameter, Distance, From, Id, Length, Pitch, Point, Role, Sigma, SigmaX, SigmaY, SigmaZ, TakesPart,
+            To, U, V, X, Y, Z,
+        };
+        match self {
+            Self::Photos => matches!(col, Camera | TakesPart),
+            Self::Cameras => matches!(col, Id | Pitch | Distance),
+            Self::Points => matches!(col, Id | Role | Diameter),
+            Self::Observations => matches!(col, Point | U | V | Sigma | TakesPart),
+            Self::Distances => matches!(col, From | To | Length | Sigma),
+            Self::Control => matches!(col, Id | Role | X | Y | Z | SigmaX | SigmaY | SigmaZ),
+            Self::Identities => matches!(col, Point),
+        }
+    }
+}
+
+/// Rays of a point: taking part, and in all.
+type Rays = HashMap<String, (usize, usize)>;
+
+/// A table of a document.
+pub struct Sheet {
+    pub table: Table,
+    document: Document,
+    result: Option<std::sync::Arc<Outcome>>,
+    /// Points that are shown, where these are not all of them.
+    places: Option<Vec<u32>>,
+    /// Photos and places in their lists of targets.
+    targets: Vec<(String, usize)>,
+    /// Names by photo and number of the target.
+    named: HashMap<(String, u32), String>,
+    rays: Rays,
+    counts: BTreeMap<String, usize>,
+    /// Adjusted points or photos by identifier.
+    adjusted: HashMap<String, usize>,
+}
+
+impl Sheet {
+    pub fn new(table: Table, document: &Document) -> Self {
+        let document = document.clone();
+        let project = &document.project;
+        let result = document.current().cloned();
+        let (mut rays, mut counts, mut adjusted) = (Rays::new(), BTreeMap::<String, usize>::new(), HashMap::new());
+        let (mut targets, mut named, mut places) = (Vec::new(), HashMap::new(), None);
+        match table {
+            Table::Points | Table::Control => {
+                for o in &project.observations {
+                    if !rays.contains_key(&o.point) {
+                        rays.insert(o.point.clone(), (0, 0));
+                    }
+                    if let Some(count) = rays.get_mut(&o.point) {
+                        count.0 += usize::from(o.enabled);
+                        count.1 += 1;
+                    }
+                }
+                if table == Table::Control {
+                    let known = project.points.iter().enumerate().filter(|(_, p)| p.role != Role::Tie);
+                    places = Some(known.map(|(k, _)| k as u32).collect());
+                } else if let Some(result) = &result {
+                    let points = result.adjustment.points.iter().enumerate();
+                    adjusted = points.map(|(k, p)| (p.id.clone(), k)).collect();
+                }
+            }
+            Table::Photos => {
+                for o in project.observations.iter().filter(|o| o.enabled) {
+                    match counts.get_mut(&o.photo) {
+                        Some(count) => *count += 1,
+                        None => drop(counts.insert(o.photo.clone(), 1)),
+                    }
+                }
+                if let Some(result) = &result {
+                    let photos = result.adjustment.photos.iter().enumerate();
+                    adjusted = photos.map(|(k, p)| (p.id.clone(), k)).collect();
+                }
+            }
+            Table::Cameras => {
+                for photo in &project.photos {
+                    *counts.entry(photo.camera.clone()).or_default() += 1;
+                }
+            }
+            Table::Identities => {
+                for photo in &project.photos {
+                    let found = document.detections.get(&photo.id).map_or(0, |d| d.targets.len());
+                    targets.extend((0..found).map(|k| (photo.id.clone(), k)));
+                }
+                let of = |o: &sightline::project::Observation| Some(((o.photo.clone(), o.target?), o.point.clone()));
+                named = project.observations.iter().filter_map(of).collect();
+            }
+            Table::Observations | Table::Distances => {}
+        }
+        Self { table, document, result, places, targets, named, rays, counts, adjusted }
+    }
+
+    pub fn len(&self) -> usize {
+        let project = &self.document.project;
+        match self.table {
+            Table::Photos => project.photos.len(),
+            Table::Cameras => project.cameras.len(),
+            Table::Points | Table::Control => self.places.as_ref().map_or(project.points.len(), Vec::len),
+            Table::Observations => project.observations.len(),
+            Table::Distances => project.distances.len(),
+            Table::Identities => self.targets.len(),
+        }
+    }
+
+    fn point(&self, row: usize) -> &sightline::project::Point {
+        let at = self.places.as_ref().map_or(row, |places| places[row] as usize);
+        &self.document.project.points[at]
+    }
+
+    fn target(&self, row: usize) -> (&str, &sightline::detection::Target) {
+        let (photo, at) = &self.targets[row];
+        (photo, &self.document.detections[photo].targets[*at])
+    }
+
+    /// What the selection calls a row.
+    pub fn key(&self, row: usize) -> String {
+        let project = &self.document.project;
+        match self.table {
+            Table::Photos => project.photos[row].id.clone(),
+            Table::Cameras => project.cameras[row].id.clone(),
+            Table::Points | Table::Control => self.point(row).id.clone(),
+            Table::Observations => observation_key(&project.observations[row].photo, &project.observations[row].point),
+            Table::Distances => row.to_string(),
+            Table::Identities => {
+                let (photo, target) = self.target(row);
+                observation_key(photo, &target.id.to_string())
+            }
+        }
+    }
+
+    /// Whether a row takes part in the adjustment.
+    pub fn takes_part(&self, row: usize) -> bool {
+        let project = &self.document.project;
+        match self.table {
+            Table::Photos => project.photos[row].enabled,
+            Table::Observations => project.observations[row].enabled,
+            Table::Points | Table::Control => {
+                self.rays.get(&self.point(row).id).is_none_or(|(enabled, all)| *all == 0 || *enabled > 0)
+            }
+            _ => true,
+        }
+    }
+
+    fn adjusted_observation(&self, row: usize) -> Option<&AdjustedObservation> {
+        self.result.as_ref()?.adjustment.observations.get(row)
+    }
+
+    /// Baarda's w of an observation, the larger of both coordinates.
+    pub fn w(&self, row: usize) -> Option<f64> {
+        let o = self.adjusted_observation(row).filter(|_| self.table == Table::Observations)?;
+        [o.wx, o.wy].into_iter().flatten().max_by(|a, b| a.abs().total_cmp(&b.abs()))
+    }
+
+    /// Rays of a point that take part.
+    pub fn rays(&self, row: usize) -> usize {
+        self.rays.get(&self.point(row).id).map_or(0, |rays| rays.0)
+    }
+
+    /// Whether a target has a name.
+    pub fn is_named(&self, row: usize) -> bool {
+        let (photo, target) = self.target(row);
+        self.named.contains_key(&(photo.to_owned(), target.id))
+    }
+
+    pub fn value(&self, row: usize, col: Col) -> Value {
+        let value = match self.table {
+            Table::Photos => self.photo_value(row, col),
+            Table::Cameras => self.camera_value(row, col),
+            Table::Points | Table::Control => self.point_value(row, col),
+            Table::Observations => self.observation_value(row, col),
+            Table::Distances => self.distance_value(row, col),
+            Table::Identities => self.target_value(row, col),
+        };
+        value.unwrap_or(Value::Nothing)
+    }
+
+    fn photo_value(&self, row: usize, col: Col) -> Option<Value> {
+        let photo = &self.document.project.photos[row];
+        let adjusted = || self.result.as_ref()?.adjustment.photos.get(*self.adjusted.get(&photo.id)?);
+        let position = |k: usize| Some(Value::Number(adjusted().map(|p| p.position).or(photo.position)?[k], 3));
+        match col {
+            Col::Id => Some(Value::Words(photo.id.clone())),
+            Col::File => Some(Value::Words(photo.file.clone())),
+            Col::Camera => Some(Value::Words(photo.camera.clone())),
+            Col::TakesPart => Some(Value::Flag(photo.enabled)),
+            Col::Count => Some(Value::Count(self.counts.get(&photo.id).copied().unwrap_or(0))),
+            Col::X => position(0),
+            Col::Y => position(1),
+            Col::Z => position(2),
+            _ => None,
+        }
+    }
+
+    fn camera_value(&self, row: usize, col: Col) -> Option<Value> {
+        let camera = &self.document.project.cameras[row];
+        match col {
+            Col::Id => Some(Value::Words(camera.id.clone())),
+            Col::Width => Some(Value::Count(camera.width as usize)),
+            Col::Height => Some(Value::Count(camera.height as usize)),
+            Col::Pitch => Some(Value::Number(camera.pixel_pitch?[0] * 1000.0, 3)),
+            Col::Distance => Some(Value::Number(camera.interior.get(distance_parameter(camera))?, 4)),
+            Col::Model => Some(Value::Words(
+                match camera.interior {
+                    sightline::project::Interior::Brown { .. } => "brown",
+                    sightline::project::Interior::Opencv { .. } => "opencv",
+                }
+                .to_owned(),
+            )),
+            Col::Count => Some(Value::Count(self.counts.get(&camera.id).copied().unwrap_or(0))),
+            _ => None,
+        }
+    }
+
+    fn point_value(&self, row: usize, col: Col) -> Option<Value> {
+        let point = self.point(row);
+        let adjusted = || self.result.as_ref()?.adjustment.points.get(*self.adjusted.get(&point.id)?);
+        let coordinate = |k: usize| Some(Value::Number(adjusted().map(|p| p.xyz).or(point.xyz)?[k], 3));
+        let sigma = |k: usize| {
+            let value = match self.table {
+                Table::Control => point.sigma?[k]?,
+                _ => adjusted()?.sigma?[k],
+            };
+            Some(Value::Number(value, crate::format::decimals_for(value)))
+        };
+        match col {
+            Col::Id => Some(Value::Words(point.id.clone())),
+            Col::Rays => Some(Value::Count(self.rays(row))),
+            Col::Role => Some(Value::Role(point.role)),
+            Col::X => coordinate(0),
+            Col::Y => coordinate(1),
+            Col::Z => coordinate(2),
+            Col::SigmaX => sigma(0),
+            Col::SigmaY => sigma(1),
+            Col::SigmaZ => sigma(2),
+            Col::Diameter => Some(Value::Number(point.diameter?, 2)),
+            _ => None,
+        }
+    }
+
+    fn observation_value(&self, row: usize, col: Col) -> Option<Value> {
+        let o = &self.document.project.observations[row];
+        let adjusted = || self.adjusted_observation(row);
+        match col {
+            Col::Photo => Some(Value::Words(o.photo.clone())),
+            Col::Point => Some(Value::Words(o.point.clone())),
+            Col::U => Some(Value::Number(o.u, 3)),
+            Col::V => Some(Value::Number(o.v, 3)),
+            Col::Sigma => {
+                let [u, v] = o.sigma.both();
+                Some(Value::Number(u.hypot(v) / 2f64.sqrt(), 3))
+            }
+            Col::TakesPart => Some(Value::Flag(o.enabled)),
+            Col::ResidualX => Some(Value::Number(adjusted()?.vx?, 4)),
+            Col::ResidualY => Some(Value::Number(adjusted()?.vy?, 4)),
+            Col::W => Some(Value::Number(self.w(row)?, 2)),
+            Col::Redundancy => {
+                let o = adjusted()?;
+                Some(Value::Number(o.rx?.min(o.ry?), 2))
+            }
+            _ => None,
+        }
+    }
+
+    fn distance_value(&self, row: usize, col: Col) -> Option<Value> {
+        let distance = &self.document.project.distances[row];
+        match col {
+            Col::From => Some(Value::Words(distance.from.clone())),
+            Col::To => Some(Value::Words(distance.to.clone())),
+            Col::Length => Some(Value::Number(distance.length, 4)),
+            Col::Sigma => Some(Value::Number(distance.sigma, crate::format::decimals_for(distance.sigma))),
+            _ => None,
+        }
+    }
+
+    fn target_value(&self, row: usize, col: Col) -> Option<Value> {
+        let (photo, target) = self.target(row);
+        match col {
+            Col::Photo => Some(Value::Words(photo.to_owned())),
+            Col::Target => Some(Value::Count(target.id as usize)),
+            Col::Code => Some(Value::Count(target.code? as usize)),
+            Col::Point => Some(Value::Words(self.named.get(&(photo.to_owned(), target.id))?.clone())),
+            Col::U => Some(Value::Number(target.u, 3)),
+            Col::V => Some(Value::Number(target.v, 3)),
+            Col::Sigma => Some(Value::Number(target.sigma_u.hypot(target.sigma_v) / 2f64.sqrt(), 3)),
+            Col::Contrast => Some(Value::Number(target.contrast, 0)),
+            _ => None,
+        }
+    }
+
+    /// Rows in whose names a text occurs, and that meet a condition.
+    pub fn filtered(&self, text: &str, meets: impl Fn(usize) -> bool) -> Vec<u32> {
+        let text = text.trim().to_lowercase();
+        let words = |row: usize| {
+            text.is_empty()
+                || self.table.columns().iter().any(|col| match self.value(row, *col) {
+                    Value::Words(words) => words.to_lowercase().contains(&text),
+                    _ => false,
+                })
+        };
+        (0..self.len()).filter(|row| meets(*row) && words(*row)).map(|row| row as u32).collect()
+    }
+
+    /// Sorts rows by a column; what has no value comes last either way, and equal ones stay in their order.
+    pub fn sort(&self, rows: &mut [u32], col: Col, descending: bool) {
+        let keys = self.ranks(rows, col);
+        let order = |a: &u32, b: &u32| match (keys[*a as usize], keys[*b as usize]) {
+            (Some(a), Some(b)) if descending => b.total_cmp(&a),
+            (Some(a), Some(b)) => a.total_cmp(&b),
+            (Some(_), None) => Ordering::Less,
+            (None, Some(_)) => Ordering::Greater,
+            (None, None) => Ordering::Equal,
+        };
+        rows.sort_by(order);
+    }
+
+    /// A number for each row that sorts as its cell does: words by their place among all words of the column.
+    fn ranks(&self, rows: &[u32], col: Col) -> Vec<Option<f64>> {
+        let mut ranks = vec![None; self.len()];
+        let mut words = HashMap::<String, Vec<u32>>::new();
+        for &row in rows {
+            ranks[row as usize] = match self.value(row as usize, col) {
+                Value::Nothing => None,
+                Value::Count(n) => Some(n as f64),
+                Value::Number(value, _) if col == Col::W => Some(value.abs()),
+                Value::Number(value, _) => Some(value),
+                Value::Flag(flag) => Some(f64::from(u8::from(flag))),
+                Value::Role(role) => Some(f64::from(role as u8)),
+                Value::Words(word) => {
+                    match words.get_mut(&word) {
+                        Some(rows) => rows.push(row),
+                        None => drop(words.insert(word, vec![row])),
+                    }
+                    None
+                }
+            };
+        }
+        let mut words = words.into_iter().collect::<Vec<_>>();
+        words.sort_by(|a, b| natural(&a.0, &b.0));
+        for (rank, (_, rows)) in words.into_iter().enumerate() {
+            for row in rows {
+                ranks[row as usize] = Some(rank as f64);
+            }
+        }
+        ranks
+    }
+}
+
+impl Value {
+    /// As a spreadsheet takes it: '.' for decimals, no grouping, all digits.
+    pub fn plain(&self) -> String {
+        match self {
+            Self::Nothing => String::new(),
+            Self::Words(words) => words.clone(),
+            Self::Count(n) => n.to_string(),
+            Self::Number(value, _) => value.to_string(),
+            Self::Flag(flag) => u8::from(*flag).to_string(),
+            Self::Role(Role::Tie) => "tie".into(),
+            Self::Role(Role::Control) => "control".into(),
+            Self::Role(Role::Check) => "check".into(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sightline::project::{Observation, Point, Project, Sigma};
+
+    use super::*;
+
+    fn document() -> Document {
+        let seen = |photo: &str, point: &str, u: f64, enabled: bool| Observation {
+            photo: photo.into(),
+            point: point.into(),
+            u,
+            v: 1.0,
+            sigma: Sigma::One(0.1),
+            enabled,
+            target: None,
+        };
+        let point = |id: &str, role: Role| Point { id: id.into(), role, xyz: Some([1.0; 3]), ..Point::default() };
+        let project = Project {
+            points: vec![point("10", Role::Tie), point("9", Role::Control)],
+            observations: vec![seen("1", "10", 5.0, true), seen("1", "9", 7.0, false), seen("2", "10", 6.0, true)],
+            ..Project::default()
+        };
+        Document { project: std::sync::Arc::new(project), ..Document::default() }
+    }
+
+    #[test]
+    fn tables_show_sort_and_filter_their_rows() {
+        let d = document();
+        let sheet = Sheet::new(Table::Observations, &d);
+        let mut rows = sheet.filtered("", |_| true);
+        sheet.sort(&mut rows, Col::Point, false);
+        assert_eq!(rows, [1, 0, 2]);
+        sheet.sort(&mut rows, Col::U, true);
+        assert_eq!(rows, [1, 2, 0]);
+        sheet.sort(&mut rows, Col::W, true);
+        assert_eq!(rows, [1, 2, 0]);
+        assert_eq!(sheet.filtered("10", |row| sheet.takes_part(row)), [0, 2]);
+        assert_eq!(sheet.value(2, Col::U), Value::Number(6.0, 3));
+        assert_eq!((sheet.key(2), sheet.value(1, Col::TakesPart).plain()), (observation_key("2", "10"), "0".into()));
+    }
+
+    #[test]
+    fn points_know_their_rays_and_control_is_a_part_of_them() {
+        let d = document();
+        let points = Sheet::new(Table::Points, &d);
+        assert_eq!((points.len(), points.rays(0), points.takes_part(1)), (2, 2, false));
+        let control = Sheet::new(Table::Control, &d);
+        assert_eq!((control.len(), control.key(0)), (1, "9".into()));
+        assert_eq!(control.value(0, Col::Role).plain(), "control");
+    }
+
+    #[test]
+    fn every_column_that_names_rows_or_can_be_changed_is_in_its_table() {
+        for table in Table::ALL {
+            assert!(table.names().iter().all(|col| table.columns().contains(col)));
+            assert!(table.columns().iter().any(|col| table.editable(*col)));
+        }
+    }
+}

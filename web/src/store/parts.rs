@@ -1,0 +1,84 @@
+//! Small parts of photos, for looking at one point in many of them: cut out by the workers, the last ones kept.
+
+use leptos::prelude::*;
+use leptos::task::spawn_local;
+use sightline_protocol::{ShowPart, Shown};
+
+use super::Desk;
+use super::pool::Outcome;
+use crate::browser::picture::Picture;
+
+/// Parts kept.
+const KEPT: usize = 96;
+/// Parts begin at multiples of this, so that a place that moves a little keeps its part.
+const GRID: f64 = 16.0;
+
+/// A part of a photo, or the asking for it.
+#[derive(Clone)]
+pub struct Part {
+    digest: u64,
+    left: u32,
+    top: u32,
+    side: u32,
+    picture: Option<Picture>,
+}
+
+/// A part of a photo, and where its corner is.
+#[derive(Clone)]
+pub struct Cut {
+    pub picture: Picture,
+    pub left: f64,
+    pub top: f64,
+}
+
+impl Desk {
+    /// The part of a photo around a place, at least so many pixels to either side, as soon as it is there.
+    pub fn part(self, photo: &str, [u, v]: [f64; 2], reach: f64) -> Option<Cut> {
+        let (digest, [width, height]) =
+            self.files.with(|files| files.get(photo).map(|f| (f.digest, f.size.map(f64::from))))?;
+        let side = (2.0 * reach + GRID).min(2048.0);
+        let corner = |at: f64, end: f64| (((at - reach) / GRID).floor() * GRID).clamp(0.0, (end - 1.0).max(0.0));
+        let (left, top) = (corner(u, width), corner(v, height));
+        let (l, t, s) = (left as u32, top as u32, side.ceil() as u32);
+        let is = |part: &&Part| (part.digest, part.left, part.top, part.side) == (digest, l, t, s);
+        if let Some(part) = self.parts.with(|all| all.iter().find(is).cloned()) {
+            return part.picture.map(|picture| Cut { picture, left, top });
+        }
+        self.ask_for_part(photo, Part { digest, left: l, top: t, side: s, picture: None });
+        None
+    }
+
+    fn ask_for_part(self, photo: &str, part: Part) {
+        let Some(file) = self.files.with_untracked(|files| files.get(photo).map(|f| f.content.clone())) else { return };
+        let Part { digest, left, top, side, .. } = part;
+        self.parts.update_untracked(|all| {
+            all.push(part);
+            if all.len() > KEPT {
+                all.remove(0);
+            }
+        });
+        let on_outcome = move |outcome: Outcome<ShowPart>| match outcome {
+            Outcome::Progress(nothing) => match nothing {},
+            // What cannot be shown here is told where the photo itself is asked for.
+            Outcome::Failed(_) => {}
+            Outcome::Done(Shown { width, height }, bytes) => {
+                let Some(bytes) = bytes.into_iter().next().filter(|_| width > 0 && height > 0) else { return };
+                spawn_local(async move {
+                    if let Ok(picture) = Picture::from_rgba(bytes, width, height).await {
+                        let is = |p: &&mut Part| (p.digest, p.left, p.top, p.side) == (digest, left, top, side);
+                        self.parts.update(|all| {
+                            if let Some(part) = all.iter_mut().find(is) {
+                                part.picture = Some(picture);
+                            }
+                        });
+                    }
+                });
+            }
+        };
+        let task = ShowPart { digest, left, top, side };
+        self.pool.with_value(|pool| {
+            let batch = pool.batch();
+            pool.submit(batch, task, vec![file], on_outcome);
+        });
+    }
+}
