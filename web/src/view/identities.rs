@@ -90,12 +90,13 @@ pub fn NamedPhoto() -> impl IntoView {
         at.map(|[u, v]| [u, v, 0.0, 0.0, 0.0])
     });
     view! {
-        <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click>
-            <Question/>
-            <MarkingBar/>
+        <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click over=view! {
             <Show when=move || target.with(Option::is_some)>
                 <div class="docked-loupe"><Loupe target/></div>
             </Show>
+        }.into_any()>
+            <Question/>
+            <MarkingBar/>
         </PhotoView>
     }
 }

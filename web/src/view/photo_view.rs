@@ -61,13 +61,21 @@ pub struct Click {
     pub free: bool,
 }
 
+/// Width and height of what may lie over a corner of the photo, with room around it.
+const OVER: [f64; 2] = [230.0, 260.0];
+
 #[component]
 pub fn PhotoView(
     #[prop(into)] marks: Signal<Vec<Mark>>,
     #[prop(into)] strokes: Signal<Vec<Stroke>>,
     #[prop(into)] summary: Signal<String>,
     on_click: Callback<Click>,
-    #[prop(optional)] children: Option<Children>,
+    /// What lies over a corner of the photo, and gives way to the pointer.
+    #[prop(optional)]
+    over: Option<AnyView>,
+    /// What is asked about the photo: it has a row above it.
+    #[prop(optional)]
+    children: Option<Children>,
 ) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let canvas = NodeRef::<Canvas>::new();
@@ -76,6 +84,14 @@ pub fn PhotoView(
     let bounds = RwSignal::new([0.0_f64; 2]);
     let placement = RwSignal::new(None::<Placement>);
     let cross = RwSignal::new(None::<[f64; 2]>);
+    let aside = RwSignal::new(false);
+    // What lies over a corner goes to the other one before the pointer is there.
+    let give_way = move |[x, y]: [f64; 2]| {
+        let [w, h] = bounds.get_untracked();
+        if y > h - OVER[1] && (x < OVER[0] || x > w - OVER[0]) {
+            aside.set(x > w / 2.0);
+        }
+    };
     let watch = StoredValue::new_local(None);
     canvas.on_load(move |element| {
         watch.set_value(SizeWatch::new(&element, move |element| {
@@ -231,6 +247,7 @@ pub fn PhotoView(
         };
         let at = [(at[0] + by[0]).clamp(0.0, w), (at[1] + by[1]).clamp(0.0, h)];
         cross.set(Some(at));
+        give_way(at);
         let (place, inside) = pixel(at);
         desk.cursor.set(inside.then_some(place));
         true
@@ -258,6 +275,7 @@ pub fn PhotoView(
     };
     let moved = move |e: leptos::ev::PointerEvent| {
         let pointer = event::pointer(&e);
+        give_way([pointer.x, pointer.y]);
         if let Some(p) = placement.get_untracked() {
             let [u, v] = p.to_pixel([pointer.x, pointer.y]);
             let inside = (0.0..=p.size[0]).contains(&u) && (0.0..=p.size[1]).contains(&v);
@@ -343,6 +361,7 @@ pub fn PhotoView(
                 <button class="stage-button" on:click=move |_| zoom_to(1.0)>"1:1"</button>
                 <span class="zoom">{percent}</span>
             </div>
+            <div class="stage-asked">{children.map(|children| children())}</div>
             <div class="stage-body">
                 <canvas node_ref=below class="picture" aria-hidden="true" style:filter=move || desk.layers.with(filter)></canvas>
                 <canvas
@@ -365,7 +384,7 @@ pub fn PhotoView(
                     on:dblclick=move |_| fit()
                 ></canvas>
                 {absent}
-                {children.map(|children| children())}
+                {over.map(|over| view! { <div class="over" class:aside=aside>{over}</div> })}
             </div>
             <Insets/>
             <div class="legend">
