@@ -8,7 +8,7 @@ import { open } from './browser.mjs';
 import { go, sample } from './desk.mjs';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-const steps = ['photos', 'targets', 'identities', 'control', 'adjust', 'results'];
+const steps = ['photos', 'targets', 'identities', 'control', 'adjust', 'results', 'tables'];
 const longer = { timeout: 900_000 };
 
 /** What axe-core finds of WCAG 2.2 AA, each as rule, target and words. */
@@ -20,6 +20,27 @@ async function violations(page) {
     const { violations: found } = await globalThis.axe.run(document, { runOnly, rules: { 'label-content-name-mismatch': { enabled: true } } });
     return found.flatMap((rule) => rule.nodes.map((node) => `${rule.id}: ${node.target.join(' ')} ${node.failureSummary.split('\n')[1]?.trim()}`));
   });
+}
+
+/** Goes to a step of the path, or to the tables beside it, and chooses something where much depends on that. */
+async function to(page, step) {
+  if (step === 'tables') {
+    if (await page.locator('.tools .menu').isVisible()) await page.click('.tools .menu');
+    await page.click('.to-tables');
+    await page.locator('.sheet tr.data td').first().click();
+    await page.click('[data-action=rename]');
+    await page.waitForSelector('.sheet-form');
+    return;
+  }
+  await go(page, step);
+  if (step === 'identities') {
+    await page.click('.columns tr.data');
+    await page.click('[data-action=series]');
+    await page.click('[data-action=layers]');
+    await page.waitForSelector('.layers');
+    await page.click('[data-action=layers]');
+    await page.click('[data-action=series]');
+  }
 }
 
 /** Opens what is folded, so that it is looked at too. */
@@ -34,8 +55,7 @@ test('axe-core finds nothing on any step, in any theme', longer, async () => {
     for (const theme of ['Light', 'Dark', 'Sun']) {
       assert.equal(await page.getAttribute('html', 'data-theme'), theme.toLowerCase());
       for (const step of steps) {
-        await go(page, step);
-        if (step === 'identities') await page.click('.columns tr.data');
+        await to(page, step);
         await unfold(page);
         for (const line of await violations(page)) found.push(`${theme} ${step} ${line}`);
         assert.equal(await page.locator('h1').count(), 1, step);
@@ -71,8 +91,7 @@ test('on a phone nothing is cut or covered, and everything can be hit with a fin
     for (const language of ['en', 'ko']) {
       assert.equal(await page.getAttribute('html', 'lang'), language);
       for (const step of steps) {
-        await go(page, step);
-        if (step === 'identities') await page.click('.columns tr.data');
+        await to(page, step);
         await unfold(page);
         for (const line of await small(page)) found.push(`${language} ${step} ${line}`);
         // The words of the open step stand whole, and bar, buttons and page keep apart.

@@ -1,5 +1,6 @@
 // Measuring by hand without codes: point after point through the photos, with what is predicted, by mouse, keys and finger.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { before, test } from 'node:test';
 
 import { open } from './browser.mjs';
@@ -144,6 +145,63 @@ test('a point is measured by keys alone, and by a finger alone', longer, async (
       }
     }
     assert.equal(await page.locator('.insets li button').count(), 3);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+/** A photo in which the surroundings of a place are seen once more, at the top left. */
+const twice = (page, path, { u, v }) =>
+  page.evaluate(
+    async ([data, u, v]) => {
+      const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(data), (c) => c.charCodeAt(0))]));
+      const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+      const context = canvas.getContext('2d');
+      context.drawImage(bitmap, 0, 0);
+      context.drawImage(bitmap, u - 60, v - 60, 120, 120, 10, 10, 120, 120);
+      const bytes = new Uint8Array(await (await canvas.convertToBlob({ type: 'image/png' })).arrayBuffer());
+      let text = '';
+      for (let i = 0; i < bytes.length; i += 0x8000) text += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
+      return btoa(text);
+    },
+    [readFileSync(path).toString('base64'), u, v],
+  );
+
+test('a code that is seen twice is a question, answered with one key', longer, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    const coded = project.observations.find((o) => o.photo === 'sample-1' && o.point === '11');
+    const path = scratch('sample-1.png', Buffer.from(await twice(page, paths[0], coded), 'base64'));
+    await photos(page, [path]);
+    await go(page, 'targets');
+    await page.click('[data-action=detect]');
+    await idle(page);
+    await go(page, 'identities');
+    assert.match(await page.textContent('.questions h2'), /Questions 2/);
+    assert.equal(await page.locator('.columns tr[data-key="11"]').count(), 0);
+    await page.keyboard.press('d');
+    await page.waitForSelector('form.question');
+    assert.match(await page.textContent('form.question p'), /Is this point 11\? code read twice in photo 1\. Question 1 of 2/);
+    // No, and the other one is asked; yes, and nothing is left to ask.
+    await page.keyboard.press('n');
+    await page.waitForFunction(() => /Question 1 of 1/.test(document.querySelector('form.question p')?.textContent ?? ''));
+    await page.keyboard.press('y');
+    await page.waitForSelector('.questions', { state: 'detached' });
+    assert.equal(await page.locator('.columns tr[data-key="11"]').count(), 1);
+    // Each answer is a step of its own.
+    await page.keyboard.press('Control+z');
+    await page.keyboard.press('Control+z');
+    assert.match(await page.textContent('.questions h2'), /Questions 2/);
+    // Keys rest while something is typed, and are listed under "?".
+    await page.fill('.project-name', 'd?');
+    assert.equal(await page.locator('dialog[open]').count(), 0);
+    await page.locator('canvas.photo').focus();
+    await page.keyboard.press('?');
+    await page.waitForSelector('dialog[open]');
+    assert.ok((await page.locator('dialog[open] dt').count()) >= 30);
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('dialog[open]', { state: 'detached' });
     assert.deepEqual(errors, []);
   } finally {
     await close();

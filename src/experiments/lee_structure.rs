@@ -91,6 +91,7 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
         charts: vec![chart(&outcomes)],
         assumptions: vec![
             Assumption::new("base_distance", "mm", DISTANCE, 5500.0),
+            Assumption::new("ray_on_wall", "mm", ray_on_wall(options), None),
             Assumption::new("outer_stations", "mm", OUTER, None),
             Assumption::new("relief", "mm", RELIEF, None),
             Assumption::of_kind("parameters_observed"),
@@ -108,6 +109,13 @@ pub fn drawings(options: &ExperimentOptions) -> Result<Vec<Drawing>> {
     }
     let others = NETWORKS.into_iter().filter(|name| *name != first);
     Ok(std::iter::once(first).chain(others).map(|name| Drawing::of(name, &network(name, options))).collect())
+}
+
+/// Standard error of one ray across its direction on the wall, mm, two digits: why the paper's figures cannot be had from here.
+fn ray_on_wall(options: &ExperimentOptions) -> f64 {
+    let c = lee_calibration::dcs420().interior.get(Parameter::C).unwrap_or(f64::NAN);
+    let ray = options.image_sigma_um.unwrap_or(3.0) / 1000.0 * DISTANCE / c;
+    (ray * 100.0).round() / 100.0
 }
 
 /// A network of the wall.

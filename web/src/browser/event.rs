@@ -151,6 +151,20 @@ pub fn value(event: &Event) -> String {
     }
 }
 
+/// Empties a text area.
+pub fn clear(event: &Event) {
+    if let Some(area) = event.target().and_then(|t| t.dyn_into::<HtmlTextAreaElement>().ok()) {
+        area.set_value("");
+    }
+}
+
+/// Puts a select back to its first choice: it was a verb.
+pub fn choose_first(event: &Event) {
+    if let Some(select) = event.target().and_then(|t| t.dyn_into::<HtmlSelectElement>().ok()) {
+        select.set_selected_index(0);
+    }
+}
+
 /// Whether a check box is ticked.
 pub fn checked(event: &Event) -> bool {
     event.target().and_then(|t| t.dyn_into::<HtmlInputElement>().ok()).is_some_and(|i| i.checked())

@@ -139,6 +139,21 @@ pub fn scroll_state(frame: &HtmlElement, row: &str) -> (f64, f64, Option<f64>) {
     (f64::from(frame.scroll_top()), f64::from(frame.client_height()), row.filter(|h| *h > 0.0))
 }
 
+/// Gives the first such element of a box the focus.
+pub fn focus_in(frame: &HtmlElement, which: &str) {
+    if let Some(element) = frame.query_selector(which).ok().flatten().and_then(|e| e.dyn_into::<HtmlElement>().ok()) {
+        let _ = element.focus();
+    }
+}
+
+/// Gives the element of this name the focus.
+pub fn focus_id(id: &str) {
+    let found = window().and_then(|w| w.document()).and_then(|d| d.get_element_by_id(id));
+    if let Some(element) = found.and_then(|e| e.dyn_into::<HtmlElement>().ok()) {
+        let _ = element.focus();
+    }
+}
+
 /// A name that no other has.
 pub fn unique_name() -> String {
     let part = || format!("{:08x}", (js_sys::Math::random() * 4_294_967_296.0) as u32);

@@ -252,9 +252,8 @@ impl<'a> Editor<'a> {
             }
             return Ok(false);
         }
-        let elsewhere = |o: &sightline::project::Observation| {
-            o.photo == photo && o.point == name && o.target != Some(number)
-        };
+        let elsewhere =
+            |o: &sightline::project::Observation| o.photo == photo && o.point == name && o.target != Some(number);
         if self.document.project.observations.iter().any(elsewhere) {
             return Err(Refusal::BothInPhoto(photo.to_owned()));
         }
@@ -326,7 +325,10 @@ mod tests {
             target: Some(1),
         };
         let project = Project {
-            cameras: vec![Camera::new("a", 10, 10, Interior::brown(5.0)), Camera::new("b", 10, 10, Interior::brown(5.0))],
+            cameras: vec![
+                Camera::new("a", 10, 10, Interior::brown(5.0)),
+                Camera::new("b", 10, 10, Interior::brown(5.0)),
+            ],
             photos: vec![Photo { id: "1".into(), camera: "a".into(), enabled: true, ..Photo::default() }],
             points: ["p", "q", "r"].map(|id| Point { id: id.into(), ..Point::default() }).into(),
             observations: vec![seen("1", "p"), seen("1", "q"), seen("2", "r")],
@@ -381,7 +383,10 @@ mod tests {
         let p = &d.project;
         assert_eq!((p.photos[0].camera.as_str(), p.photos[0].enabled, p.cameras[0].id.as_str()), ("b", false, "c"));
         assert_eq!(p.points.iter().map(|p| p.id.as_str()).collect::<Vec<_>>(), ["p", "q", "s"]);
-        assert_eq!((p.points[0].role, p.points[0].xyz, p.points[0].sigma), (Role::Control, Some([1.5, 0.0, 0.0]), None));
+        assert_eq!(
+            (p.points[0].role, p.points[0].xyz, p.points[0].sigma),
+            (Role::Control, Some([1.5, 0.0, 0.0]), None)
+        );
         let o = p.observations.iter().find(|o| o.point == "s").expect("an observation");
         assert_eq!((o.u, o.target, p.distances[0].length), (7.0, None, 2.5));
     }

@@ -40,7 +40,8 @@ pub fn delete(document: &mut Document, table: Table, keys: &Keys) -> usize {
     let before = count(document, table);
     match table {
         Table::Photos => {
-            let photos = document.project.photos.iter().filter(|p| keys.contains(&p.id)).map(|p| p.id.clone()).collect();
+            let photos =
+                document.project.photos.iter().filter(|p| keys.contains(&p.id)).map(|p| p.id.clone()).collect();
             cameras::remove_photos(document, &photos);
         }
         Table::Cameras => {
@@ -90,8 +91,12 @@ fn count(document: &Document, table: Table) -> usize {
 
 /// Gives points a role. How many have another one now.
 pub fn set_roles(project: &mut Project, ids: &Keys, role: Role) -> usize {
-    let others = project.points.iter_mut().filter(|p| ids.contains(&p.id) && p.role != role);
-    others.map(|p| p.role = role).count()
+    let mut changed = 0;
+    for point in project.points.iter_mut().filter(|p| ids.contains(&p.id) && p.role != role) {
+        point.role = role;
+        changed += 1;
+    }
+    changed
 }
 
 /// Makes points one: it has the name of the one that is known, else of the first.
@@ -325,13 +330,17 @@ mod tests {
         assert_eq!(p, before);
         let at = |id: &str, x: f64| (id.to_owned(), [x, 0.0, 0.0]);
         let names = by_nearest(&[at("u1", 0.0), at("u2", 1.0), at("u3", 9.0)], &[at("A", 0.4), at("B", 1.1)], 0.5);
-        assert_eq!(names.into_iter().collect::<Vec<_>>(), [("u1", "A"), ("u2", "B")].map(|(a, b)| (a.into(), b.into())));
+        assert_eq!(
+            names.into_iter().collect::<Vec<_>>(),
+            [("u1", "A"), ("u2", "B")].map(|(a, b)| (a.into(), b.into()))
+        );
     }
 
     #[test]
     fn cameras_of_one_grid_become_one() {
         let mut p = project();
-        p.cameras = [("x", 10), ("y", 10), ("z", 20)].map(|(id, w)| Camera::new(id, w, 10, Interior::brown(1.0))).into();
+        p.cameras =
+            [("x", 10), ("y", 10), ("z", 20)].map(|(id, w)| Camera::new(id, w, 10, Interior::brown(1.0))).into();
         p.photos = vec![Photo { id: "1".into(), camera: "y".into(), ..Photo::default() }];
         assert_eq!(join_cameras(&mut p, &keys(&["x", "z"])), None);
         assert_eq!(join_cameras(&mut p, &keys(&["x", "y"])).as_deref(), Some("x"));

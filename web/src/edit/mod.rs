@@ -2,10 +2,16 @@
 //! does one thing, says what else it did, and refuses what would damage the document. The desk's verbs make them undoable.
 
 pub mod cameras;
+pub mod cells;
 pub mod control;
+pub mod many;
 pub mod points;
+pub mod questions;
 pub mod report;
+pub mod sheet;
 pub mod targets;
+#[cfg(test)]
+mod undoing;
 
 use std::cmp::Ordering;
 

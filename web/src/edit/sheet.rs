@@ -177,12 +177,10 @@ impl Sheet {
         match table {
             Table::Points | Table::Control => {
                 for o in &project.observations {
-                    if !rays.contains_key(&o.point) {
-                        rays.insert(o.point.clone(), (0, 0));
-                    }
-                    if let Some(count) = rays.get_mut(&o.point) {
-                        count.0 += usize::from(o.enabled);
-                        count.1 += 1;
+                    let enabled = usize::from(o.enabled);
+                    match rays.get_mut(&o.point) {
+                        Some(count) => *count = (count.0 + enabled, count.1 + 1),
+                        None => drop(rays.insert(o.point.clone(), (enabled, 1))),
                     }
                 }
                 if table == Table::Control {

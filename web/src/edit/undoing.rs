@@ -72,7 +72,10 @@ fn document() -> Document {
     project.photos[0].position = Some([1.0; 3]);
     project.photos[0].sigma_position = Some([Some(0.1); 3]);
     points::tidy(&mut project);
-    let found = |n: u32| Detection { targets: (1..=n).map(|k| target(k, f64::from(k) * 10.0, 5.0)).collect(), ..Detection::default() };
+    let found = |n: u32| Detection {
+        targets: (1..=n).map(|k| target(k, f64::from(k) * 10.0, 5.0)).collect(),
+        ..Detection::default()
+    };
     let detections = [("1", 4), ("2", 4), ("3", 3)].map(|(photo, n)| (photo.to_owned(), Arc::new(found(n))));
     let doubtful = |photo: &str, number: u32, point: &str| Doubtful {
         photo: photo.into(),

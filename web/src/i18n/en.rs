@@ -406,7 +406,102 @@ declare! { desk {
     picture_contrast: "contrast";
     as_it_is: "As it is";
 
+    // Keys
+    keys_title: "Keys";
+    keys_note: "Keys rest while something is typed.";
+    single_keys: "keys of a single letter";
+    close: "Close";
+    keys_everywhere: "Everywhere";
+    keys_measuring: "Measuring";
+    keys_in_photo: "In the photo";
+    keys_in_tables: "In tables";
+    key_escape: "take back what is chosen or asked";
+    key_yes: "yes: take the target that is asked for";
+    key_no: "no; or the next photo of the point";
+    key_doubtful: "next doubtful";
+    key_exclude: "exclude or restore the chosen observation";
+    key_photos: "next and previous photo";
+    key_arrows: "move what is chosen by 1 px, Shift 10, Alt 0.1; else the cross";
+    key_enter: "measure at the cross";
+    key_one_to_one: "1:1";
+    key_zoom: "zoom";
+    key_pan: "hold to pan";
+    key_cells: "from cell to cell";
+    key_range: "mark a range";
+    key_all: "mark all";
+    key_edit: "type into the cell";
+
+    // Open questions
+    questions: "Questions";
+    question_of(n, all): "Question {n} of {all}";
+    is_this(point): "Is this point {point}?";
+    which_is_this: "Which point is this?";
+    no: "No";
+    other: "another";
+    next_question: "Next";
+    answer_them: "Answer them";
+    no_questions: "No question is open.";
+
+    // Tables
+    tables: "Tables";
+    observations_table: "Observations";
+    file: "file";
+    width: "width";
+    height: "height";
+    model: "model";
+    point_column: "point";
+    target_column: "target";
+    code: "code";
+    all_rows: "all";
+    few_rays: "rays < 3";
+    large_w: "|w| too large";
+    marked_rows: "marked";
+    rows_shown(shown, all): "{shown} of {all} {all:row|rows} shown. Enter types into a cell; Shift and Control mark rows.";
+    filter_text: "find by name";
+    conditions: "Which rows";
     rows_marked(n): "{n} marked";
+    exclude: "Exclude";
+    restore: "Restore";
+    rename_many: "Rename…";
+    merge: "Merge";
+    split: "Split off";
+    join_cameras: "Make one camera";
+    fill_down: "Fill down";
+    delete_rows: "Delete";
+    paste: "Paste";
+    pattern: "pattern";
+    pattern_start: "from";
+    pattern_hint: "A row of # is the number, * the old name: P### gives P001, P002, in the order of the names.";
+    nearest_tolerance: "not farther than";
+    rename_nearest(n): "Name by the nearest of {n} given points";
+    nearest_hint: "To name points by the nearest given coordinates, open their list at the step Control, scale first.";
+    nearest_none: "No adjusted point lies so near to a given one.";
+    paste_cells: "Paste rows here (Ctrl+V)";
+    plan_counts(good, bad, lost): "{good} {good:cell|cells} to change, {bad} refused, {lost} {lost:line|lines} without a row";
+    take_changes: "Take the changes";
+    value_of_cell: "Value of the cell";
+    refused_no_row: "There is no such row any more.";
+    refused_not_editable: "This column cannot be changed.";
+    refused_flag(typed): "\"{typed}\" is neither yes nor no: type 1 or 0.";
+    refused_role(typed): "\"{typed}\" is no role: type tie, control or check.";
+    refused_camera(typed): "There is no camera \"{typed}\": type the name of one of this project.";
+    cells_refused(n, why): "{n} {n:cell was|cells were} not changed: {why}";
+    nothing_to_delete: "Nothing was deleted: a camera stays while photos are of it.";
+    merge_clash(photo): "Photo {photo} shows both: they cannot be one point.";
+    split_one_point: "Mark observations of one point only: they become a point of their own.";
+    split_leaves_nothing: "All observations of the point are marked: leave one to it at least.";
+    name_twice(name): "Two points would be called {name}: put a row of # into the pattern.";
+    cameras_differ: "Only cameras whose photos have the same size can be one.";
+    change_cells(n, table): "{n} {n:cell|cells} edited, {table}";
+    change_rows_excluded(n, table): "{n} {n:row|rows} excluded, {table}";
+    change_rows_restored(n, table): "{n} {n:row|rows} restored, {table}";
+    change_rows_deleted(n, table): "{n} {n:row|rows} deleted, {table}";
+    change_roles(n, role): "{n} {n:point is|points are} {role} now";
+    change_merged(n, into): "{n} points merged into {into}";
+    change_split(point, new): "point {new} split off point {point}";
+    change_points_renamed(n): "{n} {n:point|points} renamed";
+    change_cameras_joined(n, into): "{n} cameras made one, {into}";
+    change_question(photo): "question in photo {photo} answered";
 
     // Control and scale
     control_and_scale: "Control, scale";
@@ -893,6 +988,8 @@ declare! { experiments {
     a_centroid: "Intensity centroids are adjusted, the paper's better weighting; other centres can be chosen above.";
     a_base_distance(v, paper):
         "Base line {v} mm from the wall; the paper says about {paper} mm, from where this camera sees 3.7 × 2.5 m of the 6.3 × 3.5 m wall. At 7.4 m network I has the paper's 374 equations, but the photos of II miss the upper and lower rows. Standard errors grow with the distance.";
+    a_ray_on_wall(v):
+        "Ours are two to three times the paper's. A ray is uncertain by {v} mm on the wall here, and six of them leave 0.4 of that at best. With 3 µm the paper's 0.273 mm of network I takes 21 rays, or a camera at 4.6 m, from where a photo holds less than a third of the wall; its 374 equations ask for 30 of the 38 targets in every photo. Its standard errors and its equations are not of one geometry: compare order and gains, not sizes.";
     a_outer(v):
         "Outer stations of network I {v} mm from the middle: not printed. From 5 000 to 7 500 mm the order III, I, II in depth is the same.";
     a_relief(v): "Targets on pillars stand {v} mm before the wall: not printed.";

@@ -7,7 +7,9 @@ use serde::{Deserialize, Serialize};
 use sightline::adjustment::{AdjustOptions, Adjustment};
 use sightline::detection::Detection;
 use sightline::matching::Doubtful;
-use sightline::project::{Parameter, Project};
+use sightline::project::{Parameter, Project, Role};
+
+use crate::edit::sheet::Table;
 
 use crate::edit::targets::Rings;
 
@@ -70,6 +72,7 @@ impl Document {
             && self.options == other.options
             && Arc::ptr_eq(&self.project, &other.project)
             && Arc::ptr_eq(&self.detections, &other.detections)
+            && Arc::ptr_eq(&self.doubtful, &other.doubtful)
     }
 
     pub fn project_mut(&mut self) -> &mut Project {
@@ -114,6 +117,15 @@ pub enum Change {
     UnitSet,
     ReportEdited,
     Opened,
+    CellsEdited { table: Table, cells: usize },
+    RowsSwitched { table: Table, rows: usize, enabled: bool },
+    RowsDeleted { table: Table, rows: usize },
+    RolesSet { points: usize, role: Role },
+    PointsMerged { points: usize, into: String },
+    PointSplit { point: String, new: String },
+    PointsRenamed(usize),
+    CamerasJoined { cameras: usize, into: String },
+    QuestionAnswered { photo: String },
 }
 
 /// A change and the state on its other side.

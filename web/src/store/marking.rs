@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 
 use leptos::prelude::*;
+use sightline::matching::Prediction;
 
 use super::Desk;
 use super::identity::Asked;
@@ -21,6 +22,8 @@ pub struct Series {
 
 /// How near a place is looked at: photo pixels on either side, at least.
 const NEAR: f64 = 60.0;
+/// How far, in standard errors, a ray may be off where the others say, for a prediction to be believed.
+const SOUND: f64 = 5.0;
 
 impl Desk {
     /// Begins or ends measuring point after point.
@@ -74,7 +77,10 @@ impl Desk {
     /// Photos further on in the list, round to the present one, in which the chosen point should be and is not measured.
     fn further_photos(self) -> Vec<String> {
         let (here, point) = self.selection.with_untracked(|s| (s.photo.clone(), s.point.clone()));
-        let prediction = untrack(|| self.prediction());
+        // What its own rays contradict says nothing of the photos that should not show the point.
+        let sound =
+            |p: &Prediction| p.rays > 2 && p.photos.iter().all(|photo| photo.off_sigmas.is_none_or(|off| off < SOUND));
+        let prediction = untrack(|| self.prediction()).filter(|p| sound(p));
         self.document.with_untracked(|d| {
             let photos = &d.project.photos;
             let of_point = d.project.observations.iter().filter(|o| Some(&o.point) == point.as_ref());

@@ -16,11 +16,13 @@ pub mod pictures;
 pub mod plates;
 pub mod pool;
 pub mod predicting;
+pub mod questions;
 pub mod report;
 pub mod sample;
 pub mod saving;
 pub mod selection;
 pub mod shelf;
+pub mod tables;
 pub mod texts;
 
 use std::collections::BTreeMap;
@@ -37,6 +39,7 @@ use sightline::orient::Note;
 use crate::browser::file::Blob;
 use crate::browser::page;
 use crate::browser::picture::Picture;
+use crate::edit::questions::Question;
 use crate::i18n::{Text, errors, text};
 use control::Pasted;
 use document::{Change, Document, History};
@@ -48,6 +51,7 @@ use pool::{Batch, Pool};
 use predicting::Predicting;
 pub use selection::{Kind, Marking, Selection};
 use shelf::Shelved;
+use tables::Tables;
 
 /// The steps of the path, and the page before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -63,6 +67,8 @@ pub enum Step {
     Report,
     /// Beside the path.
     Experiments,
+    /// Beside the path too.
+    Tables,
 }
 
 impl Step {
@@ -81,11 +87,12 @@ impl Step {
             Self::Results => "results",
             Self::Report => "report",
             Self::Experiments => "experiments",
+            Self::Tables => "tables",
         }
     }
 
     fn from_name(name: &str) -> Self {
-        Self::ROW.into_iter().find(|s| s.name() == name).unwrap_or_default()
+        Self::ROW.into_iter().chain([Self::Tables]).find(|s| s.name() == name).unwrap_or_default()
     }
 }
 
@@ -178,6 +185,15 @@ pub enum Reason {
     NoList,
 }
 
+/// What keys ask of the photo view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ViewVerb {
+    Fit,
+    OneToOne,
+    Nearer,
+    Farther,
+}
+
 /// What is drawn over photos, each to be switched off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layers {
@@ -244,6 +260,15 @@ pub struct Desk {
     /// Whether points are measured one after the other through the photos.
     pub series: RwSignal<Option<Series>>,
     pub predicting: Predicting,
+    /// The question that is asked.
+    pub question: RwSignal<Option<Question>>,
+    pub tables: Tables,
+    /// Whether the list of keys is open.
+    pub help: RwSignal<bool>,
+    /// Whether keys of a single letter act.
+    pub single_keys: RwSignal<bool>,
+    /// What the photo view is asked to do.
+    pub view_verb: RwSignal<Option<ViewVerb>>,
     /// What is drawn over photos.
     pub layers: RwSignal<Layers>,
     /// Whether clicks in a photo place points freely, as with Alt.
@@ -311,6 +336,11 @@ impl Desk {
             show_place: RwSignal::default(),
             series: RwSignal::default(),
             predicting: Predicting::default(),
+            question: RwSignal::default(),
+            tables: Tables::default(),
+            help: RwSignal::default(),
+            single_keys: RwSignal::new(page::preference("single-keys").as_deref() != Some("off")),
+            view_verb: RwSignal::default(),
             layers: RwSignal::default(),
             placing: RwSignal::default(),
             // Whoever has coded targets expects them to be read; photos without rings are the same either way.
@@ -417,6 +447,12 @@ impl Desk {
     pub fn set_theme(self, theme: Theme) {
         page::set_preference("theme", theme.name());
         self.theme.set(theme);
+    }
+
+    /// Lets keys of a single letter act or not.
+    pub fn set_single_keys(self, on: bool) {
+        page::set_preference("single-keys", if on { "on" } else { "off" });
+        self.single_keys.set(on);
     }
 
     /// Tells something of the document as it is.

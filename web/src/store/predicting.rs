@@ -81,7 +81,7 @@ impl Desk {
     }
 
     fn follow_orientation(self) {
-        let here = matches!(self.step.get(), Step::Targets | Step::Identities);
+        let here = matches!(self.step.get(), Step::Targets | Step::Identities | Step::Tables);
         if !here || self.predicting.situating.get() {
             return;
         }

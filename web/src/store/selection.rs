@@ -6,16 +6,21 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use leptos::prelude::*;
-use sightline::project::{Observation, Project};
+use sightline::project::Observation;
 
 use super::Desk;
+use super::document::Document;
 
 /// What can be marked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     Photos,
+    Cameras,
     Points,
     Observations,
+    Distances,
+    /// By photo and number.
+    Targets,
 }
 
 /// How a row is chosen.
@@ -93,6 +98,10 @@ impl Selection {
         self.marked.insert(kind, keys);
     }
 
+    pub fn unmark(&mut self, kind: Kind) {
+        self.marked.remove(&kind);
+    }
+
     /// A thing has another name.
     pub fn renamed(&mut self, kind: Kind, from: &str, to: &str) {
         if self.marked.get_mut(&kind).is_some_and(|keys| keys.remove(from)) {
@@ -102,10 +111,17 @@ impl Selection {
 }
 
 /// Whether there is such a thing in the project.
-fn exists(project: &Project, kind: Kind, key: &str) -> bool {
+fn exists(document: &Document, kind: Kind, key: &str) -> bool {
+    let project = &document.project;
     match kind {
         Kind::Photos => project.photos.iter().any(|p| p.id == key),
+        Kind::Cameras => project.cameras.iter().any(|c| c.id == key),
         Kind::Points => project.points.iter().any(|p| p.id == key),
+        Kind::Distances => key.parse::<usize>().is_ok_and(|k| k < project.distances.len()),
+        Kind::Targets => observation_of_key(key).is_some_and(|(photo, target)| {
+            let number = target.parse().unwrap_or(0);
+            document.detections.get(photo).is_some_and(|d| d.target(number).is_some())
+        }),
         Kind::Observations => observation_of_key(key)
             .is_some_and(|(photo, point)| project.observations.iter().any(|o| o.photo == photo && o.point == point)),
     }
@@ -116,9 +132,9 @@ impl Desk {
     pub fn marked(self, kind: Kind) -> BTreeSet<String> {
         let keys = self.selection.with(|s| s.marked(kind).cloned()).unwrap_or_default();
         if keys.len() < 2 {
-            return self.document.with(|d| keys.into_iter().filter(|key| exists(&d.project, kind, key)).collect());
+            return self.document.with(|d| keys.into_iter().filter(|key| exists(d, kind, key)).collect());
         }
-        let there = self.document.with(|d| keys_of(&d.project, kind));
+        let there = self.document.with(|d| keys_of(d, kind));
         keys.into_iter().filter(|key| there.contains(key)).collect()
     }
 
@@ -136,6 +152,12 @@ impl Desk {
                     self.look_at_observation(photo, point);
                 }
             }
+            Kind::Targets => {
+                if let Some((photo, target)) = observation_of_key(key) {
+                    self.look_at_target(photo, target.parse().unwrap_or(0));
+                }
+            }
+            Kind::Cameras | Kind::Distances => {}
         }
     }
 
@@ -181,6 +203,22 @@ impl Desk {
             d.project.observations.iter().find(here).map(|o| [o.u, o.v])
         });
         self.centre_on.set(place);
+    }
+
+    /// Shows a target by its number, with the point it is.
+    fn look_at_target(self, photo: &str, number: u32) {
+        let found = self.document.with_untracked(|d| {
+            let targets = &d.detections.get(photo)?.targets;
+            let at = targets.iter().position(|t| t.id == number)?;
+            let named = d.project.observations.iter().find(|o| o.photo == photo && o.target == Some(number));
+            Some((at, [targets[at].u, targets[at].v], named.map(|o| o.point.clone())))
+        });
+        let Some((at, place, point)) = found else { return };
+        self.selection.update(|s| {
+            s.photo = Some(photo.to_owned());
+            (s.target, s.point, s.spot) = (Some(at), point, None);
+        });
+        self.centre_on.set(Some(place));
     }
 
     /// What a click in the photo means: the target there with the name it has, else an observation that lies on no target.
@@ -241,11 +279,20 @@ impl Desk {
 }
 
 /// All keys of a kind.
-fn keys_of(project: &Project, kind: Kind) -> BTreeSet<String> {
+fn keys_of(document: &Document, kind: Kind) -> BTreeSet<String> {
+    let project = &document.project;
     match kind {
         Kind::Photos => project.photos.iter().map(|p| p.id.clone()).collect(),
+        Kind::Cameras => project.cameras.iter().map(|c| c.id.clone()).collect(),
         Kind::Points => project.points.iter().map(|p| p.id.clone()).collect(),
         Kind::Observations => project.observations.iter().map(|o| observation_key(&o.photo, &o.point)).collect(),
+        Kind::Distances => (0..project.distances.len()).map(|k| k.to_string()).collect(),
+        Kind::Targets => {
+            let of = |(photo, found): (&String, &std::sync::Arc<sightline::detection::Detection>)| {
+                found.targets.iter().map(|t| observation_key(photo, &t.id.to_string())).collect::<Vec<_>>()
+            };
+            document.detections.iter().flat_map(of).collect()
+        }
     }
 }
 
@@ -270,6 +317,8 @@ mod tests {
         assert!(s.is_marked(Kind::Points, "e") && !s.is_marked(Kind::Photos, "e"));
         s.mark(Kind::Points, "c", Marking::Only, &order);
         assert_eq!(marked(&s).as_deref(), Some("c"));
+        s.unmark(Kind::Points);
+        assert!(marked(&s).is_none());
     }
 
     #[test]

@@ -12,8 +12,8 @@ use super::selection::{Kind, observation_of_key};
 use super::{Desk, Selection};
 use crate::edit::cells::{self, Cell, Refusal};
 use crate::edit::many::{self, Keys, RenameFault};
-use crate::edit::sheet::{Col, Sheet, Table};
 use crate::edit::natural;
+use crate::edit::sheet::{Col, Sheet, Table};
 use crate::format;
 use crate::i18n::text;
 
@@ -238,7 +238,7 @@ impl Desk {
             self.warn_here(move || text::not_a_length(&typed));
             return false;
         };
-        let given = self.pasted.with_untracked(|p| p.as_ref().map(|p| p.table.split().0)).unwrap_or_default();
+        let given = self.pasted.with_untracked(|p| p.as_ref().map(|p| p.table.clone().split().0)).unwrap_or_default();
         let given = given.into_iter().filter_map(|p| Some((p.id, p.xyz?))).collect::<Vec<_>>();
         let ids = untrack(|| self.marked(Kind::Points));
         let points = self.document.with_untracked(|d| {

@@ -1,5 +1,6 @@
 //! What a change did, in words.
 
+use super::tables::table_words;
 use crate::i18n::text;
 use crate::store::document::Change;
 
@@ -35,5 +36,15 @@ pub fn change_words(change: &Change) -> String {
         Change::UnitSet => text::change_unit().to_owned(),
         Change::ReportEdited => text::change_report().to_owned(),
         Change::Opened => text::change_opened().to_owned(),
+        Change::CellsEdited { table, cells } => text::change_cells(cells, table_words(*table)),
+        Change::RowsSwitched { table, rows, enabled: false } => text::change_rows_excluded(rows, table_words(*table)),
+        Change::RowsSwitched { table, rows, .. } => text::change_rows_restored(rows, table_words(*table)),
+        Change::RowsDeleted { table, rows } => text::change_rows_deleted(rows, table_words(*table)),
+        Change::RolesSet { points, role } => text::change_roles(points, text::role_word(*role)),
+        Change::PointsMerged { points, into } => text::change_merged(points, into),
+        Change::PointSplit { point, new } => text::change_split(point, new),
+        Change::PointsRenamed(n) => text::change_points_renamed(n),
+        Change::CamerasJoined { cameras, into } => text::change_cameras_joined(cameras, into),
+        Change::QuestionAnswered { photo } => text::change_question(photo),
     }
 }

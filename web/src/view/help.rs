@@ -11,9 +11,9 @@ use crate::store::Desk;
 fn all() -> [(Text, Vec<(&'static str, Text)>); 4] {
     [
         (
-            text::keys_everywhere,
+            text::keys_everywhere as Text,
             vec![
-                ("Ctrl Z", text::undo),
+                ("Ctrl Z", text::undo as Text),
                 ("Ctrl Shift Z, Ctrl Y", text::redo),
                 ("Ctrl S", text::save),
                 ("Ctrl Shift S", text::save_with_photos),
@@ -25,7 +25,7 @@ fn all() -> [(Text, Vec<(&'static str, Text)>); 4] {
         (
             text::keys_measuring,
             vec![
-                ("M", text::point_by_point),
+                ("M", text::point_by_point as Text),
                 ("Y", text::key_yes),
                 ("N", text::key_no),
                 ("P", text::next_point),
@@ -37,7 +37,7 @@ fn all() -> [(Text, Vec<(&'static str, Text)>); 4] {
         (
             text::keys_in_photo,
             vec![
-                ("← → ↑ ↓", text::key_arrows),
+                ("← → ↑ ↓", text::key_arrows as Text),
                 ("Enter", text::key_enter),
                 ("Alt Enter", text::place_freely),
                 ("Delete", text::remove_observation),
@@ -50,7 +50,7 @@ fn all() -> [(Text, Vec<(&'static str, Text)>); 4] {
         (
             text::keys_in_tables,
             vec![
-                ("← → ↑ ↓", text::key_cells),
+                ("← → ↑ ↓", text::key_cells as Text),
                 ("Shift ↑ ↓", text::key_range),
                 ("Ctrl A", text::key_all),
                 ("Enter, F2", text::key_edit),

@@ -12,6 +12,7 @@ use super::loupe::Loupe;
 use super::marking::MarkingBar;
 use super::photo_view::{Click, Mark, PhotoView, Style};
 use super::picking::{Question, chosen_target, pick, spot_mark};
+use super::questions::{QuestionBar, QuestionList};
 use super::shell::TitleBar;
 use super::strip::Strip;
 use super::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
@@ -52,6 +53,7 @@ pub fn Identities() -> impl IntoView {
             <Strip/>
             <NamedPhoto/>
             <div class="columns" on:pointerdown=move |_| desk.ask_no_more()>
+                <QuestionList/>
                 <PointsTable/>
                 <MarksPanel/>
                 <PointPanel/>
@@ -97,6 +99,7 @@ pub fn NamedPhoto() -> impl IntoView {
         }.into_any()>
             <Question/>
             <MarkingBar/>
+            <QuestionBar/>
         </PhotoView>
     }
 }

@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use super::transform::Placement;
 use crate::browser::event::Key;
-use crate::store::Desk;
+use crate::store::{Desk, Step, ViewVerb};
 
 /// Does what a key asks for; true when it was used up.
 pub fn handle(desk: Desk, key: &Key) -> bool {
@@ -19,9 +19,56 @@ pub fn handle(desk: Desk, key: &Key) -> bool {
         ("z" | "Z", true, false) => desk.undo(),
         ("z" | "Z", true, true) | ("y" | "Y", true, false) => desk.redo(),
         ("s" | "S", true, with_photos) => desk.save(with_photos),
+        _ => return single(desk, key),
+    }
+    true
+}
+
+/// Keys of a single letter, which can be switched off.
+fn single(desk: Desk, key: &Key) -> bool {
+    let open = desk.document.with_untracked(|d| !d.is_empty());
+    if key.modifiers.control || key.modifiers.alt || !desk.single_keys.get_untracked() || desk.help.get_untracked() {
+        return false;
+    }
+    if key.key == "?" {
+        desk.help.set(true);
+        return true;
+    }
+    if matches!(key.key.as_str(), "t" | "T") && open {
+        desk.go(Step::Tables);
+        return true;
+    }
+    matches!(desk.step.get_untracked(), Step::Targets | Step::Identities | Step::Tables) && measuring(desk, key)
+}
+
+/// What is done with the chosen point and its photos.
+fn measuring(desk: Desk, key: &Key) -> bool {
+    match key.key.as_str() {
+        "y" | "Y" if untrack(|| desk.asked_question()).is_some() => desk.answer_yes(None),
+        "n" | "N" if untrack(|| desk.asked_question()).is_some() => desk.answer_no(),
+        "d" | "D" => desk.next_question(),
+        "y" | "Y" => return answer(desk, |desk| desk.take_candidate()),
+        "n" | "N" => return answer(desk, |desk| desk.next_place()),
+        "p" | "P" if untrack(|| desk.in_series()) => desk.finish_point(),
+        "m" | "M" => desk.switch_series(),
+        "x" | "X" => return exclude(desk),
+        "f" | "F" | "0" => desk.view_verb.set(Some(ViewVerb::Fit)),
+        "1" => desk.view_verb.set(Some(ViewVerb::OneToOne)),
+        "+" | "=" => desk.view_verb.set(Some(ViewVerb::Nearer)),
+        "-" => desk.view_verb.set(Some(ViewVerb::Farther)),
         _ => return false,
     }
     true
+}
+
+fn exclude(desk: Desk) -> bool {
+    match untrack(|| desk.chosen_observation()) {
+        Some(o) => {
+            desk.switch_observation(&o.photo, &o.point, !o.enabled);
+            true
+        }
+        None => false,
+    }
 }
 
 /// The keys of the photo, where it has the focus; true when the key was used up.
@@ -31,10 +78,6 @@ pub fn in_photo(desk: Desk, key: &Key) -> bool {
     }
     match key.key.as_str() {
         "Delete" | "Backspace" => return remove(desk),
-        "y" | "Y" => return answer(desk, |desk| desk.take_candidate()),
-        "n" | "N" => return answer(desk, |desk| desk.next_place()),
-        "p" | "P" if untrack(|| desk.in_series()) => desk.finish_point(),
-        "m" | "M" => desk.switch_series(),
         "PageDown" => desk.next_photo(1),
         "PageUp" => desk.next_photo(-1),
         "ArrowLeft" => return nudge(desk, key, [-1.0, 0.0]),

@@ -10,7 +10,7 @@ use crate::store::Desk;
 
 /// A button with the key that does the same.
 #[component]
-fn Keyed(
+pub fn Keyed(
     words: fn() -> &'static str,
     key: &'static str,
     on_click: Callback<()>,
@@ -36,7 +36,8 @@ pub fn MarkingBar() -> impl IntoView {
     let naming =
         Memo::new(move |_| desk.selection.with(|s| s.point.is_none() && (s.target.is_some() || s.spot.is_some())));
     let shown = move || {
-        !naming.get()
+        desk.asked_question().is_none()
+            && !naming.get()
             && (desk.in_series() || (!here.get() && point.with(Option::is_some) && place.with(Option::is_some)))
     };
     let off = move |target: usize| {

@@ -15,7 +15,7 @@ use crate::browser::canvas::{SizeWatch, Surface, TEXT_SIZE};
 use crate::browser::event::{self, Key, Pointer};
 use crate::format;
 use crate::i18n::text;
-use crate::store::{Desk, Layers};
+use crate::store::{Desk, Layers, ViewVerb};
 
 /// How a mark is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,6 +83,7 @@ pub fn PhotoView(
     let below = NodeRef::<Canvas>::new();
     let bounds = RwSignal::new([0.0_f64; 2]);
     let placement = RwSignal::new(None::<Placement>);
+    let fitted = StoredValue::new(None::<Placement>);
     let cross = RwSignal::new(None::<[f64; 2]>);
     let aside = RwSignal::new(false);
     // What lies over a corner goes to the other one before the pointer is there.
@@ -115,7 +116,9 @@ pub fn PhotoView(
     let fit = move || {
         let [w, h] = bounds.get_untracked();
         if let Some((_, size, orientation)) = frame.get_untracked().filter(|_| w > 0.0) {
-            placement.set(Some(Placement::fitted(size, orientation, w, h)));
+            let whole = Placement::fitted(size, orientation, w, h);
+            fitted.set_value(Some(whole));
+            placement.set(Some(whole));
         }
     };
     let zoom_to = move |scale: f64| {
@@ -126,7 +129,8 @@ pub fn PhotoView(
             }
         });
     };
-    // Another photo, or a first size, fits the photo; a later change of size keeps the zoom.
+    // Another photo, or a first size, fits the photo; after a later change of size a photo shown whole stays whole, and another
+    // keeps its zoom.
     Effect::new(move |last: Option<Option<String>>| {
         let [w, _] = bounds.get();
         let now = frame.get().map(|(photo, ..)| photo);
@@ -134,10 +138,32 @@ pub fn PhotoView(
             fit();
             now
         } else if w > 0.0 {
+            if placement.get_untracked().is_some_and(|p| fitted.get_value() == Some(p)) {
+                fit();
+            }
             now
         } else {
             None
         }
+    });
+    Effect::new(move |_| {
+        let Some(verb) = desk.view_verb.get() else { return };
+        let [w, h] = bounds.get_untracked();
+        let centre = cross.get_untracked().unwrap_or([w / 2.0, h / 2.0]);
+        let zoom = |factor: f64| {
+            placement.update(|p| {
+                if let Some(p) = p {
+                    *p = p.zoomed(factor, centre);
+                }
+            });
+        };
+        match verb {
+            ViewVerb::Fit => fit(),
+            ViewVerb::OneToOne => zoom_to(1.0),
+            ViewVerb::Nearer => zoom(1.5),
+            ViewVerb::Farther => zoom(1.0 / 1.5),
+        }
+        desk.view_verb.set(None);
     });
     // A selection made elsewhere is brought into view.
     Effect::new(move |_| {
@@ -225,22 +251,6 @@ pub fn PhotoView(
                 let ([u, v], inside) = pixel(at);
                 let free = key.modifiers.alt || desk.placing.get_untracked();
                 on_click.run(Click { u, v, reach: 12.0 / p.scale, inside, free });
-                return true;
-            }
-            "+" | "=" => {
-                placement.set(Some(p.zoomed(1.5, at)));
-                return true;
-            }
-            "-" => {
-                placement.set(Some(p.zoomed(1.0 / 1.5, at)));
-                return true;
-            }
-            "0" => {
-                fit();
-                return true;
-            }
-            "1" => {
-                zoom_to(1.0);
                 return true;
             }
             _ => return false,

@@ -85,6 +85,9 @@ pub fn Question(
     let typed = RwSignal::new(String::new());
     let input = NodeRef::<Input>::new();
     let asked = Memo::new(move |_| {
+        if desk.asked_question().is_some() {
+            return None;
+        }
         desk.selection.with(|s| {
             let asked = match (s.target.filter(|_| targets && s.point.is_none()), s.spot) {
                 (_, Some(spot)) => Asked::Spot(spot),

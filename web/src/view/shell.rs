@@ -7,7 +7,7 @@ use super::changes::change_words;
 use super::icon::{Glyph, Icon};
 use super::projects::{StorageLine, StorageNotices, kept_words};
 use super::results::control_figure;
-use super::{adjust, control, experiments, identities, keys, photos, report, results, start, targets};
+use super::{adjust, control, experiments, help, identities, keys, photos, report, results, start, tables, targets};
 use crate::browser::{event, file, page};
 use crate::i18n::{self, errors, experiments as words, text};
 use crate::store::document::Document;
@@ -67,8 +67,10 @@ pub fn App() -> impl IntoView {
                 Step::Results => view! { <results::Results/> }.into_any(),
                 Step::Report => view! { <report::Report/> }.into_any(),
                 Step::Experiments => view! { <experiments::Experiments/> }.into_any(),
+                Step::Tables => view! { <tables::Tables/> }.into_any(),
             }}
             <Foot/>
+            <help::Help/>
         </div>
     }
 }
@@ -136,6 +138,10 @@ fn Head() -> impl IntoView {
                     <button class="text-button" title=text::save_hint on:click=move |e| desk.save(e.shift_key())>{text::save}</button>
                     <button class="text-button" title=text::save_with_photos on:click=move |_| desk.save(true)>{text::save_all}</button>
                 </Show>
+                <Show when=move || !empty.get()>
+                    <button class="text-button to-tables" aria-current=move || (desk.step.get() == Step::Tables).then_some("page")
+                        on:click=move |_| desk.go(Step::Tables)>{text::tables}</button>
+                </Show>
                 <span class="rule"></span>
                 <button
                     class="text-button to-experiments"
@@ -144,6 +150,7 @@ fn Head() -> impl IntoView {
                 >
                     {words::experiments}
                 </button>
+                <button class="text-button" title=text::keys_title on:click=move |_| desk.help.set(true)><span aria-hidden="true">"?"</span> <span class="visually-hidden">{text::keys_title}</span></button>
                 <button
                     class="text-button"
                     aria-label=move || format!("{}, {}", text::other_language(), text::switch_language())
@@ -221,6 +228,7 @@ pub fn step_label(step: Step) -> &'static str {
         Step::Results => text::results(),
         Step::Report => text::report(),
         Step::Experiments => words::experiments(),
+        Step::Tables => text::tables(),
     }
 }
 

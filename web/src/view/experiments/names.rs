@@ -276,6 +276,7 @@ pub fn assumption(a: &Assumption) -> String {
         "pixel_noise" => words::a_pixel_noise(ours),
         "centroid_adjusted" => words::a_centroid().to_owned(),
         "base_distance" => words::a_base_distance(ours, paper),
+        "ray_on_wall" => words::a_ray_on_wall(ours),
         "outer_stations" => words::a_outer(ours),
         "relief" => words::a_relief(ours),
         "parameters_observed" => words::a_observed().to_owned(),

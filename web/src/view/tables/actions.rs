@@ -54,9 +54,9 @@ pub fn Actions(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView 
                     <button class="button small" type="button" data-action="rename" aria-expanded=move || naming.get().to_string()
                         on:click=move |_| naming.update(|on| *on = !*on)>{text::rename_many}</button>
                 </Show>
-                <Show when=move || points() && marked.get() > 1>{button(text::merge, "merge", |desk, _| desk.merge_points())}</Show>
+                <Show when=move || (points() && marked.get() > 1)>{button(text::merge, "merge", |desk, _| desk.merge_points())}</Show>
                 <Show when=move || table.get() == Table::Observations>{button(text::split, "split", |desk, _| desk.split_point())}</Show>
-                <Show when=move || table.get() == Table::Cameras && marked.get() > 1>
+                <Show when=move || (table.get() == Table::Cameras && marked.get() > 1)>
                     {button(text::join_cameras, "join", |desk, _| desk.join_cameras())}
                 </Show>
                 <Show when=move || table.get() == Table::Photos><CameraOfPhotos/></Show>
@@ -105,7 +105,7 @@ fn Naming(naming: RwSignal<bool>) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let (pattern, start) = (RwSignal::new("P##".to_owned()), RwSignal::new("1".to_owned()));
     let tolerance = RwSignal::new(String::new());
-    let given = move || desk.pasted.with(|p| p.as_ref().map(|p| p.table.split().0.len())).filter(|n| *n > 0);
+    let given = move || desk.pasted.with(|p| p.as_ref().map(|p| p.table.clone().split().0.len())).filter(|n| *n > 0);
     view! {
         <form class="sheet-form" on:submit=move |e| {
             e.prevent_default();

@@ -23,8 +23,9 @@ type Typing = Option<(u32, Col, Option<String>)>;
 pub fn copied(desk: Desk, sheet: &Sheet, rows: &[u32]) -> String {
     let marked = untrack(|| desk.marked(sheet.table.kind()));
     let columns = sheet.table.columns();
-    let line = |row: &u32| columns.iter().map(|c| sheet.value(*row as usize, *c).plain()).collect::<Vec<_>>().join("\t");
-    let mut lines = vec![columns.iter().map(|c| plain_heading(sheet.table, *c)).collect::<Vec<_>>().join("\t")];
+    let line =
+        |row: &u32| columns.iter().map(|c| sheet.value(*row as usize, *c).plain()).collect::<Vec<_>>().join("\t");
+    let mut lines = vec![columns.iter().map(|c| plain_heading(desk, sheet.table, *c)).collect::<Vec<_>>().join("\t")];
     let wanted = |row: &&u32| marked.len() < 2 || marked.contains(&sheet.key(**row as usize));
     lines.extend(rows.iter().filter(wanted).map(line));
     lines.join("\n")
@@ -115,6 +116,17 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
             choose((place + 1).min(rows.with_untracked(|r| r.len()).saturating_sub(1)), Marking::Only);
         }
     };
+    let mark_all = move || {
+        let all = sheet
+            .with_untracked(|s| rows.with_untracked(|rows| rows.iter().map(|row| s.0.key(*row as usize)).collect()));
+        desk.selection.update(|s| s.mark_all(untrack(kind), all));
+    };
+    let copy = move || page::copy(&sheet.with_untracked(|s| rows.with_untracked(|rows| copied(desk, &s.0, rows))));
+    let fill = move || {
+        if let Some(col) = untrack(col).filter(|col| untrack(table).editable(*col)) {
+            sheet.with_untracked(|s| rows.with_untracked(|rows| desk.fill_down(&s.0, rows, col)));
+        }
+    };
     let keydown = move |e: leptos::ev::KeyboardEvent| {
         let key = event::key(&e);
         if !key.on_table {
@@ -124,42 +136,41 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
         let page = ((height.get_untracked() / row_height.get_untracked()) as usize).saturating_sub(2).max(1);
         let how = if key.modifiers.shift { Marking::Range } else { Marking::Only };
         let width = untrack(columns).len();
-        let used = match (key.key.as_str(), key.modifiers.control) {
-            ("ArrowDown", false) => (choose((place + 1).min(last), how), true).1,
-            ("ArrowUp", false) => (choose(place.saturating_sub(1), how), true).1,
-            ("PageDown", false) => (choose((place + page).min(last), how), true).1,
-            ("PageUp", false) => (choose(place.saturating_sub(page), how), true).1,
-            ("Home", true) => (choose(0, how), true).1,
-            ("End", true) => (choose(last, how), true).1,
-            ("ArrowRight", false) => (desk.tables.col.update(|c| *c = (*c + 1).min(width - 1)), true).1,
-            ("ArrowLeft", false) => (desk.tables.col.update(|c| *c = c.saturating_sub(1)), true).1,
-            ("Enter" | "F2" | " ", false) => begin(None),
-            ("Delete", false) => (desk.delete_rows(untrack(table)), true).1,
-            ("a" | "A", true) => {
-                let all = sheet.with_untracked(|s| {
-                    rows.with_untracked(|rows| rows.iter().map(|row| s.0.key(*row as usize)).collect())
-                });
-                desk.selection.update(|s| s.mark_all(untrack(kind), all));
-                true
-            }
-            ("c" | "C", true) => {
-                page::copy(&sheet.with_untracked(|s| rows.with_untracked(|rows| copied(desk, &s.0, rows))));
-                true
-            }
-            ("d" | "D", true) => {
-                if let Some(col) = untrack(col).filter(|col| untrack(table).editable(*col)) {
-                    sheet.with_untracked(|s| rows.with_untracked(|rows| desk.fill_down(&s.0, rows, col)));
-                }
-                true
-            }
-            // The field takes what is pasted: the browser gives it to whatever has the focus.
-            ("v" | "V", true) => {
-                page::focus_id("pasted-cells");
-                return;
-            }
-            (typed, false) if typed.chars().count() == 1 && !key.modifiers.alt => begin(Some(typed.to_owned())),
-            _ => false,
+        let to = match (key.key.as_str(), key.modifiers.control) {
+            ("ArrowDown", false) => Some(place + 1),
+            ("ArrowUp", false) => Some(place.saturating_sub(1)),
+            ("PageDown", false) => Some(place + page),
+            ("PageUp", false) => Some(place.saturating_sub(page)),
+            ("Home", true) => Some(0),
+            ("End", true) => Some(last),
+            _ => None,
         };
+        if let Some(to) = to {
+            choose(to.min(last), how);
+        }
+        let verb = |verb: &dyn Fn()| {
+            verb();
+            true
+        };
+        let used = to.is_some()
+            || match (key.key.as_str(), key.modifiers.control) {
+                ("ArrowRight", false) => verb(&|| desk.tables.col.update(|c| *c = (*c + 1).min(width - 1))),
+                ("ArrowLeft", false) => verb(&|| desk.tables.col.update(|c| *c = c.saturating_sub(1))),
+                ("Enter" | "F2" | " ", false) => begin(None),
+                ("Delete", false) => verb(&|| desk.delete_rows(untrack(table))),
+                ("a" | "A", true) => verb(&mark_all),
+                ("c" | "C", true) => verb(&copy),
+                ("d" | "D", true) => verb(&fill),
+                // The field takes what is pasted: the browser gives it to whatever has the focus.
+                ("v" | "V", true) => {
+                    page::focus_id("pasted-cells");
+                    return;
+                }
+                // "?" lists the keys everywhere.
+                ("?", _) => false,
+                (typed, false) if typed.chars().count() == 1 && !key.modifiers.alt => begin(Some(typed.to_owned())),
+                _ => false,
+            };
         if used {
             e.prevent_default();
             e.stop_propagation();
@@ -178,7 +189,7 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
     let heads = move || {
         columns().iter().enumerate().map(|(k, &col)| {
             let by = move || desk.tables.sorting.get().filter(|(by, _)| *by == col).map(|(_, descending)| descending);
-            let (words, unit) = heading(table(), col);
+            let (words, unit) = heading(desk, table(), col);
             view! {
                 <th scope="col" class:left=is_words(col) class:sorted=move || by().is_some() class:at=move || desk.tables.col.get() == k
                     aria-sort=move || match by() {
@@ -198,7 +209,9 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
         let (first, last) = window.get();
         let shared = sheet.get();
         let version = Arc::as_ptr(&shared.0) as usize;
-        rows.with(|rows| (first..last.min(rows.len())).map(|k| (k, rows[k], version, shared.clone())).collect::<Vec<_>>())
+        rows.with(|rows| {
+            (first..last.min(rows.len())).map(|k| (k, rows[k], version, shared.clone())).collect::<Vec<_>>()
+        })
     };
     view! {
         <div class="scroll table-frame sheet-frame" node_ref=frame on:scroll=move |_| measure() on:pointerenter=move |_| measure()>
@@ -222,7 +235,16 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
 fn is_words(col: Col) -> bool {
     matches!(
         col,
-        Col::Id | Col::File | Col::Camera | Col::Model | Col::Role | Col::Photo | Col::Point | Col::From | Col::To | Col::TakesPart
+        Col::Id
+            | Col::File
+            | Col::Camera
+            | Col::Model
+            | Col::Role
+            | Col::Photo
+            | Col::Point
+            | Col::From
+            | Col::To
+            | Col::TakesPart
     )
 }
 

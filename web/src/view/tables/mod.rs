@@ -34,8 +34,8 @@ pub fn table_words(table: Table) -> &'static str {
 }
 
 /// A column's heading, and its unit where it has one.
-pub fn heading(table: Table, col: Col) -> (String, String) {
-    let unit = || expect_context::<Desk>().document.with_untracked(|d| d.project.unit.clone());
+pub fn heading(desk: Desk, table: Table, col: Col) -> (String, String) {
+    let unit = || desk.document.with_untracked(|d| d.project.unit.clone());
     let (words, unit): (&str, String) = match col {
         Col::Id => (text::id(), String::new()),
         Col::File => (text::file(), String::new()),
@@ -78,8 +78,8 @@ pub fn heading(table: Table, col: Col) -> (String, String) {
 }
 
 /// A heading as a spreadsheet has it.
-fn plain_heading(table: Table, col: Col) -> String {
-    let (words, unit) = heading(table, col);
+fn plain_heading(desk: Desk, table: Table, col: Col) -> String {
+    let (words, unit) = heading(desk, table, col);
     if unit.is_empty() { words } else { format!("{words} [{unit}]") }
 }
 

@@ -27,15 +27,15 @@ pub fn PastePanel(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoVi
     };
     let line = move |planned: Planned| {
         let table = sheet.with_untracked(|s| s.0.table);
-        let typed = planned.cell.typed.clone();
-        let refusal = planned.refusal.clone();
+        let refused = planned.refusal.is_some();
+        let why = planned.refusal.map(|refusal| refusal_words(&refusal, &planned.cell.typed));
         view! {
-            <tr class:wrong=refusal.is_some()>
+            <tr class:wrong=refused>
                 <td class="left id">{planned.cell.key.replace('\u{1f}', ", ")}</td>
-                <td class="left">{heading(table, planned.cell.col).0}</td>
+                <td class="left">{heading(desk, table, planned.cell.col).0}</td>
                 <td class="left">{planned.before}</td>
                 <td class="left">{planned.cell.typed}</td>
-                <td class="left wide bad">{refusal.map(|refusal| refusal_words(&refusal, &typed))}</td>
+                <td class="left wide bad">{why}</td>
             </tr>
         }
     };
@@ -45,7 +45,7 @@ pub fn PastePanel(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoVi
                 let typed = event::value(&e);
                 if !typed.trim().is_empty() {
                     sheet.with_untracked(|s| rows.with_untracked(|rows| {
-                        desk.plan_paste(&s.0, rows, &typed, |col| plain_heading(s.0.table, col));
+                        desk.plan_paste(&s.0, rows, &typed, |col| plain_heading(desk, s.0.table, col));
                     }));
                 }
                 event::clear(&e);
