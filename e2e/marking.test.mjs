@@ -116,9 +116,11 @@ test('a point is measured by keys alone, and by a finger alone', longer, async (
       const at = k === 1 ? [box.width / 2, box.height / 2] : page.cross;
       const steps = [x - at[0], y - at[1]];
       for (const [axis, keys] of [['ArrowRight', 'ArrowLeft'], ['ArrowDown', 'ArrowUp']].entries()) {
-        const count = Math.round(Math.abs(steps[axis]) / 12);
-        for (let i = 0; i < count; i++) await page.keyboard.press(steps[axis] > 0 ? keys[0] : keys[1]);
-        at[axis] += Math.sign(steps[axis]) * count * 12;
+        const key = steps[axis] > 0 ? keys[0] : keys[1];
+        const [coarse, fine] = [Math.floor(Math.abs(steps[axis]) / 12), Math.round(Math.abs(steps[axis]) % 12)];
+        for (let i = 0; i < coarse; i++) await page.keyboard.press(key);
+        for (let i = 0; i < fine; i++) await page.keyboard.press(`Alt+${key}`);
+        at[axis] += Math.sign(steps[axis]) * (coarse * 12 + fine);
       }
       page.cross = at;
       await page.keyboard.press('Enter');

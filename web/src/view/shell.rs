@@ -150,7 +150,7 @@ fn Head() -> impl IntoView {
                 >
                     {words::experiments}
                 </button>
-                <button class="text-button" title=text::keys_title on:click=move |_| desk.help.set(true)><span aria-hidden="true">"?"</span> <span class="visually-hidden">{text::keys_title}</span></button>
+                <button class="text-button" title=text::keys_title on:click=move |_| desk.help.set(true)><span>"?"</span> <span class="visually-hidden">{text::keys_title}</span></button>
                 <button
                     class="text-button"
                     aria-label=move || format!("{}, {}", text::other_language(), text::switch_language())
