@@ -216,7 +216,13 @@ impl Sheet {
                 let of = |o: &sightline::project::Observation| Some(((o.photo.clone(), o.target?), o.point.clone()));
                 named = project.observations.iter().filter_map(of).collect();
             }
-            Table::Observations | Table::Distances => {}
+            Table::Observations => {
+                if let Some(result) = &result {
+                    let photos = result.adjustment.photos.iter().enumerate();
+                    adjusted = photos.map(|(k, p)| (p.id.clone(), k)).collect();
+                }
+            }
+            Table::Distances => {}
         }
         Self { table, document, result, places, targets, named, rays, counts, adjusted }
     }
@@ -371,6 +377,8 @@ impl Sheet {
     fn observation_value(&self, row: usize, col: Col) -> Option<Value> {
         let o = &self.document.project.observations[row];
         let adjusted = || self.adjusted_observation(row);
+        // Residuals are in the photo's unit; a table has one: pixels.
+        let pixel = || Some(self.result.as_ref()?.adjustment.photos.get(*self.adjusted.get(&o.photo)?)?.pixel);
         match col {
             Col::Photo => Some(Value::Words(o.photo.clone())),
             Col::Point => Some(Value::Words(o.point.clone())),
@@ -381,8 +389,8 @@ impl Sheet {
                 Some(Value::Number(u.hypot(v) / 2f64.sqrt(), 3))
             }
             Col::TakesPart => Some(Value::Flag(o.enabled)),
-            Col::ResidualX => Some(Value::Number(adjusted()?.vx?, 4)),
-            Col::ResidualY => Some(Value::Number(adjusted()?.vy?, 4)),
+            Col::ResidualX => Some(Value::Number(adjusted()?.vx? / pixel()?[0], 3)),
+            Col::ResidualY => Some(Value::Number(adjusted()?.vy? / pixel()?[1], 3)),
             Col::W => Some(Value::Number(self.w(row)?, 2)),
             Col::Redundancy => {
                 let o = adjusted()?;
