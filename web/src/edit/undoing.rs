@@ -33,6 +33,8 @@ fn target(id: u32, u: f64, v: f64) -> Target {
         contrast: 90.0,
         polarity: Polarity::Bright,
         code: None,
+        code_family: None,
+        code_candidates: Vec::new(),
         quality: Default::default(),
     }
 }
@@ -143,10 +145,15 @@ const ACTIONS: [(&str, Action); 50] = [
     ("centre observed", |d| cameras::observe_position(d.project_mut(), "2", [1.0; 3], [Some(0.5); 3])),
     ("centre forgotten", |d| cameras::forget_position(d.project_mut(), "1")),
     ("targets detected", |d| {
-        targets::take_detection(d, "4", Detection { targets: vec![target(1, 3.0, 3.0)], ..Detection::default() });
+        targets::take_detection(d, "4", Detection { targets: vec![target(1, 3.0, 3.0)], ..Detection::default() }, None);
     }),
     ("targets detected again", |d| {
-        targets::take_detection(d, "1", Detection { targets: vec![target(1, 10.1, 5.0)], ..Detection::default() });
+        targets::take_detection(
+            d,
+            "1",
+            Detection { targets: vec![target(1, 10.1, 5.0)], ..Detection::default() },
+            None,
+        );
     }),
     ("target measured", |d| {
         targets::add(d, "2", target(0, 77.0, 44.0));

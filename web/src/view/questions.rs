@@ -14,6 +14,8 @@ use crate::store::Desk;
 fn reason(question: &Question) -> String {
     match question.reason {
         Doubt::DuplicateCode => text::doubt_duplicate(&question.photo),
+        Doubt::CodeFamily => text::doubt_code_family(&question.photo),
+        Doubt::CodeUnclear => text::doubt_code_unclear(&question.photo),
         Doubt::Ambiguous => text::doubt_ambiguous(&question.photo),
         Doubt::Disagrees => text::doubt_disagrees(&question.photo),
     }
