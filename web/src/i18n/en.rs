@@ -443,7 +443,6 @@ declare! { desk {
     no_questions: "No question is open.";
 
     // Tables
-    tables: "Tables";
     observations_table: "Observations";
     file: "file";
     width: "width";

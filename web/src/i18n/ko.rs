@@ -435,7 +435,6 @@ translate! { Korean desk {
     no_questions: "확인할 문제가 없습니다.";
 
     // Tables
-    tables: "표";
     observations_table: "관측값";
     file: "파일";
     width: "너비";
