@@ -332,7 +332,7 @@ mod tests {
             photos: vec![Photo { id: "1".into(), camera: "a".into(), enabled: true, ..Photo::default() }],
             points: ["p", "q", "r"].map(|id| Point { id: id.into(), ..Point::default() }).into(),
             observations: vec![seen("1", "p"), seen("1", "q"), seen("2", "r")],
-            distances: vec![Distance { from: "p".into(), to: "q".into(), length: 1.0, sigma: 0.1 }],
+            distances: vec![Distance { from: "p".into(), to: "q".into(), length: 1.0, sigma: 0.1, check: false }],
             ..Project::default()
         };
         Document { project: std::sync::Arc::new(project), ..Document::default() }

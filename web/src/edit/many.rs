@@ -55,6 +55,7 @@ pub fn delete(document: &mut Document, table: Table, keys: &Keys) -> usize {
             if let Some(points) = &mut project.datum.points {
                 points.retain(|point| !keys.contains(point));
             }
+            project.lines.retain(|line| !keys.contains(&line.from) && !keys.contains(&line.to));
             project.points.retain(|p| !keys.contains(&p.id));
         }
         Table::Observations | Table::Identities => {
@@ -214,6 +215,13 @@ pub fn rename_all(project: &mut Project, names: &BTreeMap<String, String>) -> Re
         rename(&mut d.to);
     });
     project.datum.points.iter_mut().flatten().for_each(rename);
+    // Names that are exchanged pass through ones that nothing has.
+    for (k, from) in names.keys().enumerate() {
+        project.rename_in_features(from, &format!("\u{1f}{k}"));
+    }
+    for (k, to) in names.values().enumerate() {
+        project.rename_in_features(&format!("\u{1f}{k}"), to);
+    }
     Ok(names.iter().filter(|(from, to)| from != to).count())
 }
 
@@ -254,7 +262,7 @@ mod tests {
     fn project() -> Project {
         let mut project = Project {
             observations: vec![seen("1", "a"), seen("2", "a"), seen("3", "b"), seen("1", "c")],
-            distances: vec![Distance { from: "a".into(), to: "c".into(), length: 1.0, sigma: 0.1 }],
+            distances: vec![Distance { from: "a".into(), to: "c".into(), length: 1.0, sigma: 0.1, check: false }],
             ..Project::default()
         };
         points::tidy(&mut project);

@@ -68,7 +68,7 @@ fn document() -> Document {
             seen("3", "d", 1),
             seen("3", "c", 2),
         ],
-        distances: vec![Distance { from: "a".into(), to: "b".into(), length: 5.0, sigma: 0.1 }],
+        distances: vec![Distance { from: "a".into(), to: "b".into(), length: 5.0, sigma: 0.1, check: false }],
         ..Project::default()
     };
     project.photos[0].position = Some([1.0; 3]);
@@ -190,7 +190,7 @@ const ACTIONS: [(&str, Action); 50] = [
     ("coordinate", |d| control::set_coordinate(d.project_mut(), "c", 1, 9.0)),
     ("sigma of a coordinate", |d| control::set_sigma(d.project_mut(), "c", 1, Some(0.01))),
     ("distance added", |d| {
-        let distance = Distance { from: "a".into(), to: "d".into(), length: 3.0, sigma: 0.1 };
+        let distance = Distance { from: "a".into(), to: "d".into(), length: 3.0, sigma: 0.1, check: false };
         let _ = control::add_distance(d.project_mut(), distance);
     }),
     ("distance edited", |d| set(d, Table::Distances, &[("0", Col::Length, "5.5")])),
