@@ -22,6 +22,8 @@ pub fn Actions(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView 
     let switches = move || !matches!(table.get(), Table::Cameras | Table::Distances | Table::Identities);
     let points = move || matches!(table.get(), Table::Points | Table::Control);
     let col = move || table.get().columns().get(desk.tables.col.get()).copied();
+    let merges = move || points() && marked.get() > 1;
+    let joins = move || table.get() == Table::Cameras && marked.get() > 1;
     let fills = move || marked.get() > 1 && col().is_some_and(|col| table.get().editable(col));
     let button = move |words: Text, action: &'static str, run: fn(Desk, Table)| {
         view! {
@@ -54,9 +56,9 @@ pub fn Actions(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView 
                     <button class="button small" type="button" data-action="rename" aria-expanded=move || naming.get().to_string()
                         on:click=move |_| naming.update(|on| *on = !*on)>{text::rename_many}</button>
                 </Show>
-                <Show when=move || (points() && marked.get() > 1)>{button(text::merge, "merge", |desk, _| desk.merge_points())}</Show>
+                <Show when=merges>{button(text::merge, "merge", |desk, _| desk.merge_points())}</Show>
                 <Show when=move || table.get() == Table::Observations>{button(text::split, "split", |desk, _| desk.split_point())}</Show>
-                <Show when=move || (table.get() == Table::Cameras && marked.get() > 1)>
+                <Show when=joins>
                     {button(text::join_cameras, "join", |desk, _| desk.join_cameras())}
                 </Show>
                 <Show when=move || table.get() == Table::Photos><CameraOfPhotos/></Show>
