@@ -200,8 +200,7 @@ fn the_digest_is_of_what_was_measured() {
 #[test]
 fn a_check_distance_takes_no_part_and_has_the_sigma_of_its_ends() {
     let project = project();
-    let mut options = AdjustOptions::default();
-    options.covariance_of = vec!["p12".into(), "p13".into()];
+    let options = AdjustOptions { covariance_of: vec!["p12".into(), "p13".into()], ..AdjustOptions::default() };
     let with = adjust(&project, &options, &mut |_| true).unwrap();
     let mut without = project.clone();
     without.distances.retain(|d| !d.check);
