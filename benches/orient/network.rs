@@ -218,10 +218,13 @@ pub fn network(case: &Case) -> Network {
         truth.observations.push(Observation { photo, point, u: *u, v: *v, sigma, enabled: true, target: None });
     }
     // A point that nobody measured is no part of a network.
-    let measured: BTreeSet<&str> = truth.observations.iter().map(|o| o.point.as_str()).collect();
-    let measured: BTreeSet<String> = measured.into_iter().map(str::to_owned).collect();
-    truth.points.retain(|p| measured.contains(&p.id));
+    let drop_unmeasured = |truth: &mut Project| {
+        let measured: BTreeSet<String> = truth.observations.iter().map(|o| o.point.clone()).collect();
+        truth.points.retain(|p| measured.contains(&p.id));
+    };
+    drop_unmeasured(&mut truth);
     let wrong = misnamed(&mut truth, case.wrong, &mut g);
+    drop_unmeasured(&mut truth);
     let given = bare(&truth, case, &mut g);
     Network { truth, given, wrong }
 }
