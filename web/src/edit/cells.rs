@@ -367,9 +367,9 @@ mod tests {
         }
         assert_eq!(d.project, before);
         for (table, key, col, typed) in [
-            (Table::Photos, "1", Col::Camera, "b"),
+            (Table::Cameras, "b", Col::Id, "c"),
+            (Table::Photos, "1", Col::Camera, "c"),
             (Table::Photos, "1", Col::TakesPart, "아니요"),
-            (Table::Cameras, "a", Col::Id, "c"),
             (Table::Points, "p", Col::Role, "기준점"),
             (Table::Control, "p", Col::X, "1,5"),
             (Table::Control, "p", Col::SigmaX, "0"),
@@ -381,7 +381,7 @@ mod tests {
             assert_eq!(set(&mut d, table, key, col, typed), Ok(()), "{key} {col:?} {typed}");
         }
         let p = &d.project;
-        assert_eq!((p.photos[0].camera.as_str(), p.photos[0].enabled, p.cameras[0].id.as_str()), ("b", false, "c"));
+        assert_eq!((p.photos[0].camera.as_str(), p.photos[0].enabled, p.cameras[0].id.as_str()), ("c", false, "c"));
         assert_eq!(p.points.iter().map(|p| p.id.as_str()).collect::<Vec<_>>(), ["p", "q", "s"]);
         assert_eq!(
             (p.points[0].role, p.points[0].xyz, p.points[0].sigma),
