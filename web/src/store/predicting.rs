@@ -36,6 +36,9 @@ struct Situation {
     situated: Option<Arc<Situated>>,
 }
 
+/// Where photos stand, the point with its observations, and the photo that is shown.
+type Asked = (Arc<Situated>, Project, Option<String>);
+
 /// What is known and asked about where the chosen point should be.
 #[derive(Clone, Copy, Default)]
 pub struct Predicting {
@@ -44,7 +47,7 @@ pub struct Predicting {
     prediction: RwSignal<Option<Arc<Prediction>>>,
     /// The question under way.
     asking: RwSignal<bool>,
-    asked: StoredValue<Option<(Arc<Situated>, Project, Option<String>)>>,
+    asked: StoredValue<Option<Asked>>,
 }
 
 /// Whether a result has all photos that could be oriented.
@@ -157,9 +160,7 @@ impl Desk {
             ..Project::default()
         };
         let same = self.predicting.asked.with_value(|asked| {
-            let same = |(of, q, p): &(Arc<Situated>, Project, Option<String>)| {
-                Arc::ptr_eq(of, &situated) && *q == question && *p == photo
-            };
+            let same = |(of, q, p): &Asked| Arc::ptr_eq(of, &situated) && *q == question && *p == photo;
             asked.as_ref().is_some_and(same)
         });
         if same {
