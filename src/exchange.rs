@@ -12,6 +12,7 @@
 //! | `comparator` | plates: fiducial marks, distortion table, readings in millimetres | |
 //! | `report` | | the report as one HTML, `report.html` |
 //! | `plots` | | every plot as SVG |
+//! | `dxf`, `ply`, `gltf` | | `drawing.dxf` for CAD; `points.ply`, `ellipsoids.ply`, `cameras.ply`; `scene.glb` |
 //! | `csv`, `tsv` | | points, cameras, photos, observations with their statistics |
 //!
 //! Numbers are written with a decimal point whatever the user's language, and no cell can arm a spreadsheet: text that would be a
@@ -22,11 +23,15 @@ pub mod aicon;
 pub mod comparator;
 pub mod control_csv;
 pub mod dbat;
+mod dxf;
 pub mod encoding;
+mod gltf;
 pub mod mark_points;
 pub mod package;
 pub mod photomodeler;
+mod ply;
 pub mod results;
+mod spatial;
 mod text;
 
 pub(crate) use text::disarmed;
@@ -53,7 +58,7 @@ pub struct Format {
 }
 
 /// The formats.
-pub const FORMATS: [Format; 12] = [
+pub const FORMATS: [Format; 15] = [
     Format { name: "sightline", import: true, export: true },
     Format { name: "package", import: true, export: true },
     Format { name: "control-csv", import: true, export: true },
@@ -64,6 +69,9 @@ pub const FORMATS: [Format; 12] = [
     Format { name: "comparator", import: true, export: false },
     Format { name: "report", import: false, export: true },
     Format { name: "plots", import: false, export: true },
+    Format { name: "dxf", import: false, export: true },
+    Format { name: "ply", import: false, export: true },
+    Format { name: "gltf", import: false, export: true },
     Format { name: "csv", import: false, export: true },
     Format { name: "tsv", import: false, export: true },
 ];
@@ -149,6 +157,9 @@ pub fn export(format: &str, project: &Project, adjustment: Option<&Adjustment>) 
             let plots = crate::report::plots::plots(project, adjustment)?;
             Ok(plots.into_iter().map(|plot| (format!("{}.svg", plot.name), plot.file().into_bytes())).collect())
         }
+        "dxf" => Ok(one("drawing.dxf", dxf::write(project, adjustment).into_bytes())),
+        "ply" => Ok(ply::write(project, adjustment)),
+        "gltf" => Ok(one("scene.glb", gltf::write(project, adjustment))),
         "csv" => results::write(project, adjustment, results::Separator::Comma),
         "tsv" => results::write(project, adjustment, results::Separator::Tab),
         _ => Err(unknown_format(format, |known| known.export)),

@@ -56,6 +56,7 @@ pub mod adjust;
 pub mod adjustment;
 pub mod camera;
 pub mod decode;
+pub mod depiction;
 pub mod detect;
 pub mod detection;
 pub mod eccentricity;

@@ -1078,7 +1078,7 @@ export interface Picture {
 }
 
 export type ImportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "photomodeler" | "aicon" | "dbat" | "comparator";
-export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "report" | "plots" | "csv" | "tsv";
+export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "report" | "plots" | "csv" | "tsv" | "dxf" | "ply" | "gltf";
 
 /** A parameter of a fit. */
 export interface Coefficient {

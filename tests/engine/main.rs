@@ -39,6 +39,7 @@ mod seeded;
 mod sharp;
 mod sheets;
 mod slips;
+mod spatial;
 mod targets;
 mod tree;
 mod trials;

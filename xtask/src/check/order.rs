@@ -27,6 +27,7 @@ const ORDERS: [Order; 2] = [
             "detection",
             "adjustment",
             "rotation",
+            "depiction",
             "camera",
             "film",
             "image",

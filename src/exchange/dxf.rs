@@ -1,0 +1,208 @@
+//! Drawings for CAD as ASCII DXF of release 12, which every program reads: points, their names, lines by layer, cameras, fitted forms.
+//!
+//! That release has layer names of A-Z, 0-9, $, - and _, up to 31 of them, and colours by number: others are carried onto these.
+//! Lengths are the project's; a comment names its unit, for which the release has no place.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+
+use nalgebra::Vector3;
+
+use super::spatial::{Spatial, colour};
+use crate::adjustment::{Adjustment, MeasuredFeature};
+use crate::project::{Project, Role};
+
+/// The drawing.
+pub fn write(project: &Project, adjustment: Option<&Adjustment>) -> String {
+    let spatial = Spatial::of(project, adjustment);
+    let mut layers = Layers::default();
+    let mut body = String::new();
+    let text_height = 0.008 * spatial.size;
+    for spot in &spatial.spots {
+        let role = match spot.point.role {
+            Role::Tie => "POINTS_TIE",
+            Role::Control => "POINTS_CONTROL",
+            Role::Check => "POINTS_CHECK",
+        };
+        let layer = layers.named(role, colour(spot.point.role));
+        entity(&mut body, "POINT", &layer, &[(10, spot.xyz)]);
+        let names = layers.named("NAMES", [128; 3]);
+        let beside = std::array::from_fn(|k| spot.xyz[k] + if k < 2 { text_height / 2.0 } else { 0.0 });
+        label(&mut body, &names, beside, text_height, &spot.point.id);
+    }
+    let at: BTreeMap<&str, [f64; 3]> = spatial.spots.iter().map(|s| (s.point.id.as_str(), s.xyz)).collect();
+    let colours: BTreeMap<&str, [u8; 3]> = project.layers.iter().map(|l| (l.id.as_str(), l.colour)).collect();
+    for line in &project.lines {
+        if let (Some(from), Some(to)) = (at.get(line.from.as_str()), at.get(line.to.as_str())) {
+            let name = if line.layer.is_empty() { "LINES" } else { &line.layer };
+            let layer = layers.named(name, colours.get(line.layer.as_str()).copied().unwrap_or([0; 3]));
+            entity(&mut body, "LINE", &layer, &[(10, *from), (11, *to)]);
+        }
+    }
+    for view in &spatial.views {
+        let layer = layers.named("CAMERAS", [110; 3]);
+        let [centre, corners @ ..] = view.frustum;
+        for k in 0..4 {
+            entity(&mut body, "LINE", &layer, &[(10, centre), (11, corners[k])]);
+            entity(&mut body, "LINE", &layer, &[(10, corners[k]), (11, corners[(k + 1) % 4])]);
+        }
+        label(&mut body, &layer, centre, text_height, view.id);
+    }
+    for feature in adjustment.iter().flat_map(|a| &a.features).filter(|f| f.error.is_none()) {
+        let layer = layers.named("FEATURES", [160, 0, 120]);
+        form(&mut body, &layer, feature, text_height);
+    }
+    let mut text = String::new();
+    pair(&mut text, 999, &ascii(&format!("Sightline, unit {}", project.unit)));
+    header(&mut text, &spatial);
+    layers.table(&mut text);
+    text.push_str("0\nSECTION\n2\nENTITIES\n");
+    text.push_str(&body);
+    text.push_str("0\nENDSEC\n0\nEOF\n");
+    text
+}
+
+fn pair(text: &mut String, code: u32, value: &str) {
+    // Writing into a string does not fail.
+    let _ = writeln!(text, "{code}\n{value}");
+}
+
+fn place(text: &mut String, code: u32, [x, y, z]: [f64; 3]) {
+    for (k, value) in [x, y, z].into_iter().enumerate() {
+        pair(text, code + 10 * k as u32, &number(value));
+    }
+}
+
+/// Digits without an exponent, which some readers do not take.
+fn number(value: f64) -> String {
+    let text = format!("{value}");
+    if text.contains('.') { text } else { text + ".0" }
+}
+
+fn entity(text: &mut String, kind: &str, layer: &str, places: &[(u32, [f64; 3])]) {
+    pair(text, 0, kind);
+    pair(text, 8, layer);
+    places.iter().for_each(|(code, xyz)| place(text, *code, *xyz));
+}
+
+fn label(text: &mut String, layer: &str, at: [f64; 3], height: f64, words: &str) {
+    entity(text, "TEXT", layer, &[(10, at)]);
+    pair(text, 40, &number(height));
+    pair(text, 1, &ascii(words));
+}
+
+/// What is not ASCII by its number, as AutoCAD writes it; no line break can end a group.
+fn ascii(words: &str) -> String {
+    let shown = |c: char| match c {
+        ' '..='~' => c.to_string(),
+        c if c.is_control() => " ".into(),
+        c => c.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\U+{unit:04X}")).collect(),
+    };
+    words.chars().map(shown).collect()
+}
+
+/// A circle as 72 chords (a circle of release 12 lies in a system of its own, which readers build differently), an axis, a line, a
+/// distance, a sphere's centre; each with its name.
+fn form(text: &mut String, layer: &str, feature: &MeasuredFeature, height: f64) {
+    let (position, direction) = (feature.position.map(Vector3::from), feature.direction.map(Vector3::from));
+    let radius = feature.value.unwrap_or(0.0) / 2.0;
+    let mut ring = |centre: Vector3<f64>, n: Vector3<f64>| {
+        let [e, f] = across(&n);
+        let at = |k: usize| -> [f64; 3] {
+            let t = std::f64::consts::TAU * k as f64 / 72.0;
+            (centre + radius * (t.cos() * e + t.sin() * f)).into()
+        };
+        (0..72).for_each(|k| entity(text, "LINE", layer, &[(10, at(k)), (11, at(k + 1))]));
+    };
+    match (feature.kind.as_str(), position, direction) {
+        ("circle", Some(centre), Some(n)) => ring(centre, n),
+        ("cylinder", _, Some(n)) => feature.ends.iter().for_each(|end| ring((*end).into(), n)),
+        ("sphere", Some(centre), _) => {
+            [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().for_each(|n| ring(centre, n))
+        }
+        _ => {}
+    }
+    for pair in feature.ends.windows(2) {
+        entity(text, "LINE", layer, &[(10, pair[0]), (11, pair[1])]);
+    }
+    if let Some(at) = feature.position.or_else(|| feature.ends.first().copied()) {
+        label(text, layer, at, height, &feature.id);
+    }
+}
+
+fn across(n: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let least = n.iamin();
+    let e = n.cross(&Vector3::from_fn(|k, _| if k == least { 1.0 } else { 0.0 })).normalize();
+    [e, n.cross(&e)]
+}
+
+fn header(text: &mut String, spatial: &Spatial) {
+    text.push_str("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n");
+    let half = spatial.size / 2.0;
+    for (name, sign) in [("$EXTMIN", -1.0), ("$EXTMAX", 1.0)] {
+        pair(text, 9, name);
+        place(text, 10, spatial.centre.map(|c| c + sign * half));
+    }
+    // Points as crosses of one in two hundred of the drawing.
+    text.push_str("9\n$PDMODE\n70\n2\n9\n$PDSIZE\n40\n");
+    let _ = writeln!(text, "{}\n0\nENDSEC", number(0.005 * spatial.size));
+}
+
+/// Layers by the name they have here; the drawing's are of the release's letters, and each its own.
+#[derive(Default)]
+struct Layers {
+    names: BTreeMap<String, (String, u8)>,
+    taken: BTreeSet<String>,
+}
+
+impl Layers {
+    fn named(&mut self, name: &str, colour: [u8; 3]) -> String {
+        if let Some((known, _)) = self.names.get(name) {
+            return known.clone();
+        }
+        let letter =
+            |c: char| if c.is_ascii_alphanumeric() || "$-_".contains(c) { c.to_ascii_uppercase() } else { '_' };
+        let plain: String = name.chars().map(letter).take(27).collect();
+        let mut own = if plain.is_empty() { "_".to_owned() } else { plain.clone() };
+        let mut count = 1;
+        while !self.taken.insert(own.clone()) {
+            count += 1;
+            own = format!("{plain}_{count}");
+        }
+        self.names.insert(name.to_owned(), (own.clone(), index(colour)));
+        own
+    }
+
+    fn table(&self, text: &mut String) {
+        let _ = writeln!(text, "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n70\n{}", self.names.len());
+        for (name, colour) in self.names.values() {
+            let _ = writeln!(text, "0\nLAYER\n2\n{name}\n70\n0\n62\n{colour}\n6\nCONTINUOUS");
+        }
+        text.push_str("0\nENDTAB\n0\nENDSEC\n");
+    }
+}
+
+/// Number of the nearest of the release's colours: 24 hues at five brightnesses, full and half as saturated, six greys.
+fn index(wanted: [u8; 3]) -> u8 {
+    const BRIGHT: [f64; 5] = [1.0, 0.65, 0.5, 0.3, 0.15];
+    if wanted == [0; 3] {
+        // Black on white and white on black.
+        return 7;
+    }
+    let shade = |index: u8| -> [f64; 3] {
+        if index >= 250 {
+            return [[51.0, 80.0, 105.0, 130.0, 190.0, 255.0][usize::from(index) - 250]; 3];
+        }
+        let hue = f64::from(index / 10 - 1) * 15.0 / 60.0;
+        let value = BRIGHT[usize::from(index % 10 / 2)];
+        let pale = if index % 2 == 1 { 0.5 } else { 0.0 };
+        let channel = |offset: f64| {
+            let k = (offset + hue) % 6.0;
+            let full = 1.0 - k.min(4.0 - k).clamp(0.0, 1.0);
+            255.0 * value * (pale + (1.0 - pale) * full)
+        };
+        [channel(5.0), channel(3.0), channel(1.0)]
+    };
+    let far = |index: u8| shade(index).iter().zip(wanted).map(|(a, b)| (a - f64::from(b)).powi(2)).sum::<f64>();
+    (10..=255).min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(7)
+}
