@@ -170,7 +170,7 @@ impl Scene {
         // A quarter turn about X brings Z up to Y.
         let half = std::f64::consts::FRAC_1_SQRT_2;
         self.nodes.push(json!({
-            "name": "Sightline", "children": [middle], "rotation": [-half, 0.0, 0.0, half], "scale": [metres; 3],
+            "name": "Sightline", "children": [middle], "rotation": [-half, 0.0, 0.0, half], "scale": [metres, metres, metres],
         }));
         let mut document = json!({
             "asset": { "version": "2.0", "generator": "Sightline" },
