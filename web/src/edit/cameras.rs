@@ -1,6 +1,7 @@
 //! Cameras and photos: which photos share a camera, what is known of it before any adjustment, what is estimated of it.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use sightline::exif::PhotoInfo;
 use sightline::project::{Camera, Interior, Parameter, Photo, Project};
@@ -197,6 +198,8 @@ pub fn remove_photos(document: &mut Document, photos: &BTreeSet<String>) {
     drop_unused(project);
     super::points::tidy(project);
     document.detections_mut().retain(|photo, _| !photos.contains(photo));
+    // what is asked about a photo goes with it
+    Arc::make_mut(&mut document.doubtful).retain(|doubtful| !photos.contains(&doubtful.photo));
 }
 
 /// Lets a parameter be estimated or held. What it was observed with is kept, and is back when it is estimated again.
