@@ -63,7 +63,7 @@ pub fn target_advice(#[wasm_bindgen(unchecked_param_type = "TargetAdviceOptions"
 }
 
 /// Predicts what the photos of a plan give.
-#[wasm_bindgen(js_name = plan, unchecked_return_type = "Prediction")]
+#[wasm_bindgen(js_name = plan, unchecked_return_type = "PlanPrediction")]
 pub fn plan(#[wasm_bindgen(unchecked_param_type = "Plan")] plan: JsValue) -> Thrown {
     let predicted = || predict(&value::read::<Plan>(&plan, "plan")?);
     predicted().map(|prediction| value::write(&prediction)).map_err(|error| thrown(&error))

@@ -1031,7 +1031,7 @@ export interface PredictedPoint {
 }
 
 /** What a plan promises; standard errors are 1σ. */
-export interface Prediction {
+export interface PlanPrediction {
   stations: PredictedStation[];
   points: PredictedPoint[];
   cameras: AdjustedCamera[];
@@ -1066,7 +1066,7 @@ export interface MakePlanOptions {
 
 export interface MadePlan {
   stations: PlanStation[];
-  prediction: Prediction;
+  prediction: PlanPrediction;
   compared: number;
 }
 
