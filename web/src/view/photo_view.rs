@@ -385,6 +385,8 @@ pub fn PhotoView(
                     on:pointerdown=down
                     on:pointermove=moved
                     on:pointerup=up
+                    // No mouse is imitated after a touch: it would take the focus from the field that asks for a name.
+                    on:touchend=move |e| e.prevent_default()
                     on:pointercancel=move |e| pointers.update_value(|all| { all.remove(&event::pointer(&e).id); })
                     on:pointerleave=move |_| desk.cursor.set(None)
                     on:wheel=wheel
