@@ -77,6 +77,7 @@ pub mod ring_code;
 pub mod rotation;
 pub mod sample;
 pub mod scene;
+pub mod sensor;
 pub mod statistics;
 
 pub use error::{Error, Result};

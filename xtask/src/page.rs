@@ -10,6 +10,8 @@ use crate::build::write;
 pub const MODULE: &str = "desk";
 /// Name of the workers' module in dist/.
 pub const WORKER: &str = "sightline-worker";
+/// Name of the decoders' module in dist/, which workers fetch when they need it.
+pub const CODECS: &str = "sightline-codecs";
 
 /// Copies what index.html names into `dist` and writes the page there.
 pub fn assemble(root: &Path, dist: &Path) -> Outcome {

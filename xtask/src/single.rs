@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 use crate::Outcome;
 use crate::build::write;
-use crate::page::{MODULE, WORKER};
+use crate::page::{CODECS, MODULE, WORKER};
 
 /// Name of the file in dist/.
 pub const NAME: &str = "sightline.html";
@@ -28,6 +28,7 @@ self.sightlineFiles = {
   'worker.js': address('worker', 'text/javascript'),
   'storage.js': address('storage', 'text/javascript'),
   'sightline-worker_bg.wasm': address('engine', 'application/wasm'),
+  'sightline-codecs_bg.wasm': address('codecs', 'application/wasm'),
 };
 ";
 
@@ -45,7 +46,16 @@ pub fn write_to(dist: &Path) -> Outcome {
         if !start.contains(&import) {
             return Err(format!("worker.js does not start by {import}"));
         }
-        format!("{}\n{}", inlined(&text(&format!("{WORKER}.js"))?)?, start.replace(&import, "__wbg_init"))
+        let codecs = format!("await import(\"./{CODECS}.js\")");
+        if !start.contains(&codecs) {
+            return Err(format!("worker.js does not load the decoders by {codecs}"));
+        }
+        // Names of their own: both glues have the same.
+        let decoders = inlined(&text(&format!("{CODECS}.js"))?)?;
+        let decoders =
+            format!("const decoders = () => {{\n{decoders}\nreturn {{ default: __wbg_init, unpack, trapped }};\n}};");
+        let start = start.replace(&import, "__wbg_init").replace(&codecs, "decoders()");
+        format!("{decoders}\n{}\n{start}", inlined(&text(&format!("{WORKER}.js"))?)?)
     };
     let style = styles(&page)?.iter().map(|name| text(name)).collect::<Outcome<Vec<_>>>()?.concat();
     let desk = inlined(&text(&format!("{MODULE}.js"))?)?;
@@ -70,6 +80,7 @@ pub fn write_to(dist: &Path) -> Outcome {
         data("worker", BASE64_STANDARD.encode(worker)),
         data("storage", coded("storage.js")?),
         data("engine", coded(&format!("{WORKER}_bg.wasm"))?),
+        data("codecs", coded(&format!("{CODECS}_bg.wasm"))?),
         data("desk", coded(&format!("{MODULE}_bg.wasm"))?),
         format!("<script type=\"module\">{script}</script>\n</body>\n</html>\n"),
     ]

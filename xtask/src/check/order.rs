@@ -32,6 +32,7 @@ const ORDERS: [Order; 2] = [
             "image",
             "decode",
             "exif",
+            "sensor",
             "detect",
             "initial",
             "eccentricity",
