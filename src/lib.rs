@@ -79,6 +79,7 @@ pub mod ring_code;
 pub mod rotation;
 pub mod sample;
 pub mod scene;
+pub mod sheets;
 pub mod statistics;
 
 pub use error::{Error, Result};

@@ -147,6 +147,18 @@ reasons! {
     CodeRing => "a code ring has 2 to 24 sectors and no more bits than sectors";
     Exposure => "an exposure needs a point spread from 0.3 to 10 pixels, vignetting and noise from 0 to 1 and 8 or 16 bits";
 
+    // Sheets to print
+    SheetNothing => "there is nothing to print: ask for codes, dots, scale bars or a calibration field";
+    SheetDiameter { value: Number } => "a dot of {value} mm cannot be printed: from 0.5 to 400 mm are";
+    SheetRuler { value: Number, length: Number } => "the ruler of {length} mm measures {value}: half of its length to twice as much is expected";
+    SheetBar { value: Number } => "a scale bar of {value} mm: a length above 0 and up to a kilometre is expected";
+    SheetNumbers { text: String } => "\"{text}\" is no list of numbers: write it as 1-20, 35";
+    SheetNumberUnknown { number: u32, family: usize } => "there is no code {number}: the family has the numbers 1 to {family}";
+    SheetTooManyCodes { wanted: usize, family: usize } => "{wanted} codes are wanted and the family has {family}: take fewer, or a family with more bits";
+    SheetTooMany { limit: usize } => "these are more than {limit} sheets: print them in parts";
+    SheetNoRoom { value: Number, width: Number, height: Number } => "a dot of {value} mm with what belongs to it has no room on paper of {width} x {height} mm: take larger paper or smaller dots";
+    SheetAdvice => "principal distance, distances and diameter are above 0, angles below 89°";
+
     // Experiments
     ImageNoise => "the standard deviation of image coordinates is from 0.01 to 1000 µm";
     PixelNoise => "the noise of the pixels is a share from 0 to 0.2";

@@ -36,6 +36,7 @@ mod sample;
 mod scenes;
 mod seeded;
 mod sharp;
+mod sheets;
 mod slips;
 mod targets;
 mod tree;

@@ -239,6 +239,31 @@ pub fn reason(reason: &Reason) -> String {
         R::CodeRing => "코드 고리는 2~24구획이며 비트 수는 구획 수를 넘지 않습니다",
         R::Exposure => "노출에는 0.3~10화소의 점확산, 0~1의 비네팅과 잡음, 8 또는 16비트가 필요합니다",
 
+        R::SheetNothing => "인쇄할 것이 없습니다. 코드, 점, 축척 막대 또는 검정판을 지정하십시오",
+        R::SheetDiameter { value } => {
+            return format!("지름 {value} mm의 점은 인쇄할 수 없습니다. 0.5~400 mm여야 합니다");
+        }
+        R::SheetRuler { value, length } => {
+            return format!("{length} mm 자의 측정값이 {value}입니다. 절반에서 두 배 사이여야 합니다");
+        }
+        R::SheetBar { value } => return format!("축척 막대 길이가 {value} mm입니다. 0보다 크고 1 km 이하여야 합니다"),
+        R::SheetNumbers { text } => return format!("번호 목록이 아닙니다: \"{text}\" (1-20, 35처럼 쓰십시오)"),
+        R::SheetNumberUnknown { number, family } => {
+            return format!("코드 {number}번은 없습니다. 이 계열의 번호는 1~{family}입니다");
+        }
+        R::SheetTooManyCodes { wanted, family } => {
+            return format!(
+                "코드 {wanted}개가 필요한데 이 계열에는 {family}개가 있습니다. 수를 줄이거나 비트 수가 큰 계열을 고르십시오"
+            );
+        }
+        R::SheetTooMany { limit } => return format!("{limit}장을 넘습니다. 나누어 인쇄하십시오"),
+        R::SheetNoRoom { value, width, height } => {
+            return format!(
+                "지름 {value} mm의 점과 그 여백은 {width} x {height} mm 용지에 들어가지 않습니다. 용지를 키우거나 점을 줄이십시오"
+            );
+        }
+        R::SheetAdvice => "화면거리, 거리, 지름은 0보다 크고 각은 89°보다 작아야 합니다",
+
         R::ImageNoise => "사진좌표의 표준편차는 0.01에서 1000 µm까지입니다",
         R::PixelNoise => "화소 잡음은 최댓값의 0에서 0.2까지입니다",
         R::ControlSigma => "기준점 좌표의 표준오차는 1e-6에서 1000 mm까지입니다",

@@ -46,6 +46,7 @@ const ORDERS: [Order; 2] = [
             "sample",
             "report",
             "exchange",
+            "sheets",
             "experiments",
         ],
     },
