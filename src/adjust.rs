@@ -28,7 +28,7 @@ use diagnosis::judgement::judgement;
 use problem::additional::LeftOut;
 use problem::{eccentric, far_points, unmodelled};
 use report::result::Solved;
-use solve::session::{Log, Session};
+use solve::session::{Log, RobustVariance, Session};
 
 pub use problem::unmodelled::estimate as unmodelled;
 
@@ -150,6 +150,25 @@ pub(crate) fn values(project: &Project, max_iterations: usize, negligible: f64) 
     session.start_at(&far_points::control_starts(project));
     let (termination, singular) = session.steps(ResidualPlace::Corrected, max_iterations, negligible, &mut |_| true);
     (!singular && termination != Termination::Diverged).then(|| report::values::applied(&session))
+}
+
+/// What an adjustment of the project would say of its precision, with its coordinates as they stand and a priori standard errors
+/// that are right: the normal equations of [`adjust`] at the initial values, and the cofactors of their inverse times a variance
+/// factor of 1. Image coordinates are not looked at further: those of a plan are projections.
+///
+/// # Errors
+/// As [`adjust`].
+pub fn predict(project: &Project) -> Result<Adjustment> {
+    project.validate()?;
+    let options = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
+    let left_out = LeftOut::nothing(project);
+    let mut session = Session::new(project, &left_out)?;
+    session.robust = Some(RobustVariance { sigma0: 1.0, variance: 1.0 });
+    let solution = session.finish(&options, false)?;
+    let mut adjustment = Solved::new(&session, &options, &solution).adjustment();
+    adjustment.advice = advice::advice(project, &session.network, &session.state, &adjustment);
+    adjustment.options = options;
+    Ok(adjustment)
 }
 
 /// The project with the adjusted values as new initial values. What is given stays as given: control and check

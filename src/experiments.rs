@@ -23,6 +23,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::detection::Method;
 use crate::error::{Error, Place, Reason, Result, Thing};
+use crate::plan::from_network;
+use crate::project::Plan;
 
 pub use csv::csv;
 pub use film::description as film_description;
@@ -102,6 +104,19 @@ pub fn drawings(name: &str, options: &ExperimentOptions) -> Result<Vec<Drawing>>
         "kim" => Ok(kim::drawings(options)),
         _ => Err(Error::Unknown { kind: Thing::Experiment, name: name.into(), at: Place::default() }),
     }
+}
+
+/// An experiment's network as a plan to begin with; none for those that plan no photos.
+pub fn plan(name: &str) -> Option<Plan> {
+    let options = ExperimentOptions::default();
+    let network = match name {
+        "kang" => kang::example(&options),
+        "lee-calibration" => lee_calibration::network(&options),
+        "lee-structure" => lee_structure::network("I", &options),
+        "kim" => kim::network(&options),
+        _ => return None,
+    };
+    Some(from_network(&network))
 }
 
 /// Most rounds of Monte Carlo: half an hour in a browser.

@@ -72,6 +72,7 @@ pub mod matching;
 pub mod network;
 pub mod noise;
 pub mod orient;
+pub mod plan;
 pub mod project;
 pub mod render;
 pub mod report;

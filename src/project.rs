@@ -5,6 +5,7 @@
 mod features;
 mod identifier;
 mod parameter;
+mod plan;
 mod report;
 mod validation;
 
@@ -15,6 +16,7 @@ use serde::{Deserialize, Serialize};
 pub use features::{CoordinateSystem, DrawnLine, End, Feature, FeatureKind, GivenPoint, Layer, SystemKind};
 use identifier::{identifier, identifier_option_list};
 pub use parameter::{Interior, Parameter};
+pub use plan::{Form, Lens, Plan, PlanDistance, PlanFace, PlanStation, Region, Variant, Wanted};
 pub use report::{LengthLimit, Paper, ReportLanguage, ReportSettings, Section};
 
 /// The document.
@@ -66,6 +68,9 @@ pub struct Project {
     /// What the report says besides its numbers: no input of the adjustment.
     #[serde(default, skip_serializing_if = "ReportSettings::is_default")]
     pub report: ReportSettings,
+    /// What was planned before the photos were taken.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<Box<Plan>>,
 }
 
 fn default_unit() -> String {
@@ -91,6 +96,7 @@ impl Default for Project {
             lines: Vec::new(),
             layers: Vec::new(),
             report: ReportSettings::default(),
+            plan: None,
         }
     }
 }

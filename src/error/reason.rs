@@ -159,6 +159,14 @@ reasons! {
     SheetNoRoom { value: Number, width: Number, height: Number } => "a dot of {value} mm with what belongs to it has no room on paper of {width} x {height} mm: take larger paper or smaller dots";
     SheetAdvice => "principal distance, distances and diameter are above 0, angles below 89°";
 
+    // Plans
+    PlanCamera => "a plan needs a camera";
+    PlanTooLarge { limit: usize } => "targets times photos are more than {limit}: plan a part of the object";
+    PlanLeastPixels => "the smallest target is a number of pixels from 0";
+    PlanWanted => "what is wanted is a length above 0, with a probability from 0.5 to 0.999";
+    PlanLens => "f-number, focused distance and circle of confusion are above 0";
+    PlanNothingSeen => "no photo of this camera sees four targets: larger targets, a longer lens or fewer forbidden places are needed";
+
     // Experiments
     ImageNoise => "the standard deviation of image coordinates is from 0.01 to 1000 µm";
     PixelNoise => "the noise of the pixels is a share from 0 to 0.2";

@@ -110,6 +110,12 @@ pub fn drawings(options: &ExperimentOptions) -> Result<Vec<Drawing>> {
     Ok(vec![Drawing::of(name, &network(&case, options)), Drawing::of("all", &all)])
 }
 
+/// The network that is opened where none is chosen.
+pub fn example(options: &ExperimentOptions) -> Network {
+    let case = networks::single().into_iter().find(|case| case.name() == DEFAULT);
+    network(&case.unwrap_or_else(networks::everything), options)
+}
+
 /// √q from the exact geometry, S0 from one draw.
 fn solve(case: Case, options: &ExperimentOptions) -> Result<Outcome> {
     let network = network(&case, options);

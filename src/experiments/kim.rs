@@ -125,7 +125,8 @@ pub fn drawings(options: &ExperimentOptions) -> Vec<Drawing> {
     vec![Drawing::of("planes", &network(options))]
 }
 
-fn network(options: &ExperimentOptions) -> Network {
+/// The network with its true values.
+pub fn network(options: &ExperimentOptions) -> Network {
     let camera = |index: usize| {
         let [x0, y0, k1, k2, k3, p1, p2] = INTERIOR[index];
         let mm = PITCH_MM;

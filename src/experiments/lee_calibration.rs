@@ -142,7 +142,8 @@ fn set_aside_undetermined(project: &mut Project) {
     project.observations.iter_mut().for_each(|o| o.enabled &= determined.contains(&o.point));
 }
 
-fn network(options: &ExperimentOptions) -> Network {
+/// The network with its true values.
+pub fn network(options: &ExperimentOptions) -> Network {
     let camera = dcs420();
     let mut points = Vec::new();
     for row in 0..10 {

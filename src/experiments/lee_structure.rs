@@ -111,7 +111,7 @@ pub fn drawings(options: &ExperimentOptions) -> Result<Vec<Drawing>> {
 }
 
 /// A network of the wall.
-fn network(name: &str, options: &ExperimentOptions) -> Network {
+pub fn network(name: &str, options: &ExperimentOptions) -> Network {
     let mut camera = lee_calibration::dcs420();
     camera.sigma = CALIBRATED.into_iter().collect();
     let sigma_mm = options.image_sigma_um.unwrap_or(3.0) / 1000.0;

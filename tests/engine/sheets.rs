@@ -49,6 +49,19 @@ impl Shot {
         [self.scale * FAR * q[0] / depth, self.scale * FAR * q[1] / depth]
     }
 
+    /// Smaller axis of the image of a dot.
+    fn smaller_axis(&self, at: [f64; 2], radius: f64) -> f64 {
+        let rim = |turn: f64| {
+            let (s, c) = (TAU * turn).sin_cos();
+            self.image([at[0] + radius * c, at[1] + radius * s])
+        };
+        let across = |turn: f64| {
+            let (a, b) = (rim(turn), rim(turn + 0.5));
+            (a[0] - b[0]).hypot(a[1] - b[1])
+        };
+        (0..24).map(|k| across(f64::from(k) / 48.0)).fold(f64::INFINITY, f64::min)
+    }
+
     /// The place on the sheet of a pixel, from the picture's middle.
     fn place(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         let ray = [u / (self.scale * FAR), v / (self.scale * FAR), 1.0];
@@ -237,9 +250,15 @@ fn printed_numbers_are_read_in_photos() {
             let expected: Vec<_> = sheets.targets.iter().filter(inside).map(|t| (t, to_pixel(t.at))).collect();
             assert!(expected.len() >= 4);
             let targets = detect(&picture.view().expect("a picture"), &options_of(family)).expect("targets").targets;
-            for (number, found, off) in read(&targets, family, &expected) {
-                assert_eq!(found, Some(number), "{family:?} {ground:?} tilt {tilt} scale {scale} off {off:.2}");
-                assert!(off < 0.15, "{family:?} {number}: {off:.3} px");
+            // Under 60° codes are asked to be read from 12 px on: below, a sector's far side has hardly two pixels.
+            let least = if tilt > 50.0 { 12.0 } else { 8.0 };
+            for ((number, found, off), (printed, _)) in read(&targets, family, &expected).into_iter().zip(&expected) {
+                let what = format!("{family:?} {ground:?} {number} tilt {tilt} scale {scale} off {off:.3}");
+                assert!(found.is_none_or(|found| found == number), "{what}: read as {found:?}");
+                if shot.smaller_axis(printed.at, 5.0) >= least {
+                    assert_eq!(found, Some(number), "{what}");
+                    assert!(off < 0.15, "{what}");
+                }
             }
         }
     }

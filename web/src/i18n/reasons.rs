@@ -264,6 +264,17 @@ pub fn reason(reason: &Reason) -> String {
         }
         R::SheetAdvice => "화면거리, 거리, 지름은 0보다 크고 각은 89°보다 작아야 합니다",
 
+        R::PlanCamera => "촬영 계획에는 카메라가 필요합니다",
+        R::PlanTooLarge { limit } => {
+            return format!("표적 수와 사진 수의 곱이 {limit}을 넘습니다. 대상물을 나누어 계획하십시오");
+        }
+        R::PlanLeastPixels => "가장 작은 표적은 0 이상의 화소 수입니다",
+        R::PlanWanted => "목표 정밀도는 0보다 큰 길이이고 확률은 0.5에서 0.999까지입니다",
+        R::PlanLens => "조리개값, 초점거리 설정, 허용 착란원은 0보다 커야 합니다",
+        R::PlanNothingSeen => {
+            "이 카메라로는 표적 네 개를 볼 수 있는 촬영점이 없습니다. 더 큰 표적, 더 긴 렌즈가 필요하거나 금지 구역을 줄여야 합니다"
+        }
+
         R::ImageNoise => "사진좌표의 표준편차는 0.01에서 1000 µm까지입니다",
         R::PixelNoise => "화소 잡음은 최댓값의 0에서 0.2까지입니다",
         R::ControlSigma => "기준점 좌표의 표준오차는 1e-6에서 1000 mm까지입니다",

@@ -47,6 +47,7 @@ const ORDERS: [Order; 2] = [
             "report",
             "exchange",
             "sheets",
+            "plan",
             "experiments",
         ],
     },

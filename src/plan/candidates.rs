@@ -1,0 +1,212 @@
+//! Where photos could be taken: directions around the object, distances at which all or parts of it fill the picture, what is aimed at.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::project::PlanStation;
+
+use super::setup::{Setup, Shot, principal_distance_px};
+
+/// Mean of the normals' directions above which an object is seen from one side.
+const ONE_SIDED: f64 = 0.35;
+/// Angles to the side that the object faces, degrees, with so many directions around each.
+const FANS: [(f64, usize); 4] = [(0.0, 1), (22.0, 6), (42.0, 8), (58.0, 8)];
+/// Elevations, degrees, with so many directions around each, of an object that is seen from all sides.
+const LEVELS: [(f64, usize); 4] = [(2.0, 12), (28.0, 12), (55.0, 8), (88.0, 1)];
+/// Room between the object and the border of the picture.
+const ROOM: f64 = 1.04;
+/// Distances as shares of that at which the object fills the picture.
+const SHARES: [f64; 4] = [1.0, 0.72, 0.52, 1.4];
+/// Points that a photo has to see.
+const LEAST_SEEN: usize = 4;
+
+/// The object as photos are planned around it.
+pub struct Frame {
+    pub centre: Vector3<f64>,
+    pub radius: f64,
+    /// The side it faces; none: all sides.
+    pub faces: Option<Vector3<f64>>,
+}
+
+impl Frame {
+    pub fn of(setup: &Setup<'_>) -> Self {
+        let places = &setup.places;
+        let centre = places.iter().sum::<Vector3<f64>>() / places.len().max(1) as f64;
+        let radius = places.iter().map(|p| (p - centre).norm()).fold(1e-9, f64::max);
+        let normals: Vec<Vector3<f64>> =
+            setup.plan.points.iter().filter_map(|p| p.normal.map(|n| Vector3::from(n).normalize())).collect();
+        let mean = normals.iter().sum::<Vector3<f64>>() / normals.len().max(1) as f64;
+        let faces = if normals.is_empty() {
+            Self::flat_side(setup, centre)
+        } else {
+            (mean.norm() > ONE_SIDED).then(|| mean.normalize())
+        };
+        Self { centre, radius, faces }
+    }
+
+    /// Without normals: the side of the present photos, else that of the plane a flat object lies in, up or towards -Y.
+    fn flat_side(setup: &Setup<'_>, centre: Vector3<f64>) -> Option<Vector3<f64>> {
+        let stations = &setup.plan.stations;
+        let towards = stations.iter().map(|s| (Vector3::from(s.position) - centre).normalize());
+        let mean = towards.sum::<Vector3<f64>>() / stations.len().max(1) as f64;
+        if mean.norm() > ONE_SIDED {
+            return Some(mean.normalize());
+        }
+        let scatter: Matrix3<f64> = setup.places.iter().map(|p| (p - centre) * (p - centre).transpose()).sum();
+        let own = scatter.symmetric_eigen();
+        let least = own.eigenvalues.imin();
+        if own.eigenvalues[least] > 0.05 * own.eigenvalues.max() {
+            return None;
+        }
+        let normal: Vector3<f64> = own.eigenvectors.column(least).into();
+        Some(if normal.z - normal.y < 0.0 { -normal } else { normal })
+    }
+
+    /// Directions from the object to the camera.
+    fn directions(&self) -> Vec<Vector3<f64>> {
+        let Some(main) = self.faces else {
+            let level = |(elevation, count): (f64, usize)| {
+                let (s, c) = f64::to_radians(elevation).sin_cos();
+                (0..count).map(move |k| {
+                    let (sa, ca) = (TAU * k as f64 / count as f64).sin_cos();
+                    Vector3::new(c * ca, c * sa, s)
+                })
+            };
+            return LEVELS.into_iter().flat_map(level).collect();
+        };
+        let up = if main.z.abs() < 0.9 { Vector3::z() } else { Vector3::y() };
+        let across = up.cross(&main).normalize();
+        let above = main.cross(&across);
+        let fan = |(angle, count): (f64, usize)| {
+            let (s, c) = f64::to_radians(angle).sin_cos();
+            (0..count).map(move |k| {
+                let (sa, ca) = (TAU * k as f64 / count as f64).sin_cos();
+                c * main + s * (ca * across + sa * above)
+            })
+        };
+        FANS.into_iter().flat_map(fan).collect()
+    }
+}
+
+/// Distances that are tried: at which the object fills the picture, nearer for parts of it, farther; as far as targets are large enough.
+fn distances(setup: &Setup<'_>, frame: &Frame) -> Vec<f64> {
+    let camera = &setup.plan.cameras[0];
+    let c = principal_distance_px(camera).unwrap_or(1.0);
+    let short = f64::from(camera.width.min(camera.height)) / 2.0 - setup.plan.margin;
+    let half = (short.max(1.0) / c).atan();
+    let fill = ROOM * frame.radius / half.sin();
+    let smallest = setup.plan.points.iter().filter_map(|p| p.diameter).fold(f64::INFINITY, f64::min);
+    let far = if setup.plan.least_px > 0.0 { smallest * c / setup.plan.least_px } else { f64::INFINITY };
+    let mut all: Vec<f64> = SHARES.iter().map(|share| share * fill).filter(|d| *d < far).collect();
+    if far < fill {
+        // Seen at a slant, targets are smaller.
+        all.extend([0.95 * far, 0.75 * far, 0.55 * far]);
+    }
+    all.extend(setup.plan.lens.focus.filter(|_| setup.plan.lens.f_number.is_some()));
+    all.sort_by(|a, b| b.total_cmp(a));
+    all.dedup_by(|a, b| (*a - *b).abs() < 0.05 * *b);
+    all
+}
+
+/// What is aimed at: the middle, and where the object is too large for one picture, parts that are far from each other.
+fn aims(setup: &Setup<'_>, frame: &Frame, distance: f64, fill: f64) -> Vec<Vector3<f64>> {
+    let mut aims = vec![frame.centre];
+    if distance < 0.9 * fill {
+        for _ in 0..4 {
+            let away = |p: &Vector3<f64>| aims.iter().map(|a| (a - p).norm()).fold(f64::INFINITY, f64::min);
+            let farthest = setup.places.iter().max_by(|a, b| away(a).total_cmp(&away(b)));
+            let Some(place) = farthest else { break };
+            // Half-way out, so that the picture is filled.
+            aims.push(frame.centre + 0.6 * (place - frame.centre));
+        }
+    }
+    aims
+}
+
+/// Whether cameras are calibrated with the photos: then rolled ones are worth trying.
+pub fn rolls(setup: &Setup<'_>) -> &'static [f64] {
+    let calibrates = setup.plan.cameras.iter().any(|c| !c.free.is_empty() || !c.sigma.is_empty());
+    if calibrates { &[0.0, FRAC_PI_2] } else { &[0.0] }
+}
+
+/// Photos that could be taken, at most so many, spread over all that there are.
+pub fn candidates(setup: &Setup<'_>, most: usize) -> Vec<Shot> {
+    let frame = Frame::of(setup);
+    let distances = distances(setup, &frame);
+    let fill = distances.iter().copied().fold(0.0, f64::max) / SHARES[3].max(1.0);
+    let mut shots = Vec::new();
+    for direction in frame.directions() {
+        for &distance in &distances {
+            for aim in aims(setup, &frame, distance, fill) {
+                for &roll in rolls(setup) {
+                    let position = aim + distance * direction;
+                    shots.extend(allowed(setup, position, aim, roll));
+                }
+            }
+        }
+    }
+    if shots.len() > most {
+        let step = shots.len() as f64 / most as f64;
+        let places: Vec<usize> = (0..most).map(|k| (k as f64 * step) as usize).collect();
+        shots = places.into_iter().map(|k| shots[k].clone()).collect();
+    }
+    shots
+}
+
+/// The photo from a place where one can stand and which sees enough.
+pub fn allowed(setup: &Setup<'_>, position: Vector3<f64>, aim: Vector3<f64>, roll: f64) -> Option<Shot> {
+    let station = PlanStation { position: position.into(), look_at: Some(aim.into()), roll, ..PlanStation::default() };
+    let shot = setup.shot(&station).ok()?;
+    (!shot.forbidden && shot.seen.len() >= LEAST_SEEN).then_some(shot)
+}
+
+/// Half axes with the photos' exterior orientations held: each ray gives its point what it gives across its direction, (I - rrᵀ)·(c/(D·σ))².
+/// The largest, or 10⁶ times the object where a point is not determined, summed; cheap, and of the same order of photos.
+pub struct Held {
+    sums: Vec<Matrix3<f64>>,
+    loose: f64,
+}
+
+impl Held {
+    pub fn new(setup: &Setup<'_>, shots: &[&Shot]) -> Self {
+        let size = Frame::of(setup).radius;
+        let mut held =
+            Self { sums: vec![Matrix3::identity() * (1e-6 / size).powi(2); setup.places.len()], loose: size };
+        shots.iter().for_each(|shot| held.add(setup, shot, 1.0));
+        held
+    }
+
+    /// Adds a photo, or takes it away.
+    pub fn add(&mut self, setup: &Setup<'_>, shot: &Shot, sign: f64) {
+        let c = principal_distance_px(&setup.plan.cameras[shot.camera]).unwrap_or(1.0);
+        for (k, _) in &shot.seen {
+            let ray = setup.places[*k] - shot.pose.centre;
+            let distance = ray.norm();
+            let ray = ray / distance;
+            let weight = (c / (distance * setup.plan.sigma)).powi(2);
+            self.sums[*k] += (Matrix3::identity() - ray * ray.transpose()) * (sign * weight);
+        }
+    }
+
+    /// Sum of squared half axes with a photo more, for the order in which photos are tried.
+    pub fn with(&self, setup: &Setup<'_>, shot: &Shot) -> f64 {
+        let mut more = Self { sums: self.sums.clone(), loose: self.loose };
+        more.add(setup, shot, 1.0);
+        more.value(&setup.given)
+    }
+
+    pub fn value(&self, given: &[bool]) -> f64 {
+        let most = (10.0 * self.loose).powi(2);
+        let axis = |sum: &Matrix3<f64>| {
+            // A point that no photo sees is worse than one that a single one sees.
+            if sum.trace() < 1.0 / most {
+                return 4.0 * most;
+            }
+            let trace = sum.try_inverse().map_or(f64::INFINITY, |q| q.trace());
+            // What is hardly determined counts by how much, not beyond all measure.
+            trace.clamp(0.0, most)
+        };
+        self.sums.iter().zip(given).filter(|(_, given)| !**given).map(|(sum, _)| axis(sum)).sum()
+    }
+}

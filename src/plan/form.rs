@@ -1,0 +1,101 @@
+//! Targets on simple forms, with the faces that hide those behind.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::project::{Form, PlanFace, Point};
+
+/// Facets that stand for a cylinder.
+const FACETS: usize = 24;
+
+/// Points and faces of a form; counts are at least 1.
+pub fn targets_on(form: &Form) -> (Vec<Point>, Vec<PlanFace>) {
+    let mut made = Made::default();
+    match *form {
+        Form::Plane { width, height, columns, rows, upright, diameter } => {
+            let (corner, across, normal) = if upright {
+                ([-width / 2.0, 0.0, 0.0], [0.0, 0.0, height], [0.0, -1.0, 0.0])
+            } else {
+                ([-width / 2.0, -height / 2.0, 0.0], [0.0, height, 0.0], [0.0, 0.0, 1.0])
+            };
+            made.face(PlanFace { corner, along: [width, 0.0, 0.0], across }, normal, [columns, rows], diameter);
+        }
+        Form::Box { size: [x, y, z], columns, rows, diameter } => {
+            let corner = |sx: f64, sy: f64, z: f64| [sx * x / 2.0, sy * y / 2.0, z];
+            let up = [0.0, 0.0, z];
+            let sides = [
+                (corner(-1.0, -1.0, 0.0), [x, 0.0, 0.0], up, [0.0, -1.0, 0.0]),
+                (corner(1.0, -1.0, 0.0), [0.0, y, 0.0], up, [1.0, 0.0, 0.0]),
+                (corner(1.0, 1.0, 0.0), [-x, 0.0, 0.0], up, [0.0, 1.0, 0.0]),
+                (corner(-1.0, 1.0, 0.0), [0.0, -y, 0.0], up, [-1.0, 0.0, 0.0]),
+                (corner(-1.0, -1.0, z), [x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, 1.0]),
+            ];
+            for (corner, along, across, normal) in sides {
+                made.face(PlanFace { corner, along, across }, normal, [columns, rows], diameter);
+            }
+        }
+        Form::Cylinder { radius, height, sweep, columns, rows, inside, diameter } => {
+            let whole = sweep >= TAU - 1e-9;
+            let (columns, rows) = (columns.max(1), rows.max(1));
+            let steps = if whole { columns } else { columns.saturating_sub(1).max(1) };
+            for row in 0..rows {
+                let z = height * (f64::from(row) + 0.5) / f64::from(rows);
+                for column in 0..columns {
+                    let share = if columns == 1 { 0.5 } else { f64::from(column) / f64::from(steps) };
+                    let angle = -PI / 2.0 + sweep.min(TAU) * (share - 0.5);
+                    let out = [angle.cos(), angle.sin(), 0.0];
+                    let xyz = [radius * out[0], radius * out[1], z];
+                    let normal = if inside { out.map(|n| -n) } else { out };
+                    made.point(xyz, normal, diameter);
+                }
+            }
+            if !inside {
+                // Chords lie inside the circle, so that no target is behind its own.
+                let at = |k: usize| {
+                    let angle = TAU * k as f64 / FACETS as f64;
+                    [radius * angle.cos(), radius * angle.sin()]
+                };
+                for k in 0..FACETS {
+                    let (a, b) = (at(k), at(k + 1));
+                    made.faces.push(PlanFace {
+                        corner: [a[0], a[1], 0.0],
+                        along: [b[0] - a[0], b[1] - a[1], 0.0],
+                        across: [0.0, 0.0, height],
+                    });
+                }
+            }
+        }
+    }
+    (made.points, made.faces)
+}
+
+#[derive(Default)]
+struct Made {
+    points: Vec<Point>,
+    faces: Vec<PlanFace>,
+}
+
+impl Made {
+    fn point(&mut self, xyz: [f64; 3], normal: [f64; 3], diameter: f64) {
+        self.points.push(Point {
+            id: (self.points.len() + 1).to_string(),
+            xyz: Some(xyz),
+            normal: Some(normal),
+            diameter: (diameter > 0.0).then_some(diameter),
+            ..Point::default()
+        });
+    }
+
+    /// Targets in the middles of a face's cells.
+    fn face(&mut self, face: PlanFace, normal: [f64; 3], [columns, rows]: [u32; 2], diameter: f64) {
+        let (columns, rows) = (columns.max(1), rows.max(1));
+        for row in 0..rows {
+            for column in 0..columns {
+                let a = (f64::from(column) + 0.5) / f64::from(columns);
+                let b = (f64::from(row) + 0.5) / f64::from(rows);
+                let xyz = [0, 1, 2].map(|k| face.corner[k] + a * face.along[k] + b * face.across[k]);
+                self.point(xyz, normal, diameter);
+            }
+        }
+        self.faces.push(face);
+    }
+}

@@ -1,0 +1,193 @@
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use super::setup::Setup;
+use super::*;
+use crate::project::{Camera, DatumKind, Form, Interior, Lens, PlanFace, Region, Wanted};
+
+fn camera() -> Camera {
+    Camera { pixel_pitch: Some([0.006; 2]), ..Camera::new("c", 6000, 4000, Interior::brown(28.0)) }
+}
+
+fn wall() -> Plan {
+    let form = Form::Plane { width: 2000.0, height: 1500.0, columns: 5, rows: 4, upright: true, diameter: 12.0 };
+    let (points, faces) = targets_on(&form);
+    let at = |id: &str, x: f64, z: f64| PlanStation {
+        id: id.into(),
+        position: [x, -2500.0, z],
+        look_at: Some([0.0, 0.0, 750.0]),
+        ..PlanStation::default()
+    };
+    Plan {
+        cameras: vec![camera()],
+        form: Some(form),
+        points,
+        faces,
+        stations: vec![at("1", -1200.0, 700.0), at("2", 0.0, 1700.0), at("3", 1200.0, 700.0), at("4", 0.0, 100.0)],
+        ..Plan::default()
+    }
+}
+
+#[test]
+fn forms_carry_their_targets() {
+    let count = |form: Form| targets_on(&form).0.len();
+    assert_eq!(count(Form::Box { size: [1.0; 3], columns: 3, rows: 2, diameter: 0.1 }), 30);
+    let cylinder = Form::Cylinder {
+        radius: 1000.0,
+        height: 2000.0,
+        sweep: std::f64::consts::PI,
+        columns: 9,
+        rows: 5,
+        inside: false,
+        diameter: 10.0,
+    };
+    let (points, faces) = targets_on(&cylinder);
+    assert_eq!((points.len(), faces.len()), (45, 24));
+    let middle = points[4].xyz.expect("a place");
+    assert!((middle[1] + 1000.0).abs() < 1e-9 && middle[0].abs() < 1e-9);
+    // Seen from the front, targets of the front half are not hidden by their own cylinder.
+    let plan = Plan { cameras: vec![camera()], points, faces, max_incidence: 1.5, least_px: 0.0, ..Plan::default() };
+    let setup = Setup::new(&plan).expect("a plan");
+    let station =
+        PlanStation { position: [0.0, -6000.0, 1000.0], look_at: Some([0.0, 0.0, 1000.0]), ..PlanStation::default() };
+    let shot = setup.shot(&station).expect("a photo");
+    assert_eq!(shot.unseen.hidden, 0);
+    assert!(shot.seen.len() >= 35, "{:?}", shot.unseen);
+}
+
+#[test]
+fn what_is_not_seen_has_a_reason() {
+    let unseen = |edit: &dyn Fn(&mut Plan)| {
+        let mut plan = wall();
+        plan.stations.truncate(1);
+        edit(&mut plan);
+        predict(&plan).expect("a prediction").stations[0].unseen
+    };
+    assert_eq!(unseen(&|_| ()), Unseen::default());
+    assert_eq!(unseen(&|p| p.least_px = 200.0).too_small, 20);
+    assert!(unseen(&|p| p.stations[0].position = [-6000.0, -800.0, 700.0]).turned_away > 10);
+    assert!(unseen(&|p| p.stations[0].look_at = Some([9000.0, 0.0, 750.0])).outside > 10);
+    let screen = PlanFace { corner: [-5000.0, -500.0, 0.0], along: [10_000.0, 0.0, 0.0], across: [0.0, 0.0, 700.0] };
+    assert!(unseen(&|p| p.faces.push(screen)).hidden > 5);
+    let lens = |focus| Lens { f_number: Some(2.0), focus: Some(focus), ..Lens::default() };
+    assert_eq!(unseen(&|p| p.lens = lens(1500.0)).blurred, 20);
+    // Ten times as far away, what is sharp reaches as much farther.
+    assert_eq!(unseen(&|p| p.lens = Lens { unit_mm: 10.0, ..lens(1500.0) }).blurred, 0);
+}
+
+#[test]
+fn a_plan_says_what_it_lacks() {
+    let lacks = |edit: &dyn Fn(&mut Plan)| {
+        let mut plan = wall();
+        edit(&mut plan);
+        let prediction = predict(&plan).expect("a prediction");
+        assert_eq!(prediction.reached, prediction.lacks.is_empty());
+        prediction.lacks
+    };
+    assert!(lacks(&|p| p.wanted = Wanted { precision: 1.0, probability: 0.95 }).is_empty());
+    let beyond = lacks(&|p| p.wanted.precision = 1e-6);
+    assert!(matches!(&beyond[..], [Lacking::Beyond { points }] if points.len() == 20), "{beyond:?}");
+    assert_eq!(lacks(&|p| p.stations.clear()), [Lacking::NoPhotos]);
+    assert_eq!(lacks(&|p| p.points.clear()), [Lacking::NoPoints]);
+    let one = lacks(&|p| p.stations.truncate(1));
+    assert!(one.iter().any(|l| matches!(l, Lacking::Undetermined { points } if points.len() == 20)), "{one:?}");
+    // Photos from one place give no depth.
+    let rolled = lacks(&|p| {
+        p.stations.truncate(1);
+        p.stations.push(PlanStation { id: "2".into(), roll: 1.57, ..p.stations[0].clone() });
+    });
+    assert!(rolled.iter().any(|l| matches!(l, Lacking::Undetermined { .. })), "{rolled:?}");
+    // A flat object seen straight on from one distance leaves the principal distance open.
+    let calibrated = lacks(&|p| {
+        p.cameras[0].free = vec![Parameter::C];
+        for (k, station) in p.stations.iter_mut().enumerate() {
+            let x = 300.0 * k as f64;
+            (station.position, station.look_at) = ([x, -3000.0, 750.0], Some([x, 0.0, 750.0]));
+        }
+    });
+    assert!(calibrated.iter().any(|l| matches!(l, Lacking::Defect { .. } | Lacking::Beyond { .. })), "{calibrated:?}");
+    let standing = lacks(&|p| {
+        p.wanted.precision = 1.0;
+        p.forbidden.push(Region { low: [500.0, -3000.0, 0.0], high: [2000.0, -2000.0, 2000.0] });
+    });
+    assert_eq!(standing, [Lacking::Forbidden { stations: vec!["3".into()] }]);
+    let control = lacks(&|p| p.datum.kind = DatumKind::Control);
+    assert!(control.iter().any(|l| matches!(l, Lacking::Defect { .. })), "{control:?}");
+}
+
+#[test]
+fn what_is_no_plan_is_refused() {
+    let field = |edit: &dyn Fn(&mut Plan)| {
+        let mut plan = wall();
+        edit(&mut plan);
+        let error = predict(&plan).expect_err("no plan");
+        let place = error.place();
+        place.field.or(place.photo).or(place.camera).or(place.point).expect("a place")
+    };
+    assert_eq!(field(&|p| p.cameras.clear()), "cameras");
+    assert_eq!(field(&|p| p.sigma = 0.0), "sigma");
+    assert_eq!(field(&|p| p.max_incidence = 2.0), "max_incidence");
+    assert_eq!(field(&|p| p.wanted.precision = f64::NAN), "wanted");
+    assert_eq!(field(&|p| p.lens.f_number = Some(-1.0)), "lens");
+    assert_eq!(field(&|p| p.cameras[0].interior = unknown()), "c");
+    assert_eq!(field(&|p| p.points[3].xyz = None), "4");
+    assert_eq!(field(&|p| p.stations[2].look_at = None), "look_at");
+    assert_eq!(field(&|p| p.stations[2].camera = "x".into()), "3");
+}
+
+#[test]
+fn a_plan_survives_the_document() {
+    let mut plan = wall();
+    plan.variants.push(crate::project::Variant { name: "B".into(), stations: plan.stations.clone() });
+    plan.stations[0].taken = true;
+    let project = crate::project::Project { plan: Some(Box::new(plan)), ..Default::default() };
+    let text = serde_json::to_string(&project).expect("text");
+    assert_eq!(serde_json::from_str::<crate::project::Project>(&text).expect("a document"), project);
+    let without = crate::project::Project::default();
+    assert!(!serde_json::to_string(&without).expect("text").contains("plan"));
+}
+
+#[test]
+fn the_next_photo_lowers_the_criterion() {
+    let plan = wall();
+    let before = predict(&plan).expect("a prediction").largest.expect("determined");
+    let best = suggest(&plan, &Criterion::Worst, &mut |_, _| true).expect("suggestions");
+    let first = &best[0];
+    assert!(first.value.expect("determined") < before && first.sees >= 4 && first.station.id == "5");
+    let mut more = plan.clone();
+    more.stations.push(first.station.clone());
+    let after = predict(&more).expect("a prediction").largest.expect("determined");
+    assert!((after - first.value.expect("determined")).abs() < 1e-9 * after);
+    assert!(matches!(suggest(&plan, &Criterion::Worst, &mut |_, _| false), Err(crate::Error::Cancelled)));
+}
+
+#[test]
+fn a_made_plan_reaches_what_is_wanted_where_one_can_stand() {
+    let mut plan = wall();
+    plan.stations.truncate(1);
+    plan.stations[0].taken = true;
+    plan.wanted = Wanted { precision: 0.05, probability: 0.95 };
+    plan.forbidden.push(Region { low: [-9e3, -9e3, -9e3], high: [9e3, 9e3, 0.0] });
+    let made = make(&plan, &MakeOptions::default(), &mut |_, _| true).expect("a plan");
+    assert!(made.prediction.reached, "{:?}", made.prediction.lacks);
+    assert_eq!(made.stations[0], plan.stations[0]);
+    assert!(made.stations[1..].iter().all(|s| s.position[2] >= 0.0));
+    let mut ids: Vec<&String> = made.stations.iter().map(|s| &s.id).collect();
+    ids.sort();
+    ids.dedup();
+    assert_eq!(ids.len(), made.stations.len());
+    // Beyond all reach: the best of so many, and what it lacks.
+    plan.wanted.precision = 1e-7;
+    let made = make(&plan, &MakeOptions { most: 4 }, &mut |_, _| true).expect("a plan");
+    assert!(!made.prediction.reached && made.stations.len() <= 5);
+}
+
+/// An interior orientation whose principal distance is not known.
+fn unknown() -> Interior {
+    match Interior::brown(28.0) {
+        Interior::Brown { x0, y0, k1, k2, k3, p1, p2, b1, b2, .. } => {
+            Interior::Brown { c: None, x0, y0, k1, k2, k3, p1, p2, b1, b2 }
+        }
+        other => other,
+    }
+}

@@ -1,0 +1,218 @@
+//! A plan: what will be photographed, with which camera, from where, and how accurate it has to become.
+//!
+//! Data of the document; what it promises is computed in `plan`.
+
+use serde::{Deserialize, Serialize};
+
+use super::identifier::identifier;
+use super::{Camera, Datum, Point};
+
+/// A plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Plan {
+    /// Cameras with the values that are expected of them; what is free in them is calibrated with the photos.
+    pub cameras: Vec<Camera>,
+    /// What is sharp.
+    pub lens: Lens,
+    /// The form that `points` and `faces` were made from; none: they were given.
+    pub form: Option<Form>,
+    /// Object points at their expected places, with the normals and diameters of their targets.
+    pub points: Vec<Point>,
+    /// Faces that hide what lies behind them.
+    pub faces: Vec<PlanFace>,
+    /// Scale bars.
+    pub distances: Vec<PlanDistance>,
+    /// Datum.
+    pub datum: Datum,
+    /// Photos to take.
+    pub stations: Vec<PlanStation>,
+    /// Other plans of the same object, to compare.
+    pub variants: Vec<Variant>,
+    /// Where nobody can stand.
+    pub forbidden: Vec<Region>,
+    /// Standard error of an image coordinate, pixels.
+    pub sigma: f64,
+    /// Largest angle between the ray and the direction a target faces, radians.
+    pub max_incidence: f64,
+    /// Targets nearer than this to the border of the picture are not counted on, pixels.
+    pub margin: f64,
+    /// Smallest axis of a target's image that is measured, pixels.
+    pub least_px: f64,
+    /// What the points have to reach.
+    pub wanted: Wanted,
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        Self {
+            cameras: Vec::new(),
+            lens: Lens::default(),
+            form: None,
+            points: Vec::new(),
+            faces: Vec::new(),
+            distances: Vec::new(),
+            datum: Datum::default(),
+            stations: Vec::new(),
+            variants: Vec::new(),
+            forbidden: Vec::new(),
+            sigma: 0.05,
+            max_incidence: 60f64.to_radians(),
+            margin: 10.0,
+            least_px: 8.0,
+            wanted: Wanted::default(),
+        }
+    }
+}
+
+/// What is sharp in the photos. Without f-number, focus or pixel pitch everything is.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Lens {
+    /// f-number.
+    pub f_number: Option<f64>,
+    /// Distance that is focused on, in the project's unit.
+    pub focus: Option<f64>,
+    /// Largest circle of confusion, pixels.
+    pub circle_px: f64,
+    /// Millimetres in the project's unit.
+    pub unit_mm: f64,
+}
+
+impl Default for Lens {
+    fn default() -> Self {
+        Self { f_number: None, focus: None, circle_px: 2.0, unit_mm: 1.0 }
+    }
+}
+
+/// A face, a parallelogram.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PlanFace {
+    /// One corner.
+    pub corner: [f64; 3],
+    /// Edge from that corner.
+    pub along: [f64; 3],
+    /// The other edge from that corner.
+    pub across: [f64; 3],
+}
+
+/// A scale bar.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlanDistance {
+    /// Identifier of one end.
+    #[serde(deserialize_with = "identifier")]
+    pub from: String,
+    /// Identifier of the other end.
+    #[serde(deserialize_with = "identifier")]
+    pub to: String,
+    /// Standard error of its length.
+    pub sigma: f64,
+}
+
+/// A photo to take: a place, and what the camera is aimed at or its rotation.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct PlanStation {
+    /// Identifier of the photo.
+    #[serde(deserialize_with = "identifier")]
+    pub id: String,
+    /// Identifier of its camera; empty: the plan's first.
+    #[serde(deserialize_with = "identifier", skip_serializing_if = "String::is_empty")]
+    pub camera: String,
+    /// Projection centre.
+    pub position: [f64; 3],
+    /// Point on the camera's axis, where no rotation is given.
+    pub look_at: Option<[f64; 3]>,
+    /// Omega, phi, kappa in radians.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rotation: Option<[f64; 3]>,
+    /// Roll of an aimed camera about its axis, radians.
+    pub roll: f64,
+    /// Whether the photo is taken already.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub taken: bool,
+}
+
+/// Another plan of the same object.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Variant {
+    /// Name for people.
+    pub name: String,
+    /// Its photos.
+    pub stations: Vec<PlanStation>,
+}
+
+/// A box with edges along the axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Region {
+    /// Smallest X, Y and Z.
+    pub low: [f64; 3],
+    /// Largest X, Y and Z.
+    pub high: [f64; 3],
+}
+
+/// A precision to reach.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Wanted {
+    /// Half axis of a point's error, in the project's unit.
+    pub precision: f64,
+    /// Probability that the error along the largest axis is smaller, 0.5 to 0.999.
+    pub probability: f64,
+}
+
+impl Default for Wanted {
+    fn default() -> Self {
+        Self { precision: 0.05, probability: 0.95 }
+    }
+}
+
+/// A form with targets on it, around the origin.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Form {
+    /// A plane: upright it faces -Y and stands on Z = 0, else it lies at Z = 0 and faces up.
+    Plane {
+        /// Along X.
+        width: f64,
+        /// Along Z, or along Y where it lies.
+        height: f64,
+        /// Targets beside each other.
+        columns: u32,
+        /// Targets above each other.
+        rows: u32,
+        /// Whether it stands.
+        upright: bool,
+        /// Diameter of the targets.
+        diameter: f64,
+    },
+    /// A box that stands on Z = 0, with targets on its sides and its top.
+    Box {
+        /// Along X, Y and Z.
+        size: [f64; 3],
+        /// Targets beside each other on every face.
+        columns: u32,
+        /// Targets above each other on every face.
+        rows: u32,
+        /// Diameter of the targets.
+        diameter: f64,
+    },
+    /// An upright cylinder on Z = 0, seen from outside, or from inside.
+    Cylinder {
+        /// Radius.
+        radius: f64,
+        /// Along Z.
+        height: f64,
+        /// Share of the turn that has targets, in radians, the middle facing -Y.
+        sweep: f64,
+        /// Targets around.
+        columns: u32,
+        /// Targets above each other.
+        rows: u32,
+        /// Whether the targets are inside.
+        inside: bool,
+        /// Diameter of the targets.
+        diameter: f64,
+    },
+}
