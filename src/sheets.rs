@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, Place, Reason, Result};
 use crate::ring_code::Family;
 
-pub use advice::{AdviceOptions, Advised, advice};
+pub use advice::{AdviceOptions, Advised, BEST_PX, LEAST_PX, advice};
 pub use codes::{CodeCount, counts};
 use drawing::Page;
 

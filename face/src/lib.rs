@@ -4,6 +4,7 @@
 //! ([`sightline::adjustment`], [`sightline::detection`]); `sightline.d.ts` declares them. Arguments of a wrong kind and unknown options are
 //! errors that name the field. Errors are thrown as Error with `code`, `message`, `where` and `data`.
 
+mod before;
 mod fault;
 mod plain;
 mod table;

@@ -159,6 +159,8 @@ export interface Project {
   /** Layers of the lines; `colour` is red, green, blue, 0 to 255. */
   layers?: { id: string | number; colour: [number, number, number] }[];
   report?: ReportSettings;
+  /** What was planned before the photos were taken. */
+  plan?: Plan;
 }
 
 /** An end of a distance or a side of an angle. */
@@ -817,6 +819,222 @@ export interface Network {
   seed?: number;
   exposure?: { psf?: number; vignetting?: number; read_noise?: number; shot_noise?: number; bits?: 8 | 16; seed?: number };
   detect?: DetectOptions;
+}
+
+/** What is printed on sheets of targets. Lengths in mm; places on a sheet from its top left corner, x right, y down. */
+export interface SheetOptions {
+  /** Stands at the top of every sheet, as far as it is Latin. */
+  title?: string;
+  /** ["a4"] */
+  paper?: "a4" | "a3" | "letter";
+  /** ["ring-14"] */
+  family?: CodeFamily;
+  /** Numbers of the codes, as "1-20, 35"; empty: the first `codes` of those with the largest mutual distance. */
+  numbers?: string;
+  /** [20] */
+  codes?: number;
+  /** Diameter of the dots [10]. */
+  diameter?: number;
+  /** Black on white, or white on black ["paper"]. */
+  ground?: "paper" | "retro";
+  /** Plain dots [0]. */
+  dots?: number;
+  /** ["regular"] */
+  pattern?: "regular" | "jittered";
+  /** Pairs of codes that are ends of scale bars [0]. */
+  bars?: number;
+  /** Distance of the ends of a pair; one that the paper has room for is printed [1000]. */
+  bar_length?: number;
+  /** A plate with codes and dots over sheets edge to edge. */
+  field?: { columns: number; rows: number } | null;
+  cut_marks?: boolean;
+  labels?: boolean;
+  /** What the ruler of 100 mm across measures on the print. */
+  measured?: number | null;
+  /** What the one down measures; null: as the one across. */
+  measured_down?: number | null;
+  /** [0.1] */
+  measured_sigma?: number;
+  seed?: number;
+}
+
+export interface PrintedTarget {
+  /** The code's number, or "d" and a number. */
+  id: string;
+  kind: "code" | "dot" | "bar_end";
+  number: number | null;
+  /** Counted from 1. */
+  sheet: number;
+  at: [number, number];
+  /** Nominal coordinates on the plate of a calibration field, X right, Y up, with the scale of the print. */
+  plate: [number, number] | null;
+}
+
+export interface TargetSheet {
+  /** The sheets, true to scale. */
+  svg: string[];
+  /** "sheets.pdf", "targets.csv", and as far as there are any "distances.csv" and "control.csv". */
+  files: Record<string, Uint8Array>;
+  targets: PrintedTarget[];
+  /** Scale bars; sigma is null where the ends are mounted by hand. */
+  bars: { from: string; to: string; length: number; sigma: number | null }[];
+  /** Smallest mutual distance of the codes; null with fewer than two. */
+  least_distance: number | null;
+  /** Scale of the print across and down, 1 until a ruler is measured. */
+  scale: [number, number];
+  scale_sigma: number;
+  /** Diameter of the dots on paper. */
+  diameter: number;
+}
+
+/** How many codes of a family differ by at least so many sectors in every rotation. */
+export interface CodeCount {
+  distance: number;
+  count: number;
+}
+
+export interface TargetAdviceOptions {
+  /** Principal distance in pixels. */
+  c_px: number;
+  distances: number[];
+  /** Between ray and normal, radians. */
+  angles: number[];
+  diameter: number;
+}
+
+export interface TargetAdvice {
+  distance: number;
+  /** A pixel on the object. */
+  pixel: number;
+  /** Diameter of 8 px at each angle. */
+  least: number[];
+  /** Diameter of 15 px at each angle. */
+  best: number[];
+  /** Smaller axis of the dots at each angle, pixels. */
+  pixels: number[];
+}
+
+/** A photo to take: its rotation, or the point it is aimed at with a roll. */
+export interface PlanStation {
+  id?: string;
+  /** [the plan's first] */
+  camera?: string;
+  position?: [number, number, number];
+  look_at?: [number, number, number] | null;
+  rotation?: [number, number, number] | null;
+  roll?: number;
+  taken?: boolean;
+}
+
+export interface PlanFace {
+  corner: [number, number, number];
+  along: [number, number, number];
+  across: [number, number, number];
+}
+
+export type PlanForm =
+  | { kind: "plane"; width: number; height: number; columns: number; rows: number; upright: boolean; diameter: number }
+  | { kind: "box"; size: [number, number, number]; columns: number; rows: number; diameter: number }
+  | { kind: "cylinder"; radius: number; height: number; sweep: number; columns: number; rows: number; inside: boolean; diameter: number };
+
+export interface FormTargets {
+  points: Point[];
+  faces: PlanFace[];
+}
+
+/** What will be photographed, from where, and how accurate it has to become. Lengths in the project's unit, angles in radians. */
+export interface Plan {
+  cameras?: Camera[];
+  /** What is sharp; without f-number, focus or pixel pitch everything is. */
+  lens?: { f_number?: number | null; focus?: number | null; circle_px?: number; unit_mm?: number };
+  form?: PlanForm | null;
+  points?: Point[];
+  faces?: PlanFace[];
+  distances?: { from: string; to: string; sigma: number }[];
+  datum?: Datum;
+  stations?: PlanStation[];
+  variants?: { name?: string; stations?: PlanStation[] }[];
+  /** Boxes in which nobody can stand. */
+  forbidden?: { low: [number, number, number]; high: [number, number, number] }[];
+  /** Standard error of an image coordinate, pixels [0.05]. */
+  sigma?: number;
+  /** [60°] */
+  max_incidence?: number;
+  /** Pixels [10]. */
+  margin?: number;
+  /** Smallest axis of a target's image, pixels [8]. */
+  least_px?: number;
+  wanted?: { precision?: number; probability?: number };
+}
+
+export type PlanCriterion =
+  | { kind: "worst" }
+  | { kind: "mean" }
+  | { kind: "points"; points: string[] }
+  | { kind: "parameter"; parameter: string };
+
+export interface PredictedStation {
+  id: string;
+  points: string[];
+  unseen: { outside: number; turned_away: number; hidden: number; too_small: number; blurred: number };
+  /** Median distance to what it sees. */
+  distance: number | null;
+  smallest_px: number | null;
+  direction: [number, number, number];
+  /** Corners of its picture as directions, clockwise from the top left. */
+  corners: [number, number, number][];
+  forbidden: boolean;
+}
+
+export interface PredictedPoint {
+  id: string;
+  rays: number;
+  /** Largest acute angle between two rays. */
+  angle: number;
+  sigma: [number, number, number] | null;
+  covariance: [number, number, number, number, number, number] | null;
+  /** Largest half axis of the standard ellipsoid. */
+  axis: number | null;
+}
+
+/** What a plan promises; standard errors are 1σ. */
+export interface Prediction {
+  stations: PredictedStation[];
+  points: PredictedPoint[];
+  cameras: AdjustedCamera[];
+  worst: string | null;
+  largest: number | null;
+  rms: number | null;
+  /** From standard errors to the wanted probability. */
+  factor: number;
+  redundancy: number | null;
+  reached: boolean;
+  lacks: (
+    | { kind: "no_photos" | "no_points" }
+    | { kind: "undetermined" | "beyond"; points: string[] }
+    | { kind: "defect"; defect: Record<string, unknown> & { cause: string } }
+    | { kind: "forbidden"; stations: string[] }
+  )[];
+  advice: Advice[];
+}
+
+export interface SuggestedPhoto {
+  station: PlanStation;
+  /** The criterion with it; null where it leaves points undetermined. */
+  value: number | null;
+  sees: number;
+  compared: number;
+}
+
+export interface MakePlanOptions {
+  /** Most photos [40]. */
+  most?: number;
+}
+
+export interface MadePlan {
+  stations: PlanStation[];
+  prediction: Prediction;
+  compared: number;
 }
 
 /** A grey picture, row by row from the top left. */

@@ -186,7 +186,8 @@ pub fn whole(value: &JsValue, field: &str) -> Result<usize> {
         .ok_or_else(wrong)
 }
 
-fn set(object: &Object, name: &str, value: &JsValue) {
+/// Gives a plain object a field.
+pub fn set(object: &Object, name: &str, value: &JsValue) {
     // A plain object made here takes every field.
     let _ = Reflect::set(object, &JsValue::from_str(name), value);
 }

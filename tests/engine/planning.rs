@@ -195,7 +195,7 @@ fn case(seed: u64) -> Plan {
             height: between(600.0, 2000.0),
             columns: 5,
             rows: 4,
-            upright: seed % 2 == 0,
+            upright: seed.is_multiple_of(2),
             diameter: 14.0,
         },
         1 => Form::Box {
@@ -236,7 +236,7 @@ fn case(seed: u64) -> Plan {
 fn begun(seed: u64) -> Plan {
     let mut plan = case(seed);
     plan.wanted = Wanted { precision: 1e-6, probability: 0.95 };
-    let most = if seed % 3 == 0 { 4 } else { 11 } + (seed % 4) as usize;
+    let most = if seed.is_multiple_of(3) { 4 } else { 11 } + (seed % 4) as usize;
     let made = make(&plan, &MakeOptions { most }, &mut |_, _| true).expect("a plan");
     plan.stations = made.stations;
     plan
@@ -371,7 +371,7 @@ fn check_made(seeds: std::ops::Range<u64>, plans: usize) {
         let mut plan = case(seed);
         // What a dozen photos reach comfortably.
         plan.wanted = Wanted { precision: 1e-6, probability: 0.95 };
-        let most = if seed % 3 == 0 { 6 } else { 11 };
+        let most = if seed.is_multiple_of(3) { 6 } else { 11 };
         let dozen = make(&plan, &MakeOptions { most }, &mut |_, _| true).expect("a plan");
         plan.wanted.precision = 1.1 * dozen.prediction.largest.expect("determined") * dozen.prediction.factor;
         let began = Instant::now();

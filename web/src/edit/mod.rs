@@ -3,6 +3,7 @@
 
 pub mod cameras;
 pub mod control;
+pub mod plan;
 pub mod points;
 pub mod report;
 pub mod targets;

@@ -39,12 +39,22 @@ pub struct Outcome {
     pub adjustment: Adjustment,
 }
 
+/// Whether two projects differ in their plans at most, which no adjustment sees.
+fn same_but_plan(a: &Project, b: &Project) -> bool {
+    let Project { format, version, name, unit, cameras, photos, points, observations, distances, .. } = a;
+    let Project { datum, set_aside, features, systems, lines, layers, report, .. } = a;
+    (format, version, name, unit) == (&b.format, &b.version, &b.name, &b.unit)
+        && (cameras, photos, points) == (&b.cameras, &b.photos, &b.points)
+        && (observations, distances, datum, set_aside) == (&b.observations, &b.distances, &b.datum, &b.set_aside)
+        && (features, systems, lines, layers, report) == (&b.features, &b.systems, &b.lines, &b.layers, &b.report)
+}
+
 impl Document {
     /// Whether the result belongs to an earlier state of the project, or to other options.
     pub fn out_of_date(&self) -> bool {
         let same = |result: &Arc<Outcome>| {
             result.adjustment.options == self.options
-                && (Arc::ptr_eq(&result.input, &self.project) || result.input == self.project)
+                && (Arc::ptr_eq(&result.input, &self.project) || same_but_plan(&result.input, &self.project))
         };
         self.result.as_ref().is_some_and(|result| !same(result))
     }
@@ -56,7 +66,9 @@ impl Document {
 
     /// Whether no project is open: an opened one has a name at least.
     pub fn is_empty(&self) -> bool {
-        self.project.photos.is_empty() && self.project.points.is_empty() && self.project.name.is_empty()
+        let project = &self.project;
+        let nothing = project.photos.is_empty() && project.points.is_empty() && project.name.is_empty();
+        nothing && project.plan.is_none()
     }
 
     /// Whether nothing has changed between two states.
@@ -113,6 +125,11 @@ pub enum Change {
     Adjusted,
     UnitSet,
     ReportEdited,
+    PlanEdited,
+    StationMoved(String),
+    StationAdded(String),
+    StationRemoved(String),
+    PlanMade(usize),
     Opened,
 }
 

@@ -11,8 +11,10 @@ pub mod intake;
 pub mod keeping;
 pub mod kept;
 pub mod pictures;
+pub mod planning;
 pub mod plates;
 pub mod pool;
+pub mod printing;
 pub mod report;
 pub mod sample;
 pub mod saving;
@@ -39,7 +41,9 @@ use document::{Change, Document, History};
 use experiments::Experiments;
 use identity::Marks;
 use keeping::{Keeper, Kept};
+use planning::Planning;
 use pool::{Batch, Pool};
+use printing::Printing;
 use shelf::Shelved;
 
 /// The steps of the path, and the page before it.
@@ -56,12 +60,19 @@ pub enum Step {
     Report,
     /// Beside the path.
     Experiments,
+    /// Before it: the plan of the photos.
+    Plan,
+    /// Targets to print.
+    Print,
 }
 
 impl Step {
     /// The steps in their order, without the start page.
     pub const ROW: [Self; 7] =
         [Self::Photos, Self::Targets, Self::Identities, Self::Control, Self::Adjust, Self::Results, Self::Report];
+
+    /// What is done before there are photos.
+    pub const BEFORE: [Self; 2] = [Self::Plan, Self::Print];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -74,11 +85,18 @@ impl Step {
             Self::Results => "results",
             Self::Report => "report",
             Self::Experiments => "experiments",
+            Self::Plan => "plan",
+            Self::Print => "print",
         }
     }
 
     fn from_name(name: &str) -> Self {
-        Self::ROW.into_iter().find(|s| s.name() == name).unwrap_or_default()
+        Self::ROW.into_iter().chain(Self::BEFORE).find(|s| s.name() == name).unwrap_or_default()
+    }
+
+    /// Whether it needs no project.
+    pub fn is_before(self) -> bool {
+        Self::BEFORE.contains(&self)
     }
 }
 
@@ -144,6 +162,7 @@ pub enum JobKind {
     Sample,
     Experiment,
     Reporting,
+    Planning,
 }
 
 /// A photo's file as it was dropped.
@@ -267,6 +286,8 @@ pub struct Desk {
     pub pool: StoredValue<Pool, LocalStorage>,
     pub experiments: Experiments,
     pub reports: report::Reports,
+    pub printing: Printing,
+    pub planning: Planning,
 }
 
 impl Desk {
@@ -314,6 +335,8 @@ impl Desk {
             pool: StoredValue::new_local(Pool::default()),
             experiments: Experiments::default(),
             reports: report::Reports::default(),
+            printing: Printing::default(),
+            planning: Planning::default(),
         }
     }
 
@@ -381,10 +404,19 @@ impl Desk {
         }
         let step = Step::from_name(&page::hash());
         let empty = self.document.with_untracked(Document::is_empty);
-        let allowed = if empty { Step::Start } else { step };
+        let allowed = if empty && !step.is_before() { Step::Start } else { step };
         if self.step.get_untracked() != allowed {
             self.step.set(allowed);
         }
+    }
+
+    /// Shows what the address names, where it needs no project.
+    pub fn follow_hash_at_start(self) -> bool {
+        let step = Step::from_name(&page::hash());
+        if step.is_before() {
+            self.step.set(step);
+        }
+        step.is_before()
     }
 
     pub fn set_theme(self, theme: Theme) {

@@ -1,6 +1,6 @@
 //! What a change did, in words.
 
-use crate::i18n::text;
+use crate::i18n::{planning, text};
 use crate::store::document::Change;
 
 pub fn change_words(change: &Change) -> String {
@@ -34,6 +34,11 @@ pub fn change_words(change: &Change) -> String {
         Change::Adjusted => text::change_adjusted().to_owned(),
         Change::UnitSet => text::change_unit().to_owned(),
         Change::ReportEdited => text::change_report().to_owned(),
+        Change::PlanEdited => planning::change_plan().to_owned(),
+        Change::StationMoved(id) => planning::change_station_moved(id),
+        Change::StationAdded(id) => planning::change_station_added(id),
+        Change::StationRemoved(id) => planning::change_station_removed(id),
+        Change::PlanMade(n) => planning::change_plan_made(n),
         Change::Opened => text::change_opened().to_owned(),
     }
 }
