@@ -58,11 +58,11 @@ pub fn from_project(project: &Project) -> Plan {
     });
     let points: Vec<Point> = project.points.iter().filter(|point| point.xyz.is_some()).cloned().collect();
     let known = |id: &str| points.iter().any(|point| point.id == id);
-    let distances = project.distances.iter().filter(|d| known(&d.from) && known(&d.to)).map(|d| PlanDistance {
-        from: d.from.clone(),
-        to: d.to.clone(),
-        sigma: d.sigma,
-    });
+    let distances = project
+        .distances
+        .iter()
+        .filter(|d| !d.check && known(&d.from) && known(&d.to))
+        .map(|d| PlanDistance { from: d.from.clone(), to: d.to.clone(), sigma: d.sigma });
     let mut datum = project.datum.clone();
     if let Some(ids) = &mut datum.points {
         ids.retain(|id| known(id));

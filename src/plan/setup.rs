@@ -140,6 +140,7 @@ impl<'a> Setup<'a> {
                 to: d.to.clone(),
                 length: length(&d.from, &d.to),
                 sigma: d.sigma,
+                check: false,
             })
             .collect();
         for (n, shot) in shots.iter().enumerate() {
@@ -219,8 +220,13 @@ fn check(plan: &Plan) -> Result<()> {
     if !plan.forbidden.iter().all(finite) {
         return invalid(Reason::NotFinite, "forbidden");
     }
-    let distances =
-        plan.distances.iter().map(|d| Distance { from: d.from.clone(), to: d.to.clone(), length: 1.0, sigma: d.sigma });
+    let distances = plan.distances.iter().map(|d| Distance {
+        from: d.from.clone(),
+        to: d.to.clone(),
+        length: 1.0,
+        sigma: d.sigma,
+        check: false,
+    });
     let project = Project {
         cameras: plan.cameras.clone(),
         points: plan.points.clone(),

@@ -70,9 +70,9 @@ fn what_is_not_seen_has_a_reason() {
     let screen = PlanFace { corner: [-5000.0, -500.0, 0.0], along: [10_000.0, 0.0, 0.0], across: [0.0, 0.0, 700.0] };
     assert!(unseen(&|p| p.faces.push(screen)).hidden > 5);
     let lens = |focus| Lens { f_number: Some(2.0), focus: Some(focus), ..Lens::default() };
-    assert_eq!(unseen(&|p| p.lens = lens(1500.0)).blurred, 20);
+    assert_eq!(unseen(&|p| p.lens = lens(2000.0)).blurred, 20);
     // Ten times as far away, what is sharp reaches as much farther.
-    assert_eq!(unseen(&|p| p.lens = Lens { unit_mm: 10.0, ..lens(1500.0) }).blurred, 0);
+    assert_eq!(unseen(&|p| p.lens = Lens { unit_mm: 10.0, ..lens(2000.0) }).blurred, 0);
 }
 
 #[test]
