@@ -126,12 +126,6 @@ fn check_ratios(rounds: u64, names: &[&str]) {
 
 #[test]
 fn simulations_scatter_as_predicted() {
-    check_ratios(500, &["kang", "lee-structure"]);
-}
-
-#[test]
-#[ignore = "half a minute: all examples with 500 simulations each"]
-fn all_examples_scatter_as_predicted() {
     check_ratios(500, &EXAMPLES);
 }
 

@@ -77,7 +77,8 @@ pub fn chromium() -> Outcome<String> {
     installed().ok_or_else(|| advice.into())
 }
 
-/// What reads printed pages (pdftotext), where Debian's can be installed; the test of the printed report is skipped by name without it.
+/// What reads printed pages (pdftotext, pdftoppm), where Debian's can be installed; the tests of sheets and of the printed report
+/// are skipped by name without it.
 pub fn poppler() {
     if !exists("pdftotext") && exists("apt-get") {
         let _ = apt(&["update", "-qq"]);
