@@ -49,6 +49,9 @@ async function fromDropToExport(page) {
   assert.equal(await page.textContent('[data-result=sigma0]'), wanted);
   const tables = await downloads(page, 1, () => page.getByRole('button', { name: /CSV/ }).first().click());
   assert.ok(Object.values(tables).some((content) => rows(content).length > 0));
+  // The view in space is a file that is asked for only now.
+  await page.click('[data-action=object]');
+  await page.waitForFunction(() => document.querySelector('.space-host')?.view?.counts().points > 20, undefined, { timeout: 60_000 });
 }
 
 test('with the server stopped the page reloads and works from drop to export', { timeout: 600_000 }, async () => {

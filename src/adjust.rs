@@ -118,9 +118,17 @@ pub fn adjust(
 /// # Errors
 /// As [`adjust`].
 pub fn measured(project: &Project, adjustment: &Adjustment) -> Result<Measured> {
-    let statistics = adjustment.options.statistics.min(StatisticsChoice::Precision);
-    let options = AdjustOptions { statistics, covariance_of: Vec::new(), ..adjustment.options.clone() };
-    let Adjustment { features, systems, .. } = adjust(&apply(project, adjustment), &options, &mut |_| true)?;
+    measured_at(&apply(project, adjustment), &adjustment.options)
+}
+
+/// The same of a project that has the adjusted values already, with the options of that adjustment.
+///
+/// # Errors
+/// As [`adjust`].
+pub fn measured_at(project: &Project, options: &AdjustOptions) -> Result<Measured> {
+    let statistics = options.statistics.min(StatisticsChoice::Precision);
+    let options = AdjustOptions { statistics, covariance_of: Vec::new(), ..options.clone() };
+    let Adjustment { features, systems, .. } = adjust(project, &options, &mut |_| true)?;
     Ok(Measured { features, systems })
 }
 

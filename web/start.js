@@ -13,6 +13,9 @@ self.launchQueue?.setConsumer(async ({ files }) => {
   if (files?.length) tell('files', await Promise.all(files.map((file) => file.getFile())));
 });
 
+/** Loads a part of the page that is a file of its own, when it is asked for. */
+self.sightlineLoad = (name) => import(`./${name}`);
+
 await start({ module_or_path: './desk_bg.wasm' });
 
 if (navigator.serviceWorker && location.protocol !== 'file:') {

@@ -234,17 +234,31 @@ impl End {
 }
 
 impl Project {
-    /// Whether two documents differ in nothing but what is measured on the result.
+    /// Whether two documents differ in nothing but what is measured on the result, planned before it or written beside it.
     pub fn same_but_features(&self, other: &Self) -> bool {
-        let without = |p: &Self| Self {
-            features: Vec::new(),
-            systems: Vec::new(),
-            lines: Vec::new(),
-            layers: Vec::new(),
-            ..p.clone()
-        };
-        let parts = self.points.len() == other.points.len() && self.observations.len() == other.observations.len();
-        parts && without(self) == without(other)
+        let Self {
+            format,
+            version,
+            name,
+            unit,
+            cameras,
+            photos,
+            points,
+            observations,
+            distances,
+            datum,
+            set_aside,
+            features: _,
+            systems: _,
+            lines: _,
+            layers: _,
+            report: _,
+            plan: _,
+        } = self;
+        (format, version, name, unit) == (&other.format, &other.version, &other.name, &other.unit)
+            && (cameras, photos, points) == (&other.cameras, &other.photos, &other.points)
+            && (observations, distances, datum) == (&other.observations, &other.distances, &other.datum)
+            && *set_aside == other.set_aside
     }
 
     /// Another name of a point in features, systems and lines.

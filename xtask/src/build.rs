@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use wasm_bindgen_cli_support::Bindgen;
 
 use crate::install::{self, TARGET};
-use crate::process::{cargo, output, root, run};
+use crate::process::{cargo, output, program, root, run};
 use crate::{Outcome, offline, page};
 
 /// How the page is built.
@@ -74,6 +74,7 @@ fn assemble_dist(profile: Profile) -> Outcome {
     bindings(profile, "sightline-desk", &folder, page::MODULE, false)?;
     bindings(profile, "sightline-worker", &folder, page::WORKER, false)?;
     page::assemble(&root(), &folder)?;
+    view3d(&folder)?;
     offline::icons(&folder)?;
     offline::seal(&folder)?;
     report("dist", &folder.join(format!("{}_bg.wasm", page::MODULE)));
@@ -151,6 +152,25 @@ fn links_no_engine() -> Outcome {
         Some(name) => Err(format!("{module}: the page links {name}, which belongs to the workers")),
         None => Ok(()),
     }
+}
+
+/// The 3-D view with what it uses of three.js, as one file that the page loads when it is asked for.
+fn view3d(dist: &Path) -> Outcome {
+    let folder = root().join("web/view3d");
+    install::packages_of("web/view3d")?;
+    let out = format!("--outfile={}", dist.join(page::VIEW3D).display());
+    let arguments = [
+        "--no-install",
+        "esbuild",
+        "view.js",
+        "--bundle",
+        "--minify",
+        "--format=esm",
+        "--legal-comments=eof",
+        "--log-level=error",
+        &out,
+    ];
+    run(program("npx", &arguments).current_dir(folder).stdout(std::io::stderr()))
 }
 
 fn bindings(profile: Profile, module: &str, folder: &Path, name: &str, typescript: bool) -> Outcome {

@@ -36,10 +36,15 @@ pub fn node() -> Outcome {
 
 /// The npm packages of the tests, as the lock file has them.
 pub fn packages() -> Outcome {
+    packages_of("e2e")
+}
+
+/// The npm packages of a folder, as its lock file has them.
+pub fn packages_of(name: &str) -> Outcome {
     node()?;
-    let folder = root().join("e2e");
+    let folder = root().join(name);
     let lock = fs::read_to_string(folder.join("package-lock.json"))
-        .map_err(|error| format!("e2e/package-lock.json: {error}"))?;
+        .map_err(|error| format!("{name}/package-lock.json: {error}"))?;
     let stamp = folder.join("node_modules/.installed-from");
     if fs::read_to_string(&stamp).is_ok_and(|installed| installed == lock) {
         return Ok(());

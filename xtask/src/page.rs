@@ -10,6 +10,8 @@ use crate::build::write;
 pub const MODULE: &str = "desk";
 /// Name of the workers' module in dist/.
 pub const WORKER: &str = "sightline-worker";
+/// The 3-D view in dist/.
+pub const VIEW3D: &str = "view3d.js";
 
 /// Copies what index.html names into `dist` and writes the page there.
 pub fn assemble(root: &Path, dist: &Path) -> Outcome {

@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 use crate::Outcome;
 use crate::build::write;
-use crate::page::{MODULE, WORKER};
+use crate::page::{MODULE, VIEW3D, WORKER};
 
 /// Name of the file in dist/.
 pub const NAME: &str = "sightline.html";
@@ -29,6 +29,9 @@ self.sightlineFiles = {
   'storage.js': address('storage', 'text/javascript'),
   'sightline-worker_bg.wasm': address('engine', 'application/wasm'),
 };
+const parts = { 'view3d.js': 'view3d' };
+// The same address every time: one at another address would be loaded again.
+self.sightlineLoad = (name) => import((sightlineFiles[name] ??= address(parts[name], 'text/javascript')));
 ";
 
 /// Writes the file out of an assembled dist/.
@@ -54,7 +57,7 @@ pub fn write_to(dist: &Path) -> Outcome {
         return Err("a part of the page ends the element that it would be in".into());
     }
     let policy = format!(
-        "default-src 'none'; script-src '{}' 'wasm-unsafe-eval'; style-src '{}'; worker-src blob:; connect-src blob:; \
+        "default-src 'none'; script-src '{}' 'wasm-unsafe-eval' blob:; style-src '{}'; worker-src blob:; connect-src blob:; \
          img-src blob: data:; base-uri 'none'; form-action 'none'",
         digest(&script),
         digest(&style)
@@ -69,6 +72,7 @@ pub fn write_to(dist: &Path) -> Outcome {
         "<noscript>Sightline needs JavaScript and WebAssembly.</noscript>\n".into(),
         data("worker", BASE64_STANDARD.encode(worker)),
         data("storage", coded("storage.js")?),
+        data("view3d", coded(VIEW3D)?),
         data("engine", coded(&format!("{WORKER}_bg.wasm"))?),
         data("desk", coded(&format!("{MODULE}_bg.wasm"))?),
         format!("<script type=\"module\">{script}</script>\n</body>\n</html>\n"),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use sightline::adjustment::{AdjustOptions, AdjustedPhoto, Adjustment, Iteration};
+use sightline::adjustment::{AdjustOptions, AdjustedPhoto, Adjustment, Iteration, Measured};
 use sightline::detection::{DetectOptions, Detection, Target};
 use sightline::exif::PhotoInfo;
 use sightline::experiments::{Experiment, ExperimentOptions};
@@ -149,6 +149,8 @@ tasks! {
     } => Nothing, Option<Target>;
     /// Orient what is not oriented and adjust; progress per iteration.
     Adjust { /** What. */ pub project: Project, /** How. */ pub options: AdjustOptions } => Adjusting, Adjusted;
+    /// Measure the features of a project at the values that an adjustment with these options gave it.
+    MeasureFeatures { /** With the adjusted values. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Measured;
     /// Name uncoded targets by the geometry of the photos, which are oriented and adjusted first where they are not.
     Match {
         /** Of the photos. */ pub project: Project,

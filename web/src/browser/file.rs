@@ -99,9 +99,14 @@ pub fn download(name: &str, kind: &str, bytes: &[u8]) -> Result<(), String> {
     let options = BlobPropertyBag::new();
     options.set_type(kind);
     let content = Array::of1(&Uint8Array::from(bytes));
+    let blob = web_sys::Blob::new_with_u8_array_sequence_and_options(&content, &options).map_err(|e| describe(&e))?;
+    download_blob(name, &blob)
+}
+
+/// The same of what JavaScript made.
+pub fn download_blob(name: &str, blob: &web_sys::Blob) -> Result<(), String> {
     let save = || -> Result<(), JsValue> {
-        let blob = web_sys::Blob::new_with_u8_array_sequence_and_options(&content, &options)?;
-        let url = Url::create_object_url_with_blob(&blob)?;
+        let url = Url::create_object_url_with_blob(blob)?;
         let document = web_sys::window().and_then(|w| w.document()).ok_or("no document")?;
         let anchor: HtmlAnchorElement = document.create_element("a")?.unchecked_into();
         anchor.set_href(&url);

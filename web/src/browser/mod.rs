@@ -3,6 +3,7 @@
 pub mod canvas;
 pub mod event;
 pub mod file;
+pub mod object;
 pub mod page;
 pub mod paper;
 pub mod picture;

@@ -12,7 +12,7 @@ pub mod text;
 
 use leptos::prelude::*;
 
-pub use en::experiments;
+pub use en::{experiments, object};
 
 use crate::browser::page;
 
@@ -163,6 +163,7 @@ mod tests {
                 en::desk::words(language).every_text(),
                 experiments::words(language).every_text(),
                 en::errors::words(language).every_text(),
+                object::words(language).every_text(),
             ];
             parts.into_iter().flatten().map(move |text| (language, text))
         };

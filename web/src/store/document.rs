@@ -46,7 +46,7 @@ impl Document {
     pub fn out_of_date(&self) -> bool {
         let same = |result: &Arc<Outcome>| {
             result.adjustment.options == self.options
-                && (Arc::ptr_eq(&result.input, &self.project) || result.input == self.project)
+                && (Arc::ptr_eq(&result.input, &self.project) || result.input.same_but_features(&self.project))
         };
         self.result.as_ref().is_some_and(|result| !same(result))
     }
@@ -115,6 +115,10 @@ pub enum Change {
     OptionsChosen,
     Adjusted,
     UnitSet,
+    FeatureMade(String),
+    FeatureRemoved(String),
+    FeatureRenamed { from: String, to: String },
+    LinesDrawn,
     ReportEdited,
     Opened,
     CellsEdited { table: Table, cells: usize },

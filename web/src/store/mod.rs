@@ -6,6 +6,7 @@ pub mod control;
 pub mod detection;
 pub mod document;
 pub mod experiments;
+pub mod features;
 pub mod identity;
 pub mod intake;
 pub mod keeping;
@@ -65,6 +66,8 @@ pub enum Step {
     Adjust,
     Results,
     Report,
+    /// A view of the results, beside the path.
+    Object,
     /// Beside the path.
     Experiments,
     /// Beside the path too.
@@ -86,13 +89,14 @@ impl Step {
             Self::Adjust => "adjust",
             Self::Results => "results",
             Self::Report => "report",
+            Self::Object => "object",
             Self::Experiments => "experiments",
             Self::Tables => "tables",
         }
     }
 
     fn from_name(name: &str) -> Self {
-        Self::ROW.into_iter().chain([Self::Tables]).find(|s| s.name() == name).unwrap_or_default()
+        Self::ROW.into_iter().chain([Self::Tables, Self::Object]).find(|s| s.name() == name).unwrap_or_default()
     }
 }
 

@@ -187,7 +187,9 @@ impl Desk {
         let on_outcome = move |outcome: Outcome<Export>| match outcome {
             Outcome::Done(names, bytes) => {
                 for (name, bytes) in names.iter().zip(bytes) {
-                    self.hand_over(&format!("{stem}-{name}"), "text/csv", &bytes);
+                    let table = name.ends_with(".csv") || name.ends_with(".tsv");
+                    let kind = if table { "text/csv" } else { "application/octet-stream" };
+                    self.hand_over(&format!("{stem}-{name}"), kind, &bytes);
                 }
             }
             Outcome::Failed(failure) => self.tell_failure(failure),

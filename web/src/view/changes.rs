@@ -1,7 +1,7 @@
 //! What a change did, in words.
 
 use super::tables::table_words;
-use crate::i18n::text;
+use crate::i18n::{object as words, text};
 use crate::store::document::Change;
 
 pub fn change_words(change: &Change) -> String {
@@ -35,6 +35,10 @@ pub fn change_words(change: &Change) -> String {
         Change::Adjusted => text::change_adjusted().to_owned(),
         Change::UnitSet => text::change_unit().to_owned(),
         Change::ReportEdited => text::change_report().to_owned(),
+        Change::FeatureMade(id) => words::change_made(id),
+        Change::FeatureRemoved(id) => words::change_removed(id),
+        Change::FeatureRenamed { from, to } => words::change_renamed(from, to),
+        Change::LinesDrawn => words::change_lines().to_owned(),
         Change::Opened => text::change_opened().to_owned(),
         Change::CellsEdited { table, cells } => text::change_cells(cells, table_words(*table)),
         Change::RowsSwitched { table, rows, enabled: false } => text::change_rows_excluded(rows, table_words(*table)),

@@ -73,6 +73,16 @@ pub(super) fn OutOfDate() -> impl IntoView {
     }
 }
 
+/// Why there are no numbers: no result yet, or an earlier one.
+#[component]
+pub fn NoNumbers() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let any = Memo::new(move |_| desk.document.with(|d| d.result.is_some()));
+    view! {
+        <Show when=move || any.get() fallback=|| view! { <NoResult/> }><OutOfDate/></Show>
+    }
+}
+
 /// Reads the present adjustment; components below exist only while there is one.
 fn read<T: Default>(desk: Desk, read: impl FnOnce(&Adjustment, &Project) -> T) -> T {
     desk.document.with(|d| d.current().map(|r| read(&r.adjustment, &r.input)).unwrap_or_default())
@@ -176,7 +186,7 @@ fn Hero(explain: Callback<Statistic>) -> impl IntoView {
             {move || check().map(|(rms, n)| view! {
                 <div><span><Explained explain of=Statistic::CheckRms name=text::check_rms/> " " <u>{unit}</u></span><b>{format::fixed(rms, 3)}</b><small>{text::n_points(n)}</small></div>
             })}
-            <div class="hero-action">
+            <div class="hero-action"><button class="button" data-action="object" on:click=move |_| desk.go(Step::Object)>{crate::i18n::object::open_object}</button>
                 <button class="button" on:click=move |_| export_tables(desk)><Glyph icon=Icon::Save/> {text::export_csv}</button>
                 <button class="button primary" on:click=move |_| desk.go(Step::Report)>{text::write_report} <Glyph icon=Icon::Arrow/></button>
             </div>

@@ -7,7 +7,9 @@ use super::changes::change_words;
 use super::icon::{Glyph, Icon};
 use super::projects::{StorageLine, StorageNotices, kept_words};
 use super::results::control_figure;
-use super::{adjust, control, experiments, help, identities, keys, photos, report, results, start, tables, targets};
+use super::{
+    adjust, control, experiments, help, identities, keys, object, photos, report, results, start, tables, targets,
+};
 use crate::browser::{event, file, page};
 use crate::i18n::{self, errors, experiments as words, text};
 use crate::store::document::Document;
@@ -65,6 +67,7 @@ pub fn App() -> impl IntoView {
                 Step::Control => view! { <control::Control/> }.into_any(),
                 Step::Adjust => view! { <adjust::Adjust/> }.into_any(),
                 Step::Results => view! { <results::Results/> }.into_any(),
+                Step::Object => view! { <object::Object/> }.into_any(),
                 Step::Report => view! { <report::Report/> }.into_any(),
                 Step::Experiments => view! { <experiments::Experiments/> }.into_any(),
                 Step::Tables => view! { <tables::Tables/> }.into_any(),
@@ -197,7 +200,8 @@ fn StepButton(step: Step, number: usize) -> impl IntoView {
         })
     };
     let reachable = move || desk.document.with(|d| !d.is_empty());
-    let now = move || desk.step.get() == step;
+    // The object is a view of the results.
+    let now = move || desk.step.get() == step || (step == Step::Results && desk.step.get() == Step::Object);
     view! {
         <li class:now=now>
             <button
@@ -226,6 +230,7 @@ pub fn step_label(step: Step) -> &'static str {
         Step::Control => text::control_and_scale(),
         Step::Adjust => text::adjustment(),
         Step::Results => text::results(),
+        Step::Object => i18n::object::object(),
         Step::Report => text::report(),
         Step::Experiments => words::experiments(),
         Step::Tables => text::tables(),

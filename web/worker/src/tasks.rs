@@ -2,8 +2,8 @@
 
 use std::collections::HashSet;
 
-use sightline::adjust::{adjust, apply};
-use sightline::adjustment::{AdjustOptions, StatisticsChoice, Termination};
+use sightline::adjust::{adjust, apply, measured_at};
+use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
 use sightline::decode::Photo;
 use sightline::detection::{Channel, Codes, DetectOptions, Detection, Target};
 use sightline::exchange::export;
@@ -18,8 +18,8 @@ use sightline::report::{self, Report};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
     Adjust, Adjusted, Adjusting, Content, Detect, Export, ExportExperiment, MakePlots, MakeReport, Match, Measure,
-    Nothing, Open, Opened, Pack, Predict, Progress, ReportMade, RunExperiment, Sample, SamplePhoto, SamplePhotoMade,
-    Served, Service, ShowPart, ShowPhoto, Shown, Situate, Situated, Unpack, Unpacked,
+    MeasureFeatures, Nothing, Open, Opened, Pack, Predict, Progress, ReportMade, RunExperiment, Sample, SamplePhoto,
+    SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, Shown, Situate, Situated, Unpack, Unpacked,
 };
 
 use crate::kept::{self, digest, with_photo};
@@ -67,6 +67,12 @@ impl Service<Adjust> for Engine {
             true
         })?;
         Ok((Adjusted { oriented, adjustment }, Vec::new()))
+    }
+}
+
+impl Service<MeasureFeatures> for Engine {
+    fn serve(&self, task: MeasureFeatures, _: Files, _: Progress<Nothing>) -> Served<Measured> {
+        Ok((measured_at(&task.project, &task.options)?, Vec::new()))
     }
 }
 

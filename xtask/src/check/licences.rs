@@ -51,13 +51,17 @@ fn cargo_packages() -> Outcome<Vec<(String, String)>> {
 }
 
 fn npm_packages() -> Outcome<Vec<(String, String)>> {
-    let text = fs::read_to_string(root().join("e2e/package-lock.json"))
-        .map_err(|error| format!("e2e/package-lock.json: {error}"))?;
-    let lock: Value = serde_json::from_str(&text).map_err(|error| format!("e2e/package-lock.json: {error}"))?;
-    let packages = lock["packages"].as_object().ok_or("e2e/package-lock.json lists no packages")?;
-    let licence =
-        |(path, package): (&String, &Value)| (path.clone(), package["license"].as_str().unwrap_or("none").to_owned());
-    Ok(packages.iter().filter(|(path, _)| !path.is_empty()).map(licence).collect())
+    let mut all = Vec::new();
+    for name in ["e2e/package-lock.json", "web/view3d/package-lock.json"] {
+        let text = fs::read_to_string(root().join(name)).map_err(|error| format!("{name}: {error}"))?;
+        let lock: Value = serde_json::from_str(&text).map_err(|error| format!("{name}: {error}"))?;
+        let packages = lock["packages"].as_object().ok_or_else(|| format!("{name} lists no packages"))?;
+        let licence = |(path, package): (&String, &Value)| {
+            (path.clone(), package["license"].as_str().unwrap_or("none").to_owned())
+        };
+        all.extend(packages.iter().filter(|(path, _)| !path.is_empty()).map(licence));
+    }
+    Ok(all)
 }
 
 #[cfg(test)]
