@@ -92,6 +92,10 @@ fn runaways(project: &Project, options: &AdjustOptions) -> BTreeSet<String> {
     };
     let parallel = rays.iter().filter(|(_, rays)| !(widest(rays) >= SMALLEST_ANGLE));
     let away: BTreeSet<String> = parallel.map(|(id, _)| (*id).to_owned()).collect();
+    // where most have run away it is the network that has, and those that are no worse than the others must not pay for it
+    if 2 * away.len() > rays.len() {
+        return BTreeSet::new();
+    }
     if !away.is_empty() {
         return away;
     }
