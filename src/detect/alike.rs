@@ -27,6 +27,8 @@ const SHADES: f64 = 0.15;
 /// Largest residuals, in units of those of the known targets, and the part of the contrast that they may differ by besides.
 const AS_GOOD: f64 = 1.5;
 const PROFILE: f64 = 0.04;
+/// Residuals, in units of these largest ones, from which a fit is given up.
+const HOPELESS: f64 = 2.0;
 /// Contrast that blur leaves in the middle, in units of the residuals, below which chance has such shapes.
 const PLAIN: f64 = 4.0;
 /// The same of the whole disc: contrast times the root of its pixels.
@@ -103,6 +105,11 @@ impl Alike {
     }
 }
 
+/// How far from what stands out its target's centre may lie, in pixels.
+fn farthest(seen: &Outline) -> f64 {
+    1.0 + 0.3 * seen.semi_axes().1
+}
+
 impl<T: Sample> Measure<'_, T> {
     /// The target at a place where something of this outline stands out, as far as it is like the others.
     pub fn alike(&mut self, seen: &Outline, alike: &Alike) -> Result<Target, Reason> {
@@ -122,8 +129,12 @@ impl<T: Sample> Measure<'_, T> {
         {
             return Err(Reason::LowContrast);
         }
-        let prior =
-            Prior { blur: alike.blur, contrast: [sign * alike.contrast[0], alike.contrast[1]], noise: alike.rms };
+        let prior = Prior {
+            blur: alike.blur,
+            contrast: [sign * alike.contrast[0], alike.contrast[1]],
+            noise: alike.rms,
+            largest_rms: HOPELESS * (AS_GOOD * alike.rms + PROFILE * alike.contrast[0]),
+        };
         let mut found: Option<Fit> = None;
         // the second time with the pixels of the outline that the first one has found
         for _ in 0..2 {
@@ -143,6 +154,9 @@ impl<T: Sample> Measure<'_, T> {
             found = Some(fit);
             if !outline.is_proper() || !self.has_room(&outline) {
                 return Err(Reason::AtBorder);
+            }
+            if (outline.u - seen.u).hypot(outline.v - seen.v) > 2.0 * farthest(seen) {
+                return Err(Reason::NotAnEllipse);
             }
             kept = vec![true; super::edges::edge::ray_count(&outline)];
             around = self.level_around(&outline, alike, &kept)?;
@@ -208,7 +222,7 @@ impl<T: Sample> Measure<'_, T> {
             && misfit <= 0.6 * alike.rms + PROFILE * peak
             && fit.disturbed <= DISTURBED
             && (fit.blur - blur).abs() <= 3.0 * spread + 0.1 * blur
-            && moved <= 1.0 + 0.3 * seen.semi_axes().1;
+            && moved <= farthest(seen);
         if good { Ok(()) } else { Err(Reason::NotAnEllipse) }
     }
 

@@ -9,6 +9,7 @@ use super::edges::blur::{self, BLURRED, DEFOCUSED, SHARP};
 use super::edges::edge;
 use super::edges::look::{self, DotLevels};
 use super::edges::quality;
+use super::edges::sectors;
 use super::edges::surround;
 use super::edges::through::{self, EllipseFit, Start};
 use super::ellipse::outline::Outline;
@@ -17,8 +18,6 @@ use crate::image::Sample;
 
 /// Sectors tried: shares of the outline. A cover of a fifth of the diameter takes 0.295 of a circle's.
 const SECTORS: [f64; 3] = [0.15, 0.25, 0.35];
-/// Places of each, around the outline.
-const PLACES: usize = 16;
 /// Scatter of edges, in pixels, below which one sector is as good as another.
 const EVEN: f64 = 0.02;
 /// Share of the other edges that may not fit either.
@@ -107,21 +106,18 @@ impl<T: Sample> Measure<'_, T> {
         self.search(start, bright, (0.25 * b).clamp(2.0, 10.0), edge::ray_count(start), SHARP);
         let strengths = self.edges.strength.clone();
         let mut best: Option<(f64, [f64; 2], EllipseFit)> = None;
-        for share in SECTORS {
-            for place in 0..PLACES {
-                let from = place as f64 / PLACES as f64;
-                let sector = [from, from + share];
-                self.edges.strength.clone_from(&strengths);
-                self.cover(&sector);
-                let Some(fit) = through::fit(&mut self.edges, start, Start::Rough) else { continue };
-                if fit.occluded > share + OTHERS {
-                    continue;
-                }
-                // a smaller sector leaves more to measure, and less room for chance
-                let scatter = fit.rms.hypot(EVEN) * (1.0 + share);
-                if best.as_ref().is_none_or(|(least, ..)| scatter < *least) {
-                    best = Some((scatter, sector, fit));
-                }
+        for (share, from) in sectors::promising(&self.edges, start, &SECTORS) {
+            let sector = [from, from + share];
+            self.edges.strength.clone_from(&strengths);
+            self.cover(&sector);
+            let Some(fit) = through::fit(&mut self.edges, start, Start::Rough) else { continue };
+            if fit.occluded > share + OTHERS {
+                continue;
+            }
+            // a smaller sector leaves more to measure, and less room for chance
+            let scatter = fit.rms.hypot(EVEN) * (1.0 + share);
+            if best.as_ref().is_none_or(|(least, ..)| scatter < *least) {
+                best = Some((scatter, sector, fit));
             }
         }
         best.map(|(_, sector, fit)| (sector, fit))

@@ -6,5 +6,6 @@ pub(crate) mod edge;
 pub(crate) mod look;
 pub(crate) mod propagation;
 pub(crate) mod quality;
+pub(crate) mod sectors;
 pub(crate) mod surround;
 pub(crate) mod through;

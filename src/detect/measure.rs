@@ -302,6 +302,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             blur: IN_FOCUS,
             contrast: [contrast, LOOSE * contrast.abs()],
             noise: self.noise(&found.surround),
+            largest_rms: f64::INFINITY,
         });
         let again = self.measured(found, method);
         self.prior = None;

@@ -12,6 +12,8 @@ mod component;
 mod partial;
 mod scan;
 
+use std::collections::HashSet;
+
 use self::blob::{Limits, NoBlob};
 use self::component::{Chord, Linker};
 use self::scan::Edge;
@@ -130,6 +132,8 @@ struct Pass {
     levels: Vec<Level>,
     edges: Vec<Edge>,
     runs: Vec<Chord>,
+    /// Blobs without a shape that were looked at closely: other levels see many of them again.
+    tried: HashSet<[u32; 6]>,
 }
 
 /// What sees the edges above one threshold.
@@ -157,30 +161,30 @@ impl Pass {
                 linkers: wanted.iter().map(|&bright| (bright, Linker::new(rows))).collect(),
                 blobs: Blobs::default(),
             });
-        Self { limits, levels: levels.collect(), edges: Vec::new(), runs: Vec::new() }
+        Self { limits, levels: levels.collect(), edges: Vec::new(), runs: Vec::new(), tried: HashSet::new() }
     }
 
     /// Takes the next row, the y-th of the picture.
     #[inline(never)]
     fn row<T: Sample>(&mut self, samples: &[T], y: usize, look: &impl Fn(&Outline, bool) -> Result<(), Reason>) {
-        let Self { limits, levels, edges, runs } = self;
+        let Self { limits, levels, edges, runs, tried } = self;
         let lowest = levels.first().map_or(T::MAX, |level| level.threshold.min(T::MAX));
         scan::edges(samples, T::of(lowest), edges);
         for level in levels {
             edges.retain(|edge| edge.strength > level.threshold);
             for (bright, linker) in &mut level.linkers {
                 component::runs(edges, *bright, limits.width, y as f32 + 0.5, runs);
-                linker.row(runs, &mut |chain| level.blobs.judge(chain, *bright, limits, look));
+                linker.row(runs, &mut |chain| level.blobs.judge(chain, *bright, limits, look, tried));
             }
         }
     }
 
     /// The blobs of each level, strong edges first.
     fn end(self, look: &impl Fn(&Outline, bool) -> Result<(), Reason>) -> Vec<Blobs> {
-        let Self { limits, levels, .. } = self;
+        let Self { limits, levels, mut tried, .. } = self;
         let all = levels.into_iter().rev().map(|mut level| {
             for (bright, linker) in &mut level.linkers {
-                linker.end(&mut |chain| level.blobs.judge(chain, *bright, &limits, look));
+                linker.end(&mut |chain| level.blobs.judge(chain, *bright, &limits, look, &mut tried));
             }
             level.blobs
         });
@@ -195,6 +199,7 @@ impl Blobs {
         bright: bool,
         limits: &Limits,
         look: &impl Fn(&Outline, bool) -> Result<(), Reason>,
+        tried: &mut HashSet<[u32; 6]>,
     ) {
         // looked at while its rows are still near the processor
         let mut enter = |outline| match look(&outline, bright) {
@@ -214,6 +219,8 @@ impl Blobs {
                 }
                 // one that is covered in part, or joined with what lies in front of it
                 if no.reason == Reason::NotAnEllipse
+                    && let [first, .., last] = chain
+                    && tried.insert([first.x0, first.x1, first.y, last.x0, last.x1, last.y].map(f32::to_bits))
                     && let Some(outline) = partial::most(chain, limits)
                 {
                     self.partial.push(Candidate { outline, bright });

@@ -27,22 +27,89 @@ pub(crate) fn fit(points: &[[f64; 3]]) -> Option<Outline> {
     if !(scale > 1e-9 && scale.is_finite()) {
         return None;
     }
-
-    // sums of x^i y^j: of the fourth, third and second order, those of the first are 0 about the centroid
-    let (mut fourth, mut third, mut second) = ([0.0; 5], [0.0; 4], [0.0; 3]);
+    let mut sums = Sums::default();
     for [x, y, w] in points {
-        let (x, y) = ((x - mx) / scale, (y - my) / scale);
+        sums.add((x - mx) / scale, (y - my) / scale, *w);
+    }
+    let Sums { weight, second, third, fourth, .. } = sums;
+    let outline = through(weight, second, third, fourth)?;
+    let outline = Outline { u: outline.u * scale + mx, v: outline.v * scale + my, ..outline.scaled(scale) };
+    outline.is_proper().then_some(outline)
+}
+
+/// Sums of w x^i y^j over points: what the ellipse through them depends on. Those of points that lie next to each other are
+/// differences of running sums. Meant for places of size 1 about 0.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Sums {
+    pub weight: f64,
+    first: [f64; 2],
+    second: [f64; 3],
+    third: [f64; 4],
+    fourth: [f64; 5],
+}
+
+impl Sums {
+    /// Takes a point in.
+    pub fn add(&mut self, x: f64, y: f64, w: f64) {
         let [xx, xy, yy] = [w * x * x, w * x * y, w * y * y];
-        for (sum, term) in second.iter_mut().zip([xx, xy, yy]) {
-            *sum += term;
-        }
-        for (sum, term) in third.iter_mut().zip([xx * x, xx * y, yy * x, yy * y]) {
-            *sum += term;
-        }
-        for (sum, term) in fourth.iter_mut().zip([xx * x * x, xx * x * y, xx * y * y, xy * y * y, yy * y * y]) {
-            *sum += term;
+        self.weight += w;
+        add(&mut self.first, [w * x, w * y]);
+        add(&mut self.second, [xx, xy, yy]);
+        add(&mut self.third, [xx * x, xx * y, yy * x, yy * y]);
+        add(&mut self.fourth, [xx * x * x, xx * x * y, xx * y * y, xy * y * y, yy * y * y]);
+    }
+
+    /// The sums of what was taken in since `before`.
+    pub fn since(&self, before: &Self) -> Self {
+        Self {
+            weight: self.weight - before.weight,
+            first: std::array::from_fn(|i| self.first[i] - before.first[i]),
+            second: std::array::from_fn(|i| self.second[i] - before.second[i]),
+            third: std::array::from_fn(|i| self.third[i] - before.third[i]),
+            fourth: std::array::from_fn(|i| self.fourth[i] - before.fourth[i]),
         }
     }
+
+    /// The ellipse of the points; none when they determine none.
+    pub fn ellipse(&self) -> Option<Outline> {
+        let Self { weight, first, second, third, fourth } = *self;
+        if !(weight > 0.0) {
+            return None;
+        }
+        // moved to the centroid (p, q): S'(i, j) is the sum of w (x - p)^i (y - q)^j
+        let [p, q] = first.map(|sum| sum / weight);
+        let [xx, xy, yy] = second;
+        let [x3, xxy, xyy, y3] = third;
+        let [x4, x3y, xxyy, xy3, y4] = fourth;
+        let n = weight;
+        let second = [xx - n * p * p, xy - n * p * q, yy - n * q * q];
+        let moved = [
+            x3 - 3.0 * p * xx + 2.0 * n * p * p * p,
+            xxy - 2.0 * p * xy - q * xx + 2.0 * n * p * p * q,
+            xyy - 2.0 * q * xy - p * yy + 2.0 * n * p * q * q,
+            y3 - 3.0 * q * yy + 2.0 * n * q * q * q,
+        ];
+        let fourth = [
+            x4 - 4.0 * p * x3 + 6.0 * p * p * xx - 3.0 * n * p.powi(4),
+            x3y - 3.0 * p * xxy - q * x3 + 3.0 * p * p * xy + 3.0 * p * q * xx - 3.0 * n * p.powi(3) * q,
+            xxyy - 2.0 * q * xxy - 2.0 * p * xyy + q * q * xx + p * p * yy + 4.0 * p * q * xy - 3.0 * n * p * p * q * q,
+            xy3 - 3.0 * q * xyy - p * y3 + 3.0 * q * q * xy + 3.0 * p * q * yy - 3.0 * n * p * q.powi(3),
+            y4 - 4.0 * q * y3 + 6.0 * q * q * yy - 3.0 * n * q.powi(4),
+        ];
+        let outline = through(weight, second, moved, fourth)?;
+        let outline = Outline { u: outline.u + p, v: outline.v + q, ..outline };
+        outline.is_proper().then_some(outline)
+    }
+}
+
+fn add<const N: usize>(sums: &mut [f64; N], terms: [f64; N]) {
+    for (sum, term) in sums.iter_mut().zip(terms) {
+        *sum += term;
+    }
+}
+
+/// The ellipse of sums of x^i y^j of the second, third and fourth order about the centroid, where those of the first are 0.
+fn through(weight: f64, second: [f64; 3], third: [f64; 4], fourth: [f64; 5]) -> Option<Outline> {
     let [x4, x3y, xxyy, xy3, y4] = fourth;
     let [x3, xxy, xyy, y3] = third;
     let [xx, xy, yy] = second;
@@ -60,16 +127,28 @@ pub(crate) fn fit(points: &[[f64; 3]]) -> Option<Outline> {
     for i in 0..3 {
         reduced[(i, i)] += 1e-13 * s1.trace();
     }
-    let lower = reduced.cholesky()?.l();
-    let inverse = lower.try_inverse()?;
+    let inverse = inverse_root(&reduced)?;
     let constraint = Matrix3::new(0.0, 0.0, 2.0, 0.0, -1.0, 0.0, 2.0, 0.0, 0.0);
     let z = inverse.transpose() * leading_eigenvector(inverse * constraint * inverse.transpose())?;
     if 4.0 * z.x * z.z - z.y * z.y <= 0.0 {
         return None;
     }
-    let outline = from_conic(z, back * z)?;
-    let outline = Outline { u: outline.u * scale + mx, v: outline.v * scale + my, ..outline.scaled(scale) };
-    outline.is_proper().then_some(outline)
+    from_conic(z, back * z)
+}
+
+/// L⁻¹ of S = L L', both lower triangular; none where S is not positive definite.
+fn inverse_root(s: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    let positive = |square: f64| (square > 0.0).then(|| square.sqrt());
+    let l11 = positive(s[(0, 0)])?;
+    let (l21, l31) = (s[(1, 0)] / l11, s[(2, 0)] / l11);
+    let l22 = positive(s[(1, 1)] - l21 * l21)?;
+    let l32 = (s[(2, 1)] - l31 * l21) / l22;
+    let l33 = positive(s[(2, 2)] - l31 * l31 - l32 * l32)?;
+    let (i11, i22, i33) = (1.0 / l11, 1.0 / l22, 1.0 / l33);
+    let i21 = -l21 * i11 * i22;
+    let i32 = -l32 * i22 * i33;
+    let i31 = -(l31 * i11 + l32 * i21) * i33;
+    Some(Matrix3::new(i11, 0.0, 0.0, i21, i22, 0.0, i31, i32, i33))
 }
 
 /// Ellipse of a x² + b x y + c y² + d x + e y + f = 0 with (a, b, c) and (d, e, f).
@@ -135,6 +214,23 @@ mod tests {
                 [rim.x + wobble * rim.normal[0], rim.y + wobble * rim.normal[1], 1.0]
             })
             .collect()
+    }
+
+    #[test]
+    fn running_sums_give_the_ellipse_of_a_part() {
+        let truth = Outline::from_axes(0.3, -0.2, 0.9, 0.6, 0.7);
+        let rim = rim(&truth, 0, 63, 0.01);
+        let mut running = vec![Sums::default()];
+        for [x, y, w] in &rim {
+            let mut next = running[running.len() - 1];
+            next.add(*x, *y, *w);
+            running.push(next);
+        }
+        for (from, to) in [(0, 63), (5, 40), (30, 62)] {
+            let (plain, fast) = (fit(&rim[from..to]).unwrap(), running[to].since(&running[from]).ellipse().unwrap());
+            assert!(plain.differs(&fast) < 1e-9, "{plain:?} {fast:?}");
+        }
+        assert!(running[9].since(&running[9]).ellipse().is_none());
     }
 
     #[test]

@@ -45,7 +45,8 @@ impl Softened {
             convolve(&mut levels, width, &kernel(sigma));
         }
         let most = (f64::from(T::MAX) * scale) as f32;
-        let samples = levels.iter().map(|level| (level * scale as f32).round().clamp(0.0, most) as u16).collect();
+        // to the nearest whole number; the rounding of the language is a call for every sample
+        let samples = levels.iter().map(|level| ((level * scale as f32).clamp(0.0, most) + 0.5) as u16).collect();
         Self { samples, width, height, scale }
     }
 

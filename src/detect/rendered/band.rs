@@ -46,6 +46,8 @@ pub(crate) struct Prior {
     pub blur: [f64; 2],
     pub contrast: [f64; 2],
     pub noise: f64,
+    /// Rms of the residuals from which the fit is given up: that which its first correction promises, at the best.
+    pub largest_rms: f64,
 }
 
 impl Prior {
@@ -307,6 +309,13 @@ impl Band {
         let used = self.kept.iter().filter(|kept| **kept > 0.0).count();
         let [[square]] = products([&self.residual], [&self.residual]);
         (square / used.saturating_sub(UNKNOWNS - 2).max(1) as f64, used)
+    }
+
+    /// Rms of the residuals that a correction leaves, were the model linear: e'e - x'r of e'e.
+    pub fn promised_rms(&self, correction: &Unknowns, right: &Unknowns) -> f64 {
+        let (variance, used) = self.variance();
+        let freedom = used.saturating_sub(UNKNOWNS - 2).max(1) as f64;
+        (variance - correction.dot(right) / freedom).max(0.0).sqrt()
     }
 
     /// How the squares of the residuals go with the share of the disc, and the light's part in the centre.

@@ -164,6 +164,12 @@ pub(crate) fn fit<T: Sample>(
             normal = work.normal(&state, &flats);
         }
         let right = work.right(&state, &flats);
+        if round == 0
+            && let Some(prior) = &region.prior
+            && work.band.promised_rms(&solve(&normal, &right)?, &right) > prior.largest_rms
+        {
+            return None;
+        }
         let (size, used) = state.step(&normal, &right)?;
         normal = used;
         // corrections shrink by about the same factor each time: the next one would be this small

@@ -5,14 +5,16 @@
 
 use super::blob::Limits;
 use super::component::Chord;
-use crate::detect::ellipse::conic;
+use crate::detect::ellipse::conic::Sums;
 use crate::detect::ellipse::outline::Outline;
 
 /// Ends that are looked at: of a large blob every so manieth.
 const ENDS: usize = 48;
 /// Windows, and the share of the ends in one of them.
-const WINDOWS: usize = 12;
+const WINDOWS: usize = 8;
 const SHARE: f64 = 0.5;
+/// How many times farther than in a good ellipse the ends may lie from the best of the windows'.
+const HOPELESS: f64 = 3.0;
 /// Least share of the ends that follows the ellipse: a cover of a fifth of the diameter on one side hides all ends but these.
 const FOLLOWING: f64 = 0.55;
 /// Distance, in pixels, by which ends differ in any case: rows are whole.
@@ -30,47 +32,138 @@ pub(crate) fn most(chain: &[Chord], limits: &Limits) -> Option<Outline> {
     if chain.len() < RUNS || f64::from(last.y - first.y) < 0.7 * least || f64::from(widest) < 0.7 * least {
         return None;
     }
-    let inside = |x: f32| x > 0.0 && x < limits.width as f32;
-    let right = chain.iter().map(|chord| (chord.x1, chord.y));
-    let left = chain.iter().rev().map(|chord| (chord.x0, chord.y));
-    let ends: Vec<[f64; 3]> = right
-        .chain(left)
-        .filter(|&(x, _)| inside(x))
-        .step_by((2 * chain.len()).div_ceil(ENDS))
-        .map(|(x, y)| [f64::from(x), f64::from(y), 1.0])
-        .collect();
-    let window = ((SHARE * ends.len() as f64) as usize).max(6);
-    if ends.len() < window + 2 {
+    let ends = Ends::of(chain, limits);
+    let window = ((SHARE * ends.count as f64) as usize).max(6);
+    if ends.count < window + 2 {
         return None;
     }
-    let around: Vec<[f64; 3]> = ends.iter().chain(&ends).copied().collect();
-    let mut best: Option<(Outline, f64)> = None;
+    let running = ends.running();
+    let total = running[ends.count];
+    let mut best: Option<(Outline, f32)> = None;
     for k in 0..WINDOWS {
-        let from = k * ends.len() / WINDOWS;
-        let Some(outline) = conic::fit(&around[from..from + window]) else { continue };
+        let (from, to) = (k * ends.count / WINDOWS, k * ends.count / WINDOWS + window);
+        let sums = match to.checked_sub(ends.count) {
+            None | Some(0) => running[to].since(&running[from]),
+            Some(beyond) => total.since(&running[from].since(&running[beyond])),
+        };
+        let Some(outline) = sums.ellipse().map(|outline| ends.placed(&outline)) else { continue };
         if !is_possible(&outline, limits, least) {
             continue;
         }
-        let distance = most_within(&ends, &outline);
-        if best.is_none_or(|(_, nearest)| distance < nearest) {
+        let nearest = best.map_or(f32::INFINITY, |(_, nearest)| nearest);
+        if let Some(distance) = ends.most_within(&outline, nearest) {
             best = Some((outline, distance));
         }
     }
     let (outline, distance) = best?;
+    if f64::from(distance) > HOPELESS * good(&outline) {
+        return None;
+    }
     // what all can follow gives way to the cover: only those as near as the better half count
-    let limit = (2.0 * distance).max(STEPS);
-    let kept: Vec<[f64; 3]> =
-        ends.iter().filter(|[x, y, _]| outline.distance(*x, *y).abs() <= limit).copied().collect();
-    let outline = conic::fit(&kept)?;
-    let good = 0.3 + 0.03 * outline.semi_axes().1;
-    (is_possible(&outline, limits, least) && most_within(&ends, &outline) <= good).then_some(outline)
+    let limit = f64::from(2.0 * distance).max(STEPS);
+    let outline = ends.placed(&ends.within(&outline, limit).ellipse()?);
+    let follows = || ends.most_within(&outline, good(&outline) as f32).is_some();
+    (is_possible(&outline, limits, least) && follows()).then_some(outline)
 }
 
-/// Distance within which as many ends lie as have to follow an outline.
-fn most_within(ends: &[[f64; 3]], outline: &Outline) -> f64 {
-    let mut distances: Vec<f64> = ends.iter().map(|[x, y, _]| outline.distance(*x, *y).abs()).collect();
-    let rank = (FOLLOWING * ends.len() as f64) as usize;
-    *distances.select_nth_unstable_by(rank.min(ends.len() - 1), f64::total_cmp).1
+/// Distance, in pixels, within which the ends of an ellipse follow it.
+fn good(outline: &Outline) -> f64 {
+    0.3 + 0.03 * outline.semi_axes().1
+}
+
+/// Ends of the runs in their order around the blob, counted from its middle in units of its size.
+struct Ends {
+    x: [f32; ENDS],
+    y: [f32; ENDS],
+    count: usize,
+    middle: [f64; 2],
+    scale: f64,
+}
+
+impl Ends {
+    fn of(chain: &[Chord], limits: &Limits) -> Self {
+        let inside = |x: f32| x > 0.0 && x < limits.width as f32;
+        let right = chain.iter().map(|chord| (chord.x1, chord.y));
+        let left = chain.iter().rev().map(|chord| (chord.x0, chord.y));
+        let all = right.chain(left).filter(|&(x, _)| inside(x)).step_by((2 * chain.len()).div_ceil(ENDS));
+        let (mut x, mut y, mut count) = ([0.0; ENDS], [0.0; ENDS], 0);
+        for ((x, y), end) in x.iter_mut().zip(&mut y).zip(all) {
+            (*x, *y) = end;
+            count += 1;
+        }
+        let middle = [&x, &y].map(|values| {
+            let range = values[..count].iter().fold((f32::MAX, f32::MIN), |(low, high), x| (low.min(*x), high.max(*x)));
+            f64::from(range.0 + range.1) / 2.0
+        });
+        let size =
+            |values: &[f32], middle: f64| values.iter().map(|x| (f64::from(*x) - middle).abs()).fold(1.0, f64::max);
+        let scale = size(&x[..count], middle[0]).max(size(&y[..count], middle[1]));
+        for (values, middle) in [(&mut x, middle[0]), (&mut y, middle[1])] {
+            values[..count].iter_mut().for_each(|value| *value = ((f64::from(*value) - middle) / scale) as f32);
+        }
+        Self { x, y, count, middle, scale }
+    }
+
+    fn places(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.x.iter().zip(&self.y).take(self.count).map(|(x, y)| [f64::from(*x), f64::from(*y)])
+    }
+
+    /// Sums over the first 0, 1, ... of them.
+    fn running(&self) -> [Sums; ENDS + 1] {
+        let mut running = [Sums::default(); ENDS + 1];
+        for (k, [x, y]) in self.places().enumerate() {
+            running[k + 1] = running[k];
+            running[k + 1].add(x, y, 1.0);
+        }
+        running
+    }
+
+    /// An ellipse of these units in the picture.
+    fn placed(&self, outline: &Outline) -> Outline {
+        let [u, v] = self.middle;
+        Outline { u: u + self.scale * outline.u, v: v + self.scale * outline.v, ..outline.scaled(self.scale) }
+    }
+
+    /// An ellipse of the picture in these units.
+    fn own(&self, outline: &Outline) -> Outline {
+        let [u, v] = self.middle;
+        Outline { u: (outline.u - u) / self.scale, v: (outline.v - v) / self.scale, ..outline.scaled(1.0 / self.scale) }
+    }
+
+    /// Sums over the ends up to a distance from an outline.
+    fn within(&self, outline: &Outline, limit: f64) -> Sums {
+        let (outline, limit) = (self.own(outline), limit / self.scale);
+        let mut sums = Sums::default();
+        for [x, y] in self.places().filter(|[x, y]| outline.distance(*x, *y).abs() <= limit) {
+            sums.add(x, y, 1.0);
+        }
+        sums
+    }
+
+    /// Distance, in pixels, within which as many ends lie as have to follow an outline, if it is below a limit.
+    fn most_within(&self, outline: &Outline, limit: f32) -> Option<f32> {
+        let outline = self.own(outline);
+        let scale = 1.0 / (outline.p * outline.q - outline.r * outline.r);
+        let [u, v, p, q, r] =
+            [outline.u, outline.v, scale * outline.p, scale * outline.q, scale * outline.r].map(|x| x as f32);
+        let mut distances = [0f32; ENDS];
+        // Sampson's distance, as [`Outline::distance`]
+        for ((distance, x), y) in distances.iter_mut().zip(&self.x).zip(&self.y) {
+            let (x, y) = (x - u, y - v);
+            let (c, s) = (q * x - r * y, p * y - r * x);
+            let (gx, gy) = (q * c - r * s, p * s - r * c);
+            let square = c * c + s * s;
+            *distance = (square - square.sqrt()).abs() / (gx * gx + gy * gy).sqrt().max(1e-12);
+        }
+        let distances = &mut distances[..self.count];
+        let rank = ((FOLLOWING * self.count as f64) as usize).min(self.count - 1);
+        let limit = limit / self.scale as f32;
+        if distances.iter().filter(|distance| **distance < limit).count() <= rank {
+            return None;
+        }
+        let (_, distance, _) = distances.select_nth_unstable_by(rank, f32::total_cmp);
+        Some(*distance * self.scale as f32)
+    }
 }
 
 fn is_possible(outline: &Outline, limits: &Limits, least: f64) -> bool {
