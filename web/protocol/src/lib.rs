@@ -11,8 +11,10 @@ use sightline::exif::PhotoInfo;
 use sightline::experiments::{Experiment, ExperimentOptions};
 use sightline::matching::{Matching, PhotoTargets, PredictOptions, Prediction};
 use sightline::orient::Note;
-use sightline::project::{Datum, Project};
+use sightline::plan::{Criterion, Made, MakeOptions, Prediction as PlanPrediction, Suggested};
+use sightline::project::{Datum, Plan, Project};
 use sightline::report::plots::Plot;
+use sightline::sheets::{CodeCount, SheetOptions};
 use sightline::{Error, Result};
 
 /// Work for a worker. The files it needs come with it.
@@ -203,6 +205,22 @@ tasks! {
         /** What was run. */ pub experiment: Experiment,
         /** One file. */ pub only: Option<String>,
     } => Nothing, ();
+    /// A plan to begin with.
+    BeginPlan { /** Of what. */ pub of: PlanOf } => Nothing, Plan;
+    /// Predict what a plan gives, and the other plans beside it.
+    PredictPlan { /** The plan. */ pub plan: Plan } => Nothing, Vec<PlanPrediction>;
+    /// The best places for the next photo; progress in places tried of all.
+    SuggestPhoto { /** Of the plan. */ pub plan: Plan, /** The best by what. */ pub criterion: Criterion } => (usize, usize), Vec<Suggested>;
+    /// Make a plan that reaches what is wanted.
+    MakePlan { /** What is wanted of what. */ pub plan: Plan, /** How. */ pub options: MakeOptions } => (usize, usize), Made;
+    /// Draw sheets of targets to print.
+    DrawSheets { /** What. */ pub options: SheetOptions, /** The sheet that is shown, from 0. */ pub sheet: usize } => Nothing, Drawn;
+    /// Write sheets: as a PDF, one as SVG, or the lists that go with them; the files' bytes come along.
+    WriteSheets {
+        /** What. */ pub options: SheetOptions,
+        /** As a PDF. */ pub pdf: bool,
+        /** This sheet as SVG. */ pub svg: Option<usize>,
+    } => Nothing, Vec<String>;
     /// The sample project, without its photos.
     Sample {} => Nothing, Project;
     /// Render a photo of the sample project and find its targets; its file and its small picture come along.
@@ -303,6 +321,40 @@ pub struct Adjusted {
     pub oriented: Project,
     /// Its result.
     pub adjustment: Adjustment,
+}
+
+/// What a plan begins with.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum PlanOf {
+    /// The network of one of the papers' experiments.
+    Example(String),
+    /// What a project has measured.
+    Project(Box<Project>),
+}
+
+/// Sheets of targets, one of them as it looks.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Drawn {
+    /// What each sheet is for.
+    pub titles: Vec<String>,
+    /// The sheet that is shown, or the last where there are fewer.
+    pub svg: String,
+    /// Codes on the sheets.
+    pub codes: usize,
+    /// Plain dots.
+    pub dots: usize,
+    /// Pairs of scale-bar ends.
+    pub bars: usize,
+    /// How many codes the family has at each distance.
+    pub counts: Vec<CodeCount>,
+    /// Smallest distance of two codes on the sheets.
+    pub least_distance: Option<u32>,
+    /// Scale of the print across and down.
+    pub scale: [f64; 2],
+    /// Its standard error.
+    pub scale_sigma: f64,
+    /// Diameter of the dots on paper, mm.
+    pub diameter: f64,
 }
 
 /// A photo of the sample project.

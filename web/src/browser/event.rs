@@ -51,6 +51,13 @@ pub fn pointer(event: &PointerEvent) -> Pointer {
     }
 }
 
+/// Where a pointer is in an element, as shares of its width and height.
+pub fn share(event: &PointerEvent) -> [f64; 2] {
+    let (x, y) = offset(event, event.client_x(), event.client_y());
+    let size = event.current_target().and_then(|t| t.dyn_into::<Element>().ok()).map(|e| e.get_bounding_client_rect());
+    size.map_or([0.0; 2], |rect| [x / rect.width().max(1.0), y / rect.height().max(1.0)])
+}
+
 /// Keeps the pointer's further events with its element.
 pub fn capture(event: &PointerEvent) {
     if let Some(element) = event.current_target().and_then(|t| t.dyn_into::<Element>().ok()) {

@@ -37,6 +37,13 @@ pub fn set_title(title: &str) {
     }
 }
 
+/// Opens the browser's own dialogue for printing.
+pub fn print() {
+    if let Some(window) = web_sys::window() {
+        let _ = window.print();
+    }
+}
+
 /// The first language that the browser's user prefers.
 pub fn preferred_language() -> String {
     window().and_then(|w| w.navigator().language()).unwrap_or_default()

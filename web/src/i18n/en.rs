@@ -4,6 +4,9 @@
 
 use super::declare;
 
+mod before;
+pub use before::{planning, printing};
+
 /// This language.
 pub struct English;
 

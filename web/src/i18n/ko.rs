@@ -6,6 +6,8 @@ use sightline::report::texts::particles::after as choose;
 
 use super::translate;
 
+mod before;
+
 /// This language.
 pub struct Korean;
 

@@ -12,7 +12,7 @@ pub mod text;
 
 use leptos::prelude::*;
 
-pub use en::{experiments, object};
+pub use en::{experiments, object, planning, printing};
 
 use crate::browser::page;
 
@@ -162,6 +162,8 @@ mod tests {
             let parts = [
                 en::desk::words(language).every_text(),
                 experiments::words(language).every_text(),
+                printing::words(language).every_text(),
+                planning::words(language).every_text(),
                 en::errors::words(language).every_text(),
                 object::words(language).every_text(),
             ];

@@ -58,7 +58,9 @@ impl Document {
 
     /// Whether no project is open: an opened one has a name at least.
     pub fn is_empty(&self) -> bool {
-        self.project.photos.is_empty() && self.project.points.is_empty() && self.project.name.is_empty()
+        let project = &self.project;
+        let nothing = project.photos.is_empty() && project.points.is_empty() && project.name.is_empty();
+        nothing && project.plan.is_none()
     }
 
     /// Whether nothing has changed between two states.
@@ -120,6 +122,11 @@ pub enum Change {
     FeatureRenamed { from: String, to: String },
     LinesDrawn,
     ReportEdited,
+    PlanEdited,
+    StationMoved(String),
+    StationAdded(String),
+    StationRemoved(String),
+    PlanMade(usize),
     Opened,
     CellsEdited { table: Table, cells: usize },
     RowsSwitched { table: Table, rows: usize, enabled: bool },

@@ -14,9 +14,11 @@ pub mod kept;
 pub mod marking;
 pub mod parts;
 pub mod pictures;
+pub mod planning;
 pub mod plates;
 pub mod pool;
 pub mod predicting;
+pub mod printing;
 pub mod questions;
 pub mod report;
 pub mod sample;
@@ -48,8 +50,10 @@ use experiments::Experiments;
 use identity::Marks;
 use keeping::{Keeper, Kept};
 use marking::Series;
+use planning::Planning;
 use pool::{Batch, Pool};
 use predicting::Predicting;
+use printing::Printing;
 pub use selection::{Kind, Marking, Selection};
 use shelf::Shelved;
 use tables::Tables;
@@ -72,12 +76,19 @@ pub enum Step {
     Experiments,
     /// Beside the path too.
     Tables,
+    /// Before it: the plan of the photos.
+    Plan,
+    /// Targets to print.
+    Print,
 }
 
 impl Step {
     /// The steps in their order, without the start page.
     pub const ROW: [Self; 7] =
         [Self::Photos, Self::Targets, Self::Identities, Self::Control, Self::Adjust, Self::Results, Self::Report];
+
+    /// What is done before there are photos.
+    pub const BEFORE: [Self; 2] = [Self::Plan, Self::Print];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -92,11 +103,19 @@ impl Step {
             Self::Object => "object",
             Self::Experiments => "experiments",
             Self::Tables => "tables",
+            Self::Plan => "plan",
+            Self::Print => "print",
         }
     }
 
     fn from_name(name: &str) -> Self {
-        Self::ROW.into_iter().chain([Self::Tables, Self::Object]).find(|s| s.name() == name).unwrap_or_default()
+        let beside = [Self::Tables, Self::Object].into_iter().chain(Self::BEFORE);
+        Self::ROW.into_iter().chain(beside).find(|s| s.name() == name).unwrap_or_default()
+    }
+
+    /// Whether it needs no project.
+    pub fn is_before(self) -> bool {
+        Self::BEFORE.contains(&self)
     }
 }
 
@@ -151,6 +170,7 @@ pub enum JobKind {
     Sample,
     Experiment,
     Reporting,
+    Planning,
 }
 
 /// A photo's file as it was dropped.
@@ -318,6 +338,8 @@ pub struct Desk {
     pub pool: StoredValue<Pool, LocalStorage>,
     pub experiments: Experiments,
     pub reports: report::Reports,
+    pub printing: Printing,
+    pub planning: Planning,
 }
 
 impl Desk {
@@ -375,6 +397,8 @@ impl Desk {
             pool: StoredValue::new_local(Pool::default()),
             experiments: Experiments::default(),
             reports: report::Reports::default(),
+            printing: Printing::default(),
+            planning: Planning::default(),
         }
     }
 
@@ -442,10 +466,19 @@ impl Desk {
         }
         let step = Step::from_name(&page::hash());
         let empty = self.document.with_untracked(Document::is_empty);
-        let allowed = if empty { Step::Start } else { step };
+        let allowed = if empty && !step.is_before() { Step::Start } else { step };
         if self.step.get_untracked() != allowed {
             self.step.set(allowed);
         }
+    }
+
+    /// Shows what the address names, where it needs no project.
+    pub fn follow_hash_at_start(self) -> bool {
+        let step = Step::from_name(&page::hash());
+        if step.is_before() {
+            self.step.set(step);
+        }
+        step.is_before()
     }
 
     pub fn set_theme(self, theme: Theme) {

@@ -1,7 +1,7 @@
 //! What a change did, in words.
 
 use super::tables::table_words;
-use crate::i18n::{object as words, text};
+use crate::i18n::{object as words, planning, text};
 use crate::store::document::Change;
 
 pub fn change_words(change: &Change) -> String {
@@ -39,6 +39,11 @@ pub fn change_words(change: &Change) -> String {
         Change::FeatureRemoved(id) => words::change_removed(id),
         Change::FeatureRenamed { from, to } => words::change_renamed(from, to),
         Change::LinesDrawn => words::change_lines().to_owned(),
+        Change::PlanEdited => planning::change_plan().to_owned(),
+        Change::StationMoved(id) => planning::change_station_moved(id),
+        Change::StationAdded(id) => planning::change_station_added(id),
+        Change::StationRemoved(id) => planning::change_station_removed(id),
+        Change::PlanMade(n) => planning::change_plan_made(n),
         Change::Opened => text::change_opened().to_owned(),
         Change::CellsEdited { table, cells } => text::change_cells(cells, table_words(*table)),
         Change::RowsSwitched { table, rows, enabled: false } => text::change_rows_excluded(rows, table_words(*table)),

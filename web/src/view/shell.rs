@@ -8,10 +8,11 @@ use super::icon::{Glyph, Icon};
 use super::projects::{StorageLine, StorageNotices, kept_words};
 use super::results::control_figure;
 use super::{
-    adjust, control, experiments, help, identities, keys, object, photos, report, results, start, tables, targets,
+    adjust, control, experiments, help, identities, keys, object, photos, planning, printing, report, results, start,
+    tables, targets,
 };
 use crate::browser::{event, file, page};
-use crate::i18n::{self, errors, experiments as words, text};
+use crate::i18n::{self, errors, experiments as words, planning as plan_words, printing as before, text};
 use crate::store::document::Document;
 use crate::store::experiments::from_hash;
 use crate::store::{Asking, Desk, Job, JobKind, Kind, Step, Theme};
@@ -39,6 +40,7 @@ pub fn App() -> impl IntoView {
     event::listen_to_keys(move |key| keys::handle(desk, &key));
     match untrack(|| from_hash(&page::hash())) {
         Some(name) => desk.show_experiment(name),
+        None if desk.follow_hash_at_start() => {}
         None => page::set_hash("start"),
     }
     page::warn_before_leaving(move || untrack(|| desk.unsaved()));
@@ -71,6 +73,8 @@ pub fn App() -> impl IntoView {
                 Step::Report => view! { <report::Report/> }.into_any(),
                 Step::Experiments => view! { <experiments::Experiments/> }.into_any(),
                 Step::Tables => view! { <tables::Tables/> }.into_any(),
+                Step::Plan => view! { <planning::Planning/> }.into_any(),
+                Step::Print => view! { <printing::Printing/> }.into_any(),
             }}
             <Foot/>
             <help::Help/>
@@ -234,6 +238,8 @@ pub fn step_label(step: Step) -> &'static str {
         Step::Report => text::report(),
         Step::Experiments => words::experiments(),
         Step::Tables => text::tables(),
+        Step::Plan => plan_words::plan(),
+        Step::Print => before::targets_to_print(),
     }
 }
 
@@ -296,6 +302,7 @@ fn job_label(job: &Job) -> &'static str {
         JobKind::Sample => text::opening_sample(),
         JobKind::Experiment => words::running(),
         JobKind::Reporting => text::writing_report(),
+        JobKind::Planning => plan_words::making(),
     }
 }
 

@@ -6,8 +6,8 @@ use super::icon::{Glyph, Icon};
 use super::photos::Problems;
 use super::projects::Projects;
 use super::shell::{Progress, choose_photos, choose_project};
-use crate::i18n::{experiments as words, text};
-use crate::store::Desk;
+use crate::i18n::{experiments as words, planning, printing, text};
+use crate::store::{Desk, Step};
 
 #[component]
 pub fn Start() -> impl IntoView {
@@ -33,6 +33,20 @@ pub fn Start() -> impl IntoView {
                     <span>
                         <b>{text::open_sample}</b>
                         <span>{text::sample_words}</span>
+                    </span>
+                    <Glyph icon=Icon::Arrow/>
+                </button>
+                <button class="entry" data-open="plan" on:click=move |_| desk.go(Step::Plan)>
+                    <span>
+                        <b>{planning::plan}</b>
+                        <span>{planning::plan_words}</span>
+                    </span>
+                    <Glyph icon=Icon::Arrow/>
+                </button>
+                <button class="entry" data-open="print" on:click=move |_| desk.go(Step::Print)>
+                    <span>
+                        <b>{printing::targets_to_print}</b>
+                        <span>{printing::targets_to_print_words}</span>
                     </span>
                     <Glyph icon=Icon::Arrow/>
                 </button>

@@ -15,7 +15,7 @@ use super::strip::Strip;
 use crate::browser::event;
 use crate::edit::targets::Rings;
 use crate::format;
-use crate::i18n::{Text, text};
+use crate::i18n::{Text, printing, text};
 use crate::store::{Desk, Step};
 
 #[component]
@@ -48,6 +48,7 @@ pub fn Targets() -> impl IntoView {
     let selected = Signal::derive(move || chosen_target(desk).map(|t| [t.u, t.v, t.major, t.minor, t.angle]));
     view! {
         <TitleBar title=text::targets sentence=Signal::derive(sentence)>
+            <button class="button" data-open="print" on:click=move |_| desk.go(Step::Print)>{printing::targets_to_print}</button>
             <button class="button" class:primary=move || !again() data-action="detect" on:click=move |_| desk.detect_targets()>
                 {move || if again() { text::detect_again() } else { text::detect() }}
             </button>

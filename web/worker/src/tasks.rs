@@ -6,20 +6,24 @@ use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
 use sightline::decode::Photo;
 use sightline::detection::{Channel, Codes, DetectOptions, Detection, Target};
+use sightline::error::{Error, Place, Thing};
 use sightline::exchange::export;
 use sightline::exchange::package::{self, Package};
 use sightline::experiments::{self, Experiment};
 use sightline::image::Samples;
 use sightline::matching::{MatchOptions, Matching, Prediction, match_uncoded, predict};
 use sightline::orient::{Note, orient};
-use sightline::project::Project;
+use sightline::plan::{self, Made, Prediction as PlanPrediction, Suggested};
+use sightline::project::{Plan, Project};
 use sightline::report::plots::{Plot, comparison, plots};
 use sightline::report::{self, Report};
+use sightline::sheets::{self, Kind};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
-    Adjust, Adjusted, Adjusting, Content, Detect, Export, ExportExperiment, MakePlots, MakeReport, Match, Measure,
-    MeasureFeatures, Nothing, Open, Opened, Pack, Predict, Progress, ReportMade, RunExperiment, Sample, SamplePhoto,
-    SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, Shown, Situate, Situated, Unpack, Unpacked,
+    Adjust, Adjusted, Adjusting, BeginPlan, Content, Detect, DrawSheets, Drawn, Export, ExportExperiment, MakePlan,
+    MakePlots, MakeReport, Match, Measure, MeasureFeatures, Nothing, Open, Opened, Pack, PlanOf, Predict, PredictPlan,
+    Progress, ReportMade, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto,
+    Shown, Situate, Situated, SuggestPhoto, Unpack, Unpacked, WriteSheets,
 };
 
 use crate::kept::{self, digest, with_photo};
@@ -193,6 +197,86 @@ impl Service<ExportExperiment> for Engine {
             None => vec![package::archive(&files)?],
         };
         Ok(((), bytes))
+    }
+}
+
+impl Service<BeginPlan> for Engine {
+    fn serve(&self, task: BeginPlan, _: Files, _: Progress<Nothing>) -> Served<Plan> {
+        let made = match task.of {
+            PlanOf::Project(project) => plan::from_project(&project),
+            PlanOf::Example(name) => experiments::plan(&name).ok_or_else(|| Error::Unknown {
+                kind: Thing::Experiment,
+                name,
+                at: Place::default(),
+            })?,
+        };
+        Ok((made, Vec::new()))
+    }
+}
+
+impl Service<PredictPlan> for Engine {
+    fn serve(&self, task: PredictPlan, _: Files, _: Progress<Nothing>) -> Served<Vec<PlanPrediction>> {
+        let mut all = vec![plan::predict(&task.plan)?];
+        let others: Vec<_> = task.plan.variants.iter().map(|variant| variant.stations.clone()).collect();
+        all.extend(plan::compare(&task.plan, &others)?);
+        Ok((all, Vec::new()))
+    }
+}
+
+impl Service<SuggestPhoto> for Engine {
+    fn serve(&self, task: SuggestPhoto, _: Files, progress: Progress<(usize, usize)>) -> Served<Vec<Suggested>> {
+        let found = plan::suggest(&task.plan, &task.criterion, &mut |done, of| {
+            if done.is_multiple_of(20) {
+                progress((done, of));
+            }
+            true
+        })?;
+        Ok((found, Vec::new()))
+    }
+}
+
+impl Service<MakePlan> for Engine {
+    fn serve(&self, task: MakePlan, _: Files, progress: Progress<(usize, usize)>) -> Served<Made> {
+        let made = plan::make(&task.plan, &task.options, &mut |done, of| {
+            progress((done, of));
+            true
+        })?;
+        Ok((made, Vec::new()))
+    }
+}
+
+impl Service<DrawSheets> for Engine {
+    fn serve(&self, task: DrawSheets, _: Files, _: Progress<Nothing>) -> Served<Drawn> {
+        let drawn = sheets::target_sheets(&task.options)?;
+        let of = |kind| drawn.targets.iter().filter(|target| target.kind == kind).count();
+        let shown = task.sheet.min(drawn.pages.len().saturating_sub(1));
+        let answer = Drawn {
+            titles: drawn.pages.iter().map(|page| page.title.clone()).collect(),
+            svg: drawn.svg(shown).unwrap_or_default(),
+            codes: of(Kind::Code),
+            dots: of(Kind::Dot),
+            bars: drawn.bars.len(),
+            counts: sheets::counts(task.options.family),
+            least_distance: drawn.least_distance,
+            scale: drawn.scale,
+            scale_sigma: drawn.scale_sigma,
+            diameter: drawn.diameter,
+        };
+        Ok((answer, Vec::new()))
+    }
+}
+
+impl Service<WriteSheets> for Engine {
+    fn serve(&self, task: WriteSheets, _: Files, _: Progress<Nothing>) -> Served<Vec<String>> {
+        let drawn = sheets::target_sheets(&task.options)?;
+        Ok(match task.svg {
+            _ if task.pdf => (vec!["targets.pdf".to_owned()], vec![drawn.pdf()]),
+            Some(sheet) => {
+                let svg = drawn.svg(sheet).map(String::into_bytes);
+                (vec![format!("targets-{}.svg", sheet + 1)], svg.into_iter().collect())
+            }
+            None => drawn.files().into_iter().unzip(),
+        })
     }
 }
 

@@ -1,0 +1,267 @@
+//! The plan of the photos: what is done with it before it becomes photos.
+
+use sightline::project::{
+    Camera, DatumKind, Form, Interior, Parameter, Plan, PlanDistance, PlanStation, Project, Region, Variant,
+};
+
+/// Parameters that a calibration on the object estimates.
+pub const CALIBRATED: [Parameter; 8] = [
+    Parameter::C,
+    Parameter::X0,
+    Parameter::Y0,
+    Parameter::K1,
+    Parameter::K2,
+    Parameter::K3,
+    Parameter::P1,
+    Parameter::P2,
+];
+
+/// A form to begin with, in the project's unit.
+pub fn first_form(kind: &str, mm: f64) -> Form {
+    let long = |value: f64| value / mm;
+    match kind {
+        "box" => {
+            Form::Box { size: [long(1000.0), long(800.0), long(600.0)], columns: 3, rows: 2, diameter: long(10.0) }
+        }
+        "cylinder" => Form::Cylinder {
+            radius: long(1000.0),
+            height: long(2000.0),
+            sweep: std::f64::consts::TAU,
+            columns: 16,
+            rows: 4,
+            inside: false,
+            diameter: long(12.0),
+        },
+        _ => Form::Plane {
+            width: long(2000.0),
+            height: long(1500.0),
+            columns: 6,
+            rows: 5,
+            upright: true,
+            diameter: long(12.0),
+        },
+    }
+}
+
+/// A common camera: 28 mm on 36 x 24 mm with 6000 x 4000 pixels.
+pub fn common_camera() -> Camera {
+    Camera { pixel_pitch: Some([0.006; 2]), ..Camera::new("1", 6000, 4000, Interior::brown(28.0)) }
+}
+
+/// Begins a plan of a form, with the project's camera where it has one that is known.
+pub fn begin(project: &mut Project, form: Form, mm: f64) {
+    let known = |c: &&Camera| c.interior.get(Parameter::C).or(c.interior.get(Parameter::Fx)).is_some();
+    let camera = project.cameras.iter().find(known).cloned().unwrap_or_else(common_camera);
+    let mut plan = Plan { cameras: vec![camera], ..Plan::default() };
+    plan.wanted.precision = 0.1 / mm;
+    plan.lens.unit_mm = mm;
+    set_form(&mut plan, form);
+    project.plan = Some(Box::new(plan));
+}
+
+/// Puts targets on another form; what names points that are gone goes with them.
+pub fn set_form(plan: &mut Plan, form: Form) {
+    let (points, faces) = sightline::plan::targets_on(&form);
+    plan.form = Some(form);
+    plan.points = points;
+    plan.faces = faces;
+    let ids: std::collections::HashSet<&str> = plan.points.iter().map(|p| p.id.as_str()).collect();
+    plan.distances.retain(|d| ids.contains(d.from.as_str()) && ids.contains(d.to.as_str()));
+    if plan.datum.points.as_ref().is_some_and(|named| !named.iter().all(|id| ids.contains(id.as_str()))) {
+        plan.datum.points = None;
+    }
+}
+
+/// Whether the form's counts and sizes can be made; a form of very many targets is none.
+pub fn is_form(form: &Form) -> bool {
+    let size = |values: &[f64]| values.iter().all(|v| *v > 0.0 && *v < 1e9);
+    let count = |faces: u32, columns: u32, rows: u32| {
+        columns > 0 && rows > 0 && u64::from(faces) * u64::from(columns) * u64::from(rows) <= 5000
+    };
+    match *form {
+        Form::Plane { width, height, columns, rows, diameter, .. } => {
+            size(&[width, height]) && diameter >= 0.0 && count(1, columns, rows)
+        }
+        Form::Box { size: sides, columns, rows, diameter } => {
+            size(&sides) && diameter >= 0.0 && count(5, columns, rows)
+        }
+        Form::Cylinder { radius, height, sweep, columns, rows, diameter, .. } => {
+            size(&[radius, height, sweep]) && diameter >= 0.0 && count(1, columns, rows)
+        }
+    }
+}
+
+/// Adds a station in front of the object, aimed at its middle; its identifier.
+pub fn add_station(plan: &mut Plan) -> Option<String> {
+    let id = next_id(plan);
+    let places: Vec<[f64; 3]> = plan.points.iter().filter_map(|p| p.xyz).collect();
+    let count = places.len().max(1) as f64;
+    let middle = [0, 1, 2].map(|a| places.iter().map(|p| p[a]).sum::<f64>() / count);
+    let reach = places.iter().map(|p| (0..3).map(|a| (p[a] - middle[a]).powi(2)).sum::<f64>().sqrt());
+    let reach = reach.fold(1.0, f64::max);
+    // Beside the last one, so that it does not lie under it.
+    let step = plan.stations.len() as f64 * 0.35 * reach;
+    let lying = matches!(plan.form, Some(Form::Plane { upright: false, .. }));
+    let position = if lying {
+        [middle[0] + step, middle[1], middle[2] + 3.0 * reach]
+    } else {
+        [middle[0] + step, middle[1] - 3.0 * reach, middle[2]]
+    };
+    plan.stations.push(PlanStation { id: id.clone(), position, look_at: Some(middle), ..PlanStation::default() });
+    Some(id)
+}
+
+/// The next number that no station has.
+pub fn next_id(plan: &Plan) -> String {
+    let free = |n: &usize| !plan.stations.iter().any(|s| s.id == n.to_string());
+    (plan.stations.len() + 1..).find(free).unwrap_or(1).to_string()
+}
+
+/// Moves a station along two axes; it goes on looking at what it looked at.
+pub fn move_station(plan: &mut Plan, id: &str, axes: [usize; 2], to: [f64; 2]) {
+    if let Some(station) = plan.stations.iter_mut().find(|s| s.id == id) {
+        axes.into_iter().zip(to).for_each(|(axis, value)| station.position[axis] = value);
+    }
+}
+
+/// Aims a station elsewhere along one axis.
+pub fn aim_station(plan: &mut Plan, id: &str, axis: usize, to: f64) {
+    if let Some(aim) = plan.stations.iter_mut().find(|s| s.id == id).and_then(|s| s.look_at.as_mut()) {
+        aim[axis] = to;
+    }
+}
+
+/// Keeps the present stations as another plan to compare with; its name.
+pub fn keep_variant(plan: &mut Plan) -> String {
+    let name = ('B'..='Z').map(String::from).find(|n| !plan.variants.iter().any(|v| v.name == *n));
+    let name = name.unwrap_or_else(|| (plan.variants.len() + 2).to_string());
+    plan.variants.push(Variant { name: name.clone(), stations: plan.stations.clone() });
+    name
+}
+
+/// Exchanges the present stations with those of another plan.
+pub fn switch_variant(plan: &mut Plan, place: usize) {
+    if let Some(variant) = plan.variants.get_mut(place) {
+        std::mem::swap(&mut plan.stations, &mut variant.stations);
+    }
+}
+
+/// Whether cameras are calibrated with the photos, all of them alike.
+pub fn calibrates(plan: &Plan) -> bool {
+    plan.cameras.iter().any(|c| !c.free.is_empty())
+}
+
+/// Has cameras calibrated with the photos, or holds them.
+pub fn set_calibrates(plan: &mut Plan, on: bool) {
+    for camera in &mut plan.cameras {
+        let known = camera.interior.parameters();
+        let wanted = if known.contains(&Parameter::C) { CALIBRATED.as_slice() } else { &Parameter::OPENCV };
+        // f stands for fx and fy as one.
+        let single = |p: &&Parameter| !matches!(p, Parameter::Fx | Parameter::Fy);
+        camera.free = if on { wanted.iter().filter(single).copied().collect() } else { Vec::new() };
+        camera.sigma.clear();
+    }
+}
+
+/// A scale bar between the two points that are farthest from each other, or none.
+pub fn set_bar(plan: &mut Plan, sigma: Option<f64>) {
+    plan.distances.clear();
+    let Some(sigma) = sigma else { return };
+    let places: Vec<(&String, [f64; 3])> = plan.points.iter().filter_map(|p| Some((&p.id, p.xyz?))).collect();
+    let apart = |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>();
+    let Some((first, at)) = places.first() else { return };
+    // Twice the farthest: enough for a form, whose outline is convex.
+    let farthest = |from: [f64; 3]| places.iter().max_by(|a, b| apart(&a.1, &from).total_cmp(&apart(&b.1, &from)));
+    let (from, from_at) = farthest(*at).map_or((*first, *at), |(id, at)| (*id, *at));
+    let Some((to, _)) = farthest(from_at) else { return };
+    if from != *to {
+        plan.distances = vec![PlanDistance { from: from.clone(), to: (*to).clone(), sigma }];
+    }
+}
+
+/// The datum of the prediction.
+pub fn set_datum(plan: &mut Plan, kind: DatumKind) {
+    plan.datum.kind = kind;
+}
+
+/// A box from six numbers, as "x, y, z … x, y, z" in any order of corners.
+pub fn region(numbers: &[f64]) -> Option<Region> {
+    let [a, b, c, d, e, f] = *numbers else { return None };
+    let pair = |p: f64, q: f64| (p.min(q), p.max(q));
+    let (x, y, z) = (pair(a, d), pair(b, e), pair(c, f));
+    Some(Region { low: [x.0, y.0, z.0], high: [x.1, y.1, z.1] })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn planned() -> Plan {
+        let mut project = Project::default();
+        begin(&mut project, first_form("plane", 1.0), 1.0);
+        *project.plan.expect("a plan")
+    }
+
+    #[test]
+    fn a_plan_begins_with_targets_and_a_camera() {
+        let plan = planned();
+        assert_eq!((plan.points.len(), plan.cameras.len()), (30, 1));
+        for kind in ["plane", "box", "cylinder"] {
+            assert!(is_form(&first_form(kind, 1000.0)));
+        }
+        assert!(!is_form(&Form::Box { size: [1.0; 3], columns: 100, rows: 100, diameter: 1.0 }));
+    }
+
+    #[test]
+    fn stations_get_names_of_their_own_and_keep_their_aim() {
+        let mut plan = planned();
+        let names: Vec<_> = (0..3).filter_map(|_| add_station(&mut plan)).collect();
+        assert_eq!(names, ["1", "2", "3"]);
+        let aim = plan.stations[1].look_at;
+        move_station(&mut plan, "2", [0, 1], [5.0, 7.0]);
+        assert_eq!((plan.stations[1].position[..2].to_vec(), plan.stations[1].look_at), (vec![5.0, 7.0], aim));
+        aim_station(&mut plan, "2", 2, 9.0);
+        assert_eq!(plan.stations[1].look_at.map(|aim| aim[2]), Some(9.0));
+        plan.stations.remove(0);
+        assert_eq!(add_station(&mut plan).as_deref(), Some("4"));
+    }
+
+    #[test]
+    fn variants_change_places() {
+        let mut plan = planned();
+        add_station(&mut plan);
+        assert_eq!(keep_variant(&mut plan), "B");
+        add_station(&mut plan);
+        assert_eq!(keep_variant(&mut plan), "C");
+        switch_variant(&mut plan, 0);
+        assert_eq!((plan.stations.len(), plan.variants[0].stations.len()), (1, 2));
+    }
+
+    #[test]
+    fn another_form_takes_what_names_its_points_along() {
+        let mut plan = planned();
+        set_bar(&mut plan, Some(0.02));
+        assert_eq!(plan.distances.len(), 1);
+        set_form(&mut plan, Form::Plane { width: 1.0, height: 1.0, columns: 2, rows: 2, upright: true, diameter: 0.1 });
+        assert!(plan.distances.is_empty());
+        set_bar(&mut plan, None);
+        assert!(plan.distances.is_empty());
+    }
+
+    #[test]
+    fn calibration_frees_each_parameter_once() {
+        let mut plan = planned();
+        set_calibrates(&mut plan, true);
+        assert_eq!(plan.cameras[0].free, CALIBRATED);
+        assert!(calibrates(&plan));
+        set_calibrates(&mut plan, false);
+        assert!(!calibrates(&plan));
+    }
+
+    #[test]
+    fn boxes_take_their_corners_in_any_order() {
+        let made = region(&[1.0, 5.0, 0.0, -1.0, 2.0, 3.0]).expect("a box");
+        assert_eq!((made.low, made.high), ([-1.0, 2.0, 0.0], [1.0, 5.0, 3.0]));
+        assert!(region(&[1.0]).is_none());
+    }
+}

@@ -1,0 +1,66 @@
+//! The shooting plan on paper: stations with places, aims and rolls, and a checklist in both languages.
+
+use leptos::prelude::*;
+
+use super::predicted;
+use crate::format;
+use crate::i18n::Language;
+use crate::i18n::planning::{Words, words};
+use crate::store::Desk;
+
+/// A phrase in both languages.
+fn both(say: fn(&dyn Words) -> &'static str) -> String {
+    format!("{} / {}", say(words(Language::English)), say(words(Language::Korean)))
+}
+
+#[component]
+pub fn ShootingPlan() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let rows = move || {
+        let plan = desk.plan().unwrap_or_default();
+        let prediction = predicted(desk);
+        let row = |(k, station): (usize, sightline::project::PlanStation)| {
+            let sight = prediction.as_ref().and_then(|p| p.stations.get(k));
+            let place = station.position.map(format::compact);
+            let aim = station.look_at.map_or(String::new(), |aim| aim.map(format::compact).join(", "));
+            let distance = sight.and_then(|s| s.distance).map_or(String::new(), format::compact);
+            let sees = sight.map_or(String::new(), |s| format::count(s.points.len()));
+            let roll = format::compact(station.roll.to_degrees().round());
+            let [x, y, z] = place;
+            view! {
+                <tr>
+                    <td>{if station.taken { "☑" } else { "☐" }}</td><td>{station.id}</td>
+                    <td>{x}</td><td>{y}</td><td>{z}</td><td>{aim}</td><td>{roll} "°"</td><td>{distance}</td><td>{sees}</td>
+                </tr>
+            }
+        };
+        plan.stations.into_iter().enumerate().map(row).collect_view()
+    };
+    let checks: [fn(&dyn Words) -> &'static str; 5] =
+        [|w| w.check_focus(), |w| w.check_light(), |w| w.check_targets(), |w| w.check_scale(), |w| w.check_photos()];
+    let name = move || desk.document.with(|d| d.project.name.clone());
+    let unit = move || desk.document.with(|d| d.project.unit.clone());
+    let heads: [fn(&dyn Words) -> &'static str; 9] = [
+        |w| w.taken(),
+        |w| w.number(),
+        |w| w.x(),
+        |w| w.y(),
+        |w| w.z(),
+        |w| w.look_at(),
+        |w| w.roll(),
+        |w| w.distance(),
+        |w| w.sees(),
+    ];
+    view! {
+        <section class="shooting-plan">
+            <h1>{both(|w| w.shooting_plan())} " " {name}</h1>
+            <p>{both(|w| w.stations())} ", " {unit}</p>
+            <table>
+                <thead><tr>{heads.map(|head| view! { <th>{both(head)}</th> }).collect_view()}</tr></thead>
+                <tbody>{rows}</tbody>
+            </table>
+            <h2>{both(|w| w.checklist())}</h2>
+            <ul>{checks.map(|check| view! { <li>"☐ " {both(check)}</li> }).collect_view()}</ul>
+        </section>
+    }
+}
