@@ -214,6 +214,7 @@ fn soften<T: Sample>(
 ) -> (Pass, Option<(Softened, Pass)>) {
     picture.softened = true;
     let (_, mut softened) = pass_softened(plane, None, SOFT, options, known);
+    alike::drop_faint(&mut softened.detection.targets, known);
     let outlines: Vec<Outline> = known.iter().chain(&softened.detection.targets).map(outline_of).collect();
     let Some(sharpening) = sharpening::of_rims(plane, outlines.iter(), levels.saturation) else {
         picture.noise_correlation = softened.correlate();
@@ -221,6 +222,7 @@ fn soften<T: Sample>(
     };
     (picture.sharpening, picture.sharpening_radius) = (sharpening.amount, sharpening.radius);
     let (undone, mut restored) = pass_softened(plane, Some(sharpening), RESTORED, options, known);
+    alike::drop_faint(&mut restored.detection.targets, known);
     picture.noise_correlation = restored.correlate();
     softened.correlate();
     let taken: Vec<Outline> = known.iter().chain(&restored.detection.targets).map(outline_of).collect();

@@ -239,6 +239,21 @@ impl<T: Sample> Measure<'_, T> {
     }
 }
 
+/// Leaves out of what only a softened picture shows what is much fainter than nearly all targets of its kind that are known without
+/// it: what a mean makes round, like the counters of letters.
+pub(crate) fn drop_faint(found: &mut Vec<Target>, known: &[Target]) {
+    for polarity in [Polarity::Bright, Polarity::Dark] {
+        let of_kind = known.iter().filter(|target| target.polarity == polarity);
+        let mut contrasts: Vec<f64> = of_kind.map(|target| target.contrast).collect();
+        if contrasts.len() < ENOUGH {
+            continue;
+        }
+        contrasts.sort_by(f64::total_cmp);
+        let faintest = contrasts[contrasts.len() / 10] / CONTRASTS;
+        found.retain(|target| target.polarity != polarity || target.contrast >= faintest);
+    }
+}
+
 /// What the targets of a picture have in common, of those found in it and of those that are known from elsewhere, which are
 /// measured in it. Only the fit of a rendered ellipse has a model to compare with.
 pub(crate) fn of<T: Sample>(measure: &mut Measure<T>, known: &[Target], found: &[Target]) -> Option<Alike> {
