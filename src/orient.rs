@@ -14,6 +14,7 @@ mod ambiguity;
 mod aside;
 mod block;
 mod bridge;
+mod evidence;
 mod growth;
 mod models;
 mod neighbour;
@@ -91,11 +92,19 @@ pub fn orient(project: &Project) -> Result<Oriented> {
     block.intersect_new(0.0);
     block.review();
     verify(&mut block);
-    trial::settle(&mut block, |block| {
+    let as_project = |block: &Block| {
         let mut trial = filled(project, block);
         set_aside(&mut trial, block);
         trial
-    });
+    };
+    loop {
+        trial::settle(&mut block, as_project);
+        let trial = as_project(&block);
+        if !evidence::withdraw(&mut block, &trial) {
+            break;
+        }
+        block.review();
+    }
     let sigmas = distance_sigmas_px(&block);
     let mut notes = note::of_frame(&block, frame, scaled);
     notes.extend(note::of_cameras(project, &block, &sources, &sigmas));
