@@ -71,6 +71,58 @@ test('points are chosen in space and in tables alike, features have their sigmas
     await page.keyboard.press('Control+Shift+Z');
     await page.waitForSelector('[data-feature=B] .value');
 
+    // Coordinate systems: in the object's plane, by plane, line and point, and by given coordinates.
+    const choose = async (points) => {
+      await page.fill('[name=chosen-points]', points.join(' '));
+      await page.press('[name=chosen-points]', 'Enter');
+    };
+    await choose(points.slice(0, 3));
+    await page.click('[data-make=line]');
+    await page.waitForSelector('[data-feature=C] .what');
+    await choose([]);
+    await page.click('[data-lay=automatic]');
+    await page.waitForSelector('[data-system=D]');
+    await page.click('[data-feature=A]');
+    await page.click('[data-feature=C]', { modifiers: ['Shift'] });
+    await choose([points[5]]);
+    await page.click('[data-lay=plane_line_point]');
+    await page.waitForSelector('[data-system=E]');
+    await choose([]);
+    await page.click('[data-lay=best_fit]');
+    await page.waitForSelector('[data-system=F]:has-text("σ₀")');
+    await page.click('[data-system=E]');
+    const origin = page.locator(`table:has(th:has-text("σ")) tr[data-key="${points[5]}"] td`).nth(1);
+    assert.equal(Math.abs(number(await origin.textContent())), 0);
+    assert.deepEqual(await page.$$eval('[data-system] .fault', (all) => all.map((one) => one.textContent).filter(Boolean)), []);
+
+    // Lines in a layer, in its colour; what is undone is gone again.
+    await choose(points.slice(0, 4));
+    await page.fill('.make .layer', 'edges');
+    await page.click('[data-action=join]');
+    await page.waitForSelector('[data-layer=edges]');
+    await page.fill('[data-layer=edges]', '#12ab34');
+    await page.waitForFunction(() => document.querySelector('[data-layer=edges]').value === '#12ab34');
+
+    // In each theme it stands on the theme's paper, and there is something on it.
+    for (let k = 0; k < 3; k++) {
+      const { paper, corner, drawn } = await view(page, async () => {
+        const probe = document.body.appendChild(document.createElement('i'));
+        probe.style.background = 'var(--paper)';
+        const paper = getComputedStyle(probe).backgroundColor.match(/\d+/g).map(Number);
+        probe.remove();
+        const bitmap = await createImageBitmap(await document.querySelector('.space-host').view.picture(['']));
+        const pen = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+        pen.drawImage(bitmap, 0, 0);
+        const { data } = pen.getImageData(0, 0, bitmap.width, bitmap.height);
+        let drawn = 0;
+        for (let i = 0; i < data.length; i += 4) drawn += [0, 1, 2].some((c) => Math.abs(data[i + c] - paper[c]) > 24);
+        return { paper, corner: [...data.subarray(0, 3)], drawn: drawn / (data.length / 4) };
+      });
+      assert.ok(corner.every((c, axis) => Math.abs(c - paper[axis]) <= 2), `${corner} is not ${paper}`);
+      assert.ok(drawn > 0.01 && drawn < 0.5, `${drawn} of the view is drawn on`);
+      await page.click('[aria-label*="theme" i]');
+    }
+
     const picture = await downloads(page, 1, () => page.click('[data-action=picture]'));
     const [png] = Object.values(picture);
     assert.equal(png.subarray(1, 4).toString(), 'PNG');

@@ -13,8 +13,8 @@ import { downloads, go, sample } from './desk.mjs';
 const poppler = spawnSync('pdftotext', ['-v']).status === 0;
 
 const SECTIONS = {
-  en: ['Summary', 'Uncertainty of the coordinates', 'Observations and unknowns', 'Cameras', 'Network', 'Photos', 'Points', 'Control, check points and scale', 'Statistics and tests', 'Residuals by photo', 'Left out, and why', 'Settings and inputs'],
-  ko: ['요약', '좌표의 불확도', '관측값과 미지수', '카메라', '관측망', '사진', '점', '기준점, 검사점, 축척', '통계와 검정', '사진별 잔차', '제외한 것과 그 까닭', '설정과 입력 자료'],
+  en: ['Summary', 'Uncertainty of the coordinates', 'Observations and unknowns', 'Cameras', 'Network', 'Photos', 'Points', 'Control, check points and scale', 'Statistics and tests', 'Residuals by photo', 'Left out, and why', 'Features', 'Settings and inputs'],
+  ko: ['요약', '좌표의 불확도', '관측값과 미지수', '카메라', '관측망', '사진', '점', '기준점, 검사점, 축척', '통계와 검정', '사진별 잔차', '제외한 것과 그 까닭', '형상', '설정과 입력 자료'],
 };
 /** Width and height in points. */
 const SIZES = { a4: [595, 842], letter: [612, 792] };
@@ -40,6 +40,19 @@ test('the sample prints whole in both languages and sizes', { skip: poppler ? fa
     const shown = await page.$$eval('[data-result]', (all) => all.map((element) => element.textContent));
     const points = await page.$$eval('.results .c1 tbody tr.data', (rows) => rows.map((row) => [...row.cells].slice(0, 8).map((cell) => cell.textContent)));
     assert.ok(points.length > 5 && points[0].length === 8, JSON.stringify(points[0]));
+    // A plane and a distance measured on it.
+    await page.click('[data-action=object]');
+    const make = async (kind, names) => {
+      await page.fill('[name=chosen-points]', names.join(' '));
+      await page.press('[name=chosen-points]', 'Enter');
+      await page.click(`[data-make=${kind}]`);
+    };
+    const names = points.map(([id]) => id);
+    await make('plane', names.slice(0, 6));
+    await page.waitForSelector('[data-feature=A] .value');
+    await page.click('[data-feature=A]');
+    await make('distance', names.slice(0, 2));
+    for (const part of ['[data-feature=B] .value', '[data-feature=B] .sigma']) shown.push((await page.textContent(part)).replace('±', ''));
     await go(page, 'report');
     await page.waitForSelector('.paper[data-ready=true]', { timeout: 60_000 });
     await page.fill('[name=operator]', 'Class 4b');

@@ -108,7 +108,7 @@ export interface Distance {
 /** A section of the report. */
 export type ReportSection =
   | "summary" | "uncertainty" | "observations" | "cameras" | "network" | "photos" | "points" | "control" | "lengths" | "statistics" | "residuals"
-  | "gross_errors" | "settings" | "all_observations";
+  | "gross_errors" | "features" | "settings" | "all_observations";
 
 /** What the report says besides its numbers; no input of the adjustment. */
 export interface ReportSettings {

@@ -53,6 +53,8 @@ pub enum Section {
     Residuals,
     /// What was left out, by whom and why.
     GrossErrors,
+    /// What was measured on the result: features and coordinate systems.
+    Features,
     /// Options, versions and digests: what it takes to compute it again.
     Settings,
     /// Every image observation.
@@ -61,7 +63,7 @@ pub enum Section {
 
 impl Section {
     /// All, in the order of the report.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Summary,
         Self::Uncertainty,
         Self::Observations,
@@ -74,6 +76,7 @@ impl Section {
         Self::Statistics,
         Self::Residuals,
         Self::GrossErrors,
+        Self::Features,
         Self::Settings,
         Self::AllObservations,
     ];

@@ -4,6 +4,7 @@ mod all_observations;
 mod cameras;
 mod control;
 mod cover;
+mod features;
 mod gross_errors;
 mod lengths;
 mod network;
@@ -89,6 +90,7 @@ fn write(section: Section, context: &Context, html: &mut Html) {
         Section::Statistics => statistics::write(context, html),
         Section::Residuals => residuals::write(context, html),
         Section::GrossErrors => gross_errors::write(context, html),
+        Section::Features => features::write(context, html),
         Section::Settings => settings::write(context, html),
         Section::AllObservations => all_observations::write(context, html),
     }
@@ -109,6 +111,7 @@ fn name(section: Section) -> &'static str {
         Section::Statistics => "statistics",
         Section::Residuals => "residuals",
         Section::GrossErrors => "gross_errors",
+        Section::Features => "features",
         Section::Settings => "settings",
         Section::AllObservations => "all_observations",
     }
@@ -129,6 +132,7 @@ fn title(section: Section, context: &Context) -> &'static str {
         Section::Statistics => words.statistics(),
         Section::Residuals => words.residuals(),
         Section::GrossErrors => words.left_out(),
+        Section::Features => words.features(),
         Section::Settings => words.settings(),
         Section::AllObservations => words.all_observations(),
     }

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use crate::networks::{Wanted, brown, exact, noisy};
 use sightline::adjust::adjust;
-use sightline::adjustment::{AdjustOptions, Adjustment};
+use sightline::adjustment::{AdjustOptions, Adjustment, Quantity};
 use sightline::error::{Error, Lack, Reason};
 use sightline::exchange;
 use sightline::noise::Noise;
 use sightline::project::{
-    DatumKind, Distance, LengthLimit, Paper, Parameter, Project, ReportLanguage, ReportSettings, Role, Section,
+    CoordinateSystem, DatumKind, Distance, End, Feature, FeatureKind, LengthLimit, Paper, Parameter, Project,
+    ReportLanguage, ReportSettings, Role, Section, SystemKind,
 };
 use sightline::report::number::{count, decimals_for, fixed, with_sigma};
 use sightline::report::plots::{comparison, plots};
@@ -39,6 +40,16 @@ fn project() -> Project {
         let length = (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2]);
         project.distances.push(Distance { from: from.into(), to: to.into(), length, sigma: 0.01, check: true });
     }
+    let end = |id: &str| End::Point(id.into());
+    let points: Vec<String> = ["p12", "p13", "p14", "p15"].map(str::to_owned).into();
+    let feature = |id: &str, kind| Feature { id: id.into(), kind };
+    project.features = vec![
+        feature("Base <i>", FeatureKind::Plane { points: points.clone() }),
+        feature("B", FeatureKind::Distance { from: end("p12"), to: end("p13") }),
+        feature("C", FeatureKind::Angle { from: end("p12"), at: Some(end("p13")), to: end("p14") }),
+        feature("D", FeatureKind::Line { points: vec!["p12".into()] }),
+    ];
+    project.systems = vec![CoordinateSystem { id: "S".into(), kind: SystemKind::Automatic { points } }];
     project.observations[3].enabled = false;
     project.photos[0].sha256 = sha256(b"a photo");
     project.report = ReportSettings {
@@ -117,6 +128,20 @@ fn every_section_is_there_with_the_results_own_numbers() {
         assert!(all["control"].contains(&fixed(check.rms_all, decimals)));
         assert!(all["statistics"].contains(&fixed(adjustment.sigma0.expect("redundant"), 4)));
         assert!(all["settings"].contains(&sha256(b"a photo")) && all["settings"].contains(&digest(&project).unwrap()));
+        for feature in &adjustment.features {
+            let degrees = feature.quantity == Some(Quantity::Angle);
+            let shown = |x: f64| if degrees { x.to_degrees() } else { x };
+            if let (Some(value), Some(sigma)) = (feature.value.map(shown), feature.sigma.map(shown)) {
+                let printed = plain(&[value, sigma].map(|x| fixed(x, decimals_for(sigma))).join(" "));
+                assert!(all["features"].contains(&printed), "{} {printed}: {}", feature.id, all["features"]);
+            }
+        }
+        let [system] = &adjustment.systems[..] else { panic!("{:?}", adjustment.systems) };
+        for point in &system.points {
+            let row = plain(&point.xyz.map(|x| fixed(x, decimals)).join(" "));
+            assert!(all["features"].contains(&format!("{} {row}", point.id)), "{} {row}", point.id);
+        }
+        assert!(all["features"].contains("Base &lt;i&gt;") && adjustment.features[3].error.is_some());
         assert!(plain(&html).contains("First line\nsecond") || html.contains("First line\nsecond line"));
         assert!(html.contains("Panel &lt;b&gt;&quot;7&quot;"));
     }
@@ -150,6 +175,13 @@ fn sections_that_are_left_out_are_not_there() {
     assert!(
         !all.contains_key("points") && !all.contains_key("all_observations") && all.len() == Section::ALL.len() - 2
     );
+    // Of features nothing is said where there are none, and those that were made since are named.
+    let mut without = project.clone();
+    (without.features, without.systems) = (Vec::new(), Vec::new());
+    assert!(!sections(&html(&without, &adjustment)).contains_key("features"));
+    project.features.push(Feature { id: "later".into(), kind: project.features[0].kind.clone() });
+    assert!(sections(&html(&project, &adjustment))["features"].contains("later was defined after this result"));
+    project.features.pop();
     // Without lengths that are known and took no part there is nothing to say of them.
     project.distances.retain(|d| !d.check);
     let adjustment = adjusted(&project);

@@ -4,38 +4,20 @@
 // open(host, tell) puts two canvases into the host, WebGL below and text above, and throws where there is no WebGL. What it gives has
 // show(scene), state(options), look(name), picture(lines), counts(), close().
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, DoubleSide, DynamicDrawUsage, Group, IcosahedronGeometry, InstancedMesh,
-  LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, OrthographicCamera, PerspectiveCamera, Points, Scene, ShaderMaterial, SRGBColorSpace,
-  Vector3, WebGLRenderer,
+  AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, DynamicDrawUsage, Group, IcosahedronGeometry, InstancedMesh, LineBasicMaterial, Matrix4,
+  MeshLambertMaterial, OrthographicCamera, PerspectiveCamera, Points, Scene, ShaderMaterial, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
+import { POINT_SHADER, edges, grid, line, parts, segments, sheet, spread, token } from './things.js';
+import { words } from './words.js';
+
 /** A frame may take this long while the view moves: thirty a second. */
 const FRAME = 1000 / 30;
-/** Names that are tried at a time, and ellipsoids at rest. */
-const MOST_NAMES = 500;
+/** Ellipsoids at rest. */
 const MOST_ELLIPSOIDS = 4000;
-/** Side of the sheet with all photos. */
-const SHEET = 2048;
 
 const VIEWS = { home: [1, -1.35, 0.95], top: [0, 0, 1], front: [0, -1, 0], right: [1, 0, 0] };
-
-const POINT_SHADER = {
-  vertexShader: `
-    attribute vec3 tint; attribute float size; varying vec3 vTint; uniform float ratio;
-    void main() { vTint = tint; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); gl_PointSize = size * ratio; }`,
-  fragmentShader: `
-    varying vec3 vTint;
-    void main() { vec2 d = gl_PointCoord - 0.5; if (dot(d, d) > 0.25) discard; gl_FragColor = vec4(vTint, 1.0); }`,
-};
-
-/** A colour of the page's theme. */
-const token = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim() || '#888';
-/** As the shader takes it: what it writes is shown as it is. */
-const parts = (colour) => {
-  const { r, g, b } = new Color(colour).convertLinearToSRGB();
-  return [r, g, b];
-};
 
 /** Whether a processor draws in place of a graphics card: smooth edges would cost it four times the pixels. */
 function drawnBySoftware() {
@@ -113,14 +95,6 @@ export function open(host, tell) {
     made = {};
   }
 
-  const segments = (positions, material) => {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(positions, 3));
-    return new LineSegments(geometry, material);
-  };
-
-  const line = (colour, opacity = 1) => new LineBasicMaterial({ color: colour, transparent: opacity < 1, opacity });
-
   function build() {
     release();
     if (!scene) return;
@@ -146,25 +120,14 @@ export function open(host, tell) {
       made.ellipsoids.frustumCulled = false;
       group.add(made.ellipsoids);
     }
-    const photos = scene.photos.length / 15;
-    if (photos) {
-      const edges = new Float32Array(photos * 48);
-      const corner = (k, c) => scene.photos.subarray(15 * k + 3 * c, 15 * k + 3 * c + 3);
-      for (let k = 0; k < photos; k++) {
-        for (let c = 0; c < 4; c++) {
-          edges.set(corner(k, 0), 48 * k + 12 * c);
-          edges.set(corner(k, 1 + c), 48 * k + 12 * c + 3);
-          edges.set(corner(k, 1 + c), 48 * k + 12 * c + 6);
-          edges.set(corner(k, 1 + ((c + 1) % 4)), 48 * k + 12 * c + 9);
-        }
-      }
-      made.frusta = segments(edges, line(token('--edge')));
-      made.sheet = sheet(photos);
+    if (scene.photos.length) {
+      made.frusta = segments(edges(scene), line(token('--edge')));
+      made.sheet = sheet(scene);
       made.cameras = new Group();
       made.cameras.add(made.frusta, made.sheet);
       group.add(made.cameras);
     }
-    made.grid = grid();
+    made.grid = grid(scene);
     group.add(made.grid);
     made.lines = segments(scene.lines, new LineBasicMaterial({ vertexColors: true }));
     made.lines.geometry.setAttribute('color', new BufferAttribute(new Float32Array(scene.lines.length), 3));
@@ -180,64 +143,6 @@ export function open(host, tell) {
     }
     world.add(group);
     paint();
-  }
-
-  /** Numbers below n in an order whose every beginning is spread over them: bits turned around. */
-  function spread(n) {
-    const bits = Math.max(1, Math.ceil(Math.log2(Math.max(2, n))));
-    const all = [];
-    for (let k = 0; k < 2 ** bits; k++) {
-      let turned = 0;
-      for (let b = 0; b < bits; b++) turned |= ((k >> b) & 1) << (bits - 1 - b);
-      if (turned < n) all.push(turned);
-    }
-    return Uint32Array.from(all);
-  }
-
-  /** All photos on one texture: one draw for three hundred of them. */
-  function sheet(photos) {
-    const columns = Math.ceil(Math.sqrt(photos));
-    const cell = Math.floor(Math.min(SHEET / columns, 512));
-    const page = document.createElement('canvas');
-    page.width = page.height = cell * columns;
-    const draw = page.getContext('2d');
-    draw.fillStyle = token('--photo');
-    draw.fillRect(0, 0, page.width, page.height);
-    const positions = new Float32Array(photos * 12);
-    const places = new Float32Array(photos * 8);
-    const faces = new Uint32Array(photos * 6);
-    const side = page.width;
-    for (let k = 0; k < photos; k++) {
-      const [x, y] = [(k % columns) * cell, Math.floor(k / columns) * cell];
-      const picture = scene.pictures[k];
-      if (picture) draw.drawImage(picture, x, y, cell, cell);
-      positions.set(scene.photos.subarray(15 * k + 3, 15 * k + 15), 12 * k);
-      const [left, right, top, bottom] = [(x + 0.5) / side, (x + cell - 0.5) / side, 1 - (y + 0.5) / side, 1 - (y + cell - 0.5) / side];
-      places.set([left, top, right, top, right, bottom, left, bottom], 8 * k);
-      faces.set([0, 1, 2, 0, 2, 3].map((c) => 4 * k + c), 6 * k);
-    }
-    const texture = new CanvasTexture(page);
-    texture.colorSpace = SRGBColorSpace;
-    texture.generateMipmaps = false;
-    texture.minFilter = 1006; // linear
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(positions, 3));
-    geometry.setAttribute('uv', new BufferAttribute(places, 2));
-    geometry.setIndex(new BufferAttribute(faces, 1));
-    const mesh = new Mesh(geometry, new MeshBasicMaterial({ map: texture, side: DoubleSide }));
-    mesh.frustumCulled = false;
-    return mesh;
-  }
-
-  /** A grid in the plane of the lowest points, its mesh 1, 2 or 5 times a power of ten. */
-  function grid() {
-    const step = scene.grid;
-    const lines = [];
-    const [low, high] = [0, 1].map((k) => [0, 1].map((axis) => (k ? Math.ceil : Math.floor)(scene.box[3 * k + axis] / step + (k ? 1 : -1))));
-    const z = scene.box[2];
-    for (let i = low[0]; i <= high[0]; i++) lines.push(i * step, low[1] * step, z, i * step, high[1] * step, z);
-    for (let j = low[1]; j <= high[1]; j++) lines.push(low[0] * step, j * step, z, high[0] * step, j * step, z);
-    return segments(Float32Array.from(lines), line(token('--line')));
   }
 
   // ---- how it looks ----
@@ -352,6 +257,7 @@ export function open(host, tell) {
     };
     take(scene.points, 3, 4000);
     if (options.photos) take(scene.photos, 3, 4000);
+    if (options.grid) take(made.grid.geometry.attributes.position.array, 3, 400);
     if (!places.length) places.push(...box());
     const middle = places.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(places.length);
     const up = Math.abs(direction.z) > 0.999 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
@@ -442,127 +348,13 @@ export function open(host, tell) {
   const perPixel = () =>
     camera === perspective ? (2 * camera.position.distanceTo(controls.target) * Math.tan((perspective.fov * Math.PI) / 360)) / height : (orthographic.top - orthographic.bottom) / orthographic.zoom / height;
 
-  function write(draw = pen) {
-    draw.setTransform(ratio, 0, 0, ratio, 0, 0);
-    draw.clearRect(0, 0, width, height);
+  function write() {
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.clearRect(0, 0, width, height);
     if (!scene) return;
     const family = getComputedStyle(host).fontFamily;
-    const [ink, quiet, paper, accent] = ['--ink', '--ink-2', '--paper', '--accent'].map(token);
-    const taken = [];
-    const cells = new Map();
-    const free = (x, y, w, h) => {
-      const key = (i, j) => i * 4096 + j;
-      const range = [Math.floor(x / 64), Math.floor((x + w) / 64), Math.floor(y / 64), Math.floor((y + h) / 64)];
-      for (let i = range[0]; i <= range[1]; i++) {
-        for (let j = range[2]; j <= range[3]; j++) {
-          for (const n of cells.get(key(i, j)) ?? []) {
-            const [a, b, c, d] = taken[n];
-            if (x < a + c && a < x + w && y < b + d && b < y + h) return false;
-          }
-        }
-      }
-      taken.push([x, y, w, h]);
-      for (let i = range[0]; i <= range[1]; i++) for (let j = range[2]; j <= range[3]; j++) cells.set(key(i, j), [...(cells.get(key(i, j)) ?? []), taken.length - 1]);
-      return true;
-    };
-    shownNames = [];
-    const say = (words, x, y, { bold = false, colour = quiet, must = false, name } = {}) => {
-      draw.font = `${bold ? 600 : 400} 11px ${family}`;
-      const w = draw.measureText(words).width;
-      if (x + w < 0 || x > width || y < 0 || y - 12 > height) return;
-      if (!free(x - 2, y - 11, w + 4, 14) && !must) return;
-      draw.lineWidth = 3;
-      draw.lineJoin = 'round';
-      draw.strokeStyle = paper;
-      draw.strokeText(words, x, y);
-      draw.fillStyle = colour;
-      draw.fillText(words, x, y);
-      shownNames.push({ words, box: [x - 2, y - 11, w + 4, 14], name });
-    };
-    const at = (k) => screen(scene.points[3 * k], scene.points[3 * k + 1], scene.points[3 * k + 2]);
-    const ring = (place, radius) => {
-      draw.strokeStyle = accent;
-      draw.lineWidth = 2;
-      draw.beginPath();
-      draw.arc(place[0], place[1], radius, 0, 2 * Math.PI);
-      draw.stroke();
-    };
-    // The room of what stands fast comes first, then what is chosen, forms, photos, and the points.
-    free(0, height - 96, 110, 96);
-    free(width - 190, height - 40, 190, 40);
-    if (options.selected >= 0 && at(options.selected)) {
-      const place = at(options.selected);
-      ring(place, 9);
-      say(scene.names[options.selected], place[0] + 13, place[1] - 8, { bold: true, colour: accent, must: true });
-    }
-    for (const k of options.chosen) {
-      const place = k !== options.selected && at(k);
-      if (place) ring(place, 6);
-    }
-    if (options.features) {
-      for (const { words, place, chosen } of scene.labels) {
-        const where = screen(...place);
-        if (where) say(words, where[0] + 6, where[1] - 6, { bold: true, colour: chosen ? accent : ink });
-      }
-    }
-    const quick = moving && bare;
-    if (options.photos && !quick) {
-      for (let k = 0; k < scene.photos.length / 15; k++) {
-        const place = screen(scene.photos[15 * k], scene.photos[15 * k + 1], scene.photos[15 * k + 2]);
-        if (place) say(scene.photoNames[k], place[0] - 4, place[1] - 8, { bold: true, colour: k === options.photo ? accent : ink });
-      }
-    }
-    if (options.names && !quick) {
-      let tried = 0;
-      for (const k of made.order ?? scene.names.keys()) {
-        if (tried > MOST_NAMES) break;
-        if (k === options.selected) continue;
-        const place = at(k);
-        if (!place || place[0] < 0 || place[1] < 0 || place[0] > width || place[1] > height) continue;
-        tried += 1;
-        say(scene.names[k], place[0] + 6, place[1] + 12, { colour: scene.roles[k] & 3 ? ink : quiet, name: k });
-      }
-    }
+    shownNames = words(pen, { scene, options, order: made.order, quick: moving && bare, screen, camera, perPixel, width, height, family });
     drawn.names = shownNames.length;
-    axes(draw, family, ink);
-    ruler(draw, family, ink);
-  }
-
-  function axes(draw, family, ink) {
-    const [x, y] = [48, height - 44];
-    const turned = camera.matrixWorldInverse;
-    draw.font = `600 11px ${family}`;
-    draw.lineWidth = 1.25;
-    for (const [axis, name] of ['X', 'Y', 'Z'].entries()) {
-      const [dx, dy] = [turned.elements[4 * axis], -turned.elements[4 * axis + 1]];
-      draw.strokeStyle = draw.fillStyle = ink;
-      draw.beginPath();
-      draw.moveTo(x, y);
-      draw.lineTo(x + 26 * dx, y + 26 * dy);
-      draw.stroke();
-      if (Math.hypot(dx, dy) > 0.15) draw.fillText(name, x + 36 * dx - 4, y + 36 * dy + 4);
-    }
-  }
-
-  function ruler(draw, family, ink) {
-    const wanted = perPixel() * 90;
-    const power = 10 ** Math.floor(Math.log10(wanted));
-    const digit = wanted / power >= 5 ? 5 : wanted / power >= 2 ? 2 : 1;
-    const length = (digit * power) / perPixel();
-    const [right, y] = [width - 18, height - 16];
-    draw.strokeStyle = draw.fillStyle = ink;
-    draw.lineWidth = 1.25;
-    draw.beginPath();
-    draw.moveTo(right - length, y - 6);
-    draw.lineTo(right - length, y);
-    draw.lineTo(right, y);
-    draw.lineTo(right, y - 6);
-    draw.stroke();
-    draw.font = `400 11px ${family}`;
-    const words = `${Number((digit * power).toPrecision(1))} ${scene.unit}`;
-    draw.fillText(words, right - length - draw.measureText(words).width - 8, y);
-    const mesh = `${Number(scene.grid.toPrecision(1))} ${scene.unit}`;
-    if (options.grid) draw.fillText(`□ ${mesh}`, right - draw.measureText(`□ ${mesh}`).width, y - 14);
   }
 
   // ---- frames ----

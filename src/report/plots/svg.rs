@@ -72,7 +72,7 @@ impl Svg {
         self.text.push_str("\"/>\n");
     }
 
-    /// Dots of one class as one element.
+    /// Dots of one class as one element: round caps of a line that has some length, since not every printer draws those of none.
     pub fn dots(&mut self, class: &str, places: &[[f64; 2]], size: f64) {
         if places.is_empty() {
             return;
@@ -80,7 +80,7 @@ impl Svg {
         let _ = write!(self.text, "<path class=\"{class}\" stroke-width=\"{}\" d=\"", at(size));
         for place in places {
             let [x, y] = place.map(at);
-            let _ = write!(self.text, "M{x} {y}h0");
+            let _ = write!(self.text, "M{x} {y}h.01");
         }
         self.text.push_str("\"/>\n");
     }

@@ -238,6 +238,36 @@ declare! {
     no_search: "No search for gross errors was asked for.";
     record_of_search: "Record of the search for gross errors";
 
+    // Features
+    features: "Features";
+    feature: "feature";
+    feature_of: "of";
+    feature_line: "line";
+    feature_plane: "plane";
+    feature_circle: "circle";
+    feature_sphere: "sphere";
+    feature_cylinder: "cylinder";
+    feature_distance: "distance";
+    feature_angle: "angle";
+    feature_diameter: "diameter";
+    feature_deviations: "deviations";
+    feature_from(id): "from {id}";
+    feature_from_given(n): "from {n} given {n:point|points}";
+    feature_points(n): "{n} {n:point|points}";
+    feature_direction: "direction";
+    feature_places: "Where they lie";
+    form_rms: "rms";
+    smallest_largest: "smallest … largest";
+    features_explained: "Forms fitted to the adjusted points by least squares of their orthogonal distances, without weights; standard errors (1σ) from the full covariance of the points. rms, smallest and largest are distances of the points from the form.";
+    feature_lacks(id, points): "{id} is without points that this adjustment has not: {points}.";
+    feature_failed(id, code): "{id} could not be measured ({code}).";
+    feature_not_measured(id): "{id} was defined after this result and has not been measured on it.";
+    system_named(id): "Coordinate system {id}";
+    system_automatic: "In the object's plane: Z is its normal towards the photos, X its longer extent, the origin its centroid.";
+    system_plane_line_point: "By plane, line and point (3-2-1): Z is 0 in the plane, Y on the line, X at the point.";
+    system_best_fit: "Best fit to given coordinates.";
+    system_fit(sigma, redundancy, scale): "σ₀ of the fit {sigma} from {redundancy} degrees of freedom; scale {scale}.";
+
     // Plots
     plot_radial(camera): "Radial distortion, camera {camera}";
     plot_radial_says(value, sigma, unit, r, radius_unit, widened): "At the outermost target, r = {r} {radius_unit}, the distortion is {value} ± {sigma} {unit} (1σ). The band is {widened} σ wide; beyond the outermost target nothing but the formula carries the curve.";

@@ -235,6 +235,36 @@ translate! { Korean {
     no_search: "과대오차 탐색을 하지 않았습니다.";
     record_of_search: "과대오차 탐색 기록";
 
+    // Features
+    features: "형상";
+    feature: "형상";
+    feature_of: "대상";
+    feature_line: "직선";
+    feature_plane: "평면";
+    feature_circle: "원";
+    feature_sphere: "구";
+    feature_cylinder: "원통";
+    feature_distance: "거리";
+    feature_angle: "각";
+    feature_diameter: "지름";
+    feature_deviations: "편차";
+    feature_from(id): "{id} 기준";
+    feature_from_given(n): "주어진 점 {n}개 기준";
+    feature_points(n): "{n}점";
+    feature_direction: "방향";
+    feature_places: "위치와 방향";
+    form_rms: "RMS";
+    smallest_largest: "최소 … 최대";
+    features_explained: "조정한 점에서 직교거리의 최소제곱으로 맞춘 형상이며 가중치는 쓰지 않습니다. 표준오차(1σ)는 점의 전체 공분산에서 구합니다. RMS, 최소, 최대는 점과 형상 사이의 거리입니다.";
+    feature_lacks(id, points): "{id}: 이 조정에 없는 점은 빠졌습니다({points}).";
+    feature_failed(id, code): "{id}: 측정할 수 없습니다({code}).";
+    feature_not_measured(id): "{id}: 이 결과 뒤에 정의하여 아직 측정하지 않았습니다.";
+    system_named(id): "좌표계 {id}";
+    system_automatic: "대상물 평면 기준: Z는 사진 쪽을 향한 법선, X는 긴 방향, 원점은 무게중심.";
+    system_plane_line_point: "평면, 직선, 점(3-2-1): 평면에서 Z = 0, 직선에서 Y = 0, 점에서 X = 0.";
+    system_best_fit: "주어진 좌표에 최적 맞춤.";
+    system_fit(sigma, redundancy, scale): "맞춤의 σ₀ {sigma}, 자유도 {redundancy}, 축척 {scale}.";
+
     // Plots
     plot_radial(camera): "방사왜곡, 카메라 {camera}";
     plot_radial_says(value, sigma, unit, r, radius_unit, widened): "가장 바깥 표적 r = {r} {radius_unit}에서 왜곡은 {value} ± {sigma} {unit}입니다(1σ). 띠의 폭은 {widened}σ이며, 가장 바깥 표적 밖의 곡선은 수식에만 근거합니다.";

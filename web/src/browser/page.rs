@@ -255,6 +255,17 @@ fn storage_manager() -> Option<web_sys::StorageManager> {
     storage.dyn_into().ok()
 }
 
+/// Shows an element on the whole screen, or no more.
+pub fn switch_full_screen(element: &HtmlElement) {
+    let Some(document) = window().and_then(|w| w.document()) else { return };
+    if document.fullscreen_element().is_some() {
+        document.exit_fullscreen();
+    } else {
+        // Where the browser refuses, the view stays as large as it is.
+        let _ = element.request_fullscreen();
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use sightline::project::{CoordinateSystem, DrawnLine, End, Feature, FeatureKind, Layer, Project, SystemKind};
+use sightline::project::{
+    CoordinateSystem, DrawnLine, End, Feature, FeatureKind, GivenPoint, Layer, Project, SystemKind,
+};
 
 use super::natural;
 
@@ -19,7 +21,7 @@ pub enum Lacks {
     TwoEnds,
     /// Two features with a direction, or three points.
     Angle,
-    /// One feature to deviate from.
+    /// One feature to deviate from, or points with given coordinates.
     OneFeature,
     /// A plane and a line among the chosen features, and one point.
     PlaneLinePoint,
@@ -31,7 +33,7 @@ pub enum Lacks {
 ///
 /// # Errors
 /// What it lacks.
-pub fn made(kind: &str, points: &[String], features: &[String]) -> Result<FeatureKind, Lacks> {
+pub fn made(kind: &str, project: &Project, points: &[String], features: &[String]) -> Result<FeatureKind, Lacks> {
     let at_least = |n: usize| if points.len() >= n { Ok(points.to_vec()) } else { Err(Lacks::Points(n)) };
     let ends: Vec<End> =
         features.iter().cloned().map(End::Feature).chain(points.iter().cloned().map(End::Point)).collect();
@@ -60,9 +62,32 @@ pub fn made(kind: &str, points: &[String], features: &[String]) -> Result<Featur
                 feature: Some(feature.clone()),
                 given: Vec::new(),
             }),
+            [] => {
+                let given: Vec<_> = given(project, points);
+                if given.is_empty() { Err(Lacks::OneFeature) } else { Ok(of_given(given)) }
+            }
             _ => Err(Lacks::OneFeature),
         },
     }
+}
+
+/// Given coordinates of these points, or of all that have some, with their standard errors.
+fn given(project: &Project, points: &[String]) -> Vec<GivenPoint> {
+    let sigma = |id: &str| {
+        let [x, y, z] = project.points.iter().find(|p| p.id == id)?.sigma?;
+        Some([x?, y?, z?]).filter(|s| s.iter().all(|s| *s > 0.0))
+    };
+    let mut given: Vec<_> = project.given_points().filter(|g| points.is_empty() || points.contains(&g.id)).collect();
+    // Weights are the standard errors of all, or none: one without would weigh as if it had one unit.
+    let sigmas: Option<Vec<_>> = given.iter().map(|g| sigma(&g.id)).collect();
+    for (point, sigma) in given.iter_mut().zip(sigmas.into_iter().flatten()) {
+        point.sigma = Some(sigma);
+    }
+    given
+}
+
+fn of_given(given: Vec<GivenPoint>) -> FeatureKind {
+    FeatureKind::Deviations { points: Vec::new(), feature: None, given }
 }
 
 /// A coordinate system of this kind from chosen points and features.
@@ -82,8 +107,7 @@ pub fn laid(kind: &str, project: &Project, points: &[String], features: &[String
             _ => Err(Lacks::PlaneLinePoint),
         },
         _ => {
-            let given: Vec<_> =
-                project.given_points().filter(|g| points.is_empty() || points.contains(&g.id)).collect();
+            let given = given(project, points);
             if given.len() < 3 { Err(Lacks::Given) } else { Ok(SystemKind::BestFit { given, scale: false }) }
         }
     }
@@ -184,6 +208,11 @@ pub fn join(project: &mut Project, points: &[String], layer: &str) -> usize {
     project.lines.len() - before
 }
 
+/// Gives a layer another colour.
+pub fn recolour(project: &mut Project, layer: &str, colour: [u8; 3]) {
+    project.layers.iter_mut().filter(|l| l.id == layer).for_each(|l| l.colour = colour);
+}
+
 /// Takes the lines away that join two of these points; how many.
 pub fn part(project: &mut Project, points: &[String]) -> usize {
     let before = project.lines.len();
@@ -231,25 +260,25 @@ mod tests {
 
     #[test]
     fn features_are_made_of_what_is_chosen_and_say_what_they_lack() {
-        assert_eq!(made("plane", &names(&["1", "2"]), &[]), Err(Lacks::Points(3)));
+        assert_eq!(made("plane", &project(), &names(&["1", "2"]), &[]), Err(Lacks::Points(3)));
         assert!(
-            matches!(made("plane", &names(&["1", "2", "3"]), &[]), Ok(FeatureKind::Plane { points }) if points.len() == 3)
+            matches!(made("plane", &project(), &names(&["1", "2", "3"]), &[]), Ok(FeatureKind::Plane { points }) if points.len() == 3)
         );
-        assert_eq!(made("distance", &names(&["1"]), &[]), Err(Lacks::TwoEnds));
-        let mixed = made("distance", &names(&["1"]), &names(&["A"]));
+        assert_eq!(made("distance", &project(), &names(&["1"]), &[]), Err(Lacks::TwoEnds));
+        let mixed = made("distance", &project(), &names(&["1"]), &names(&["A"]));
         assert_eq!(mixed, Ok(FeatureKind::Distance { from: End::Feature("A".into()), to: End::Point("1".into()) }));
         assert!(
-            matches!(made("angle", &names(&["1", "2", "3"]), &[]), Ok(FeatureKind::Angle { at: Some(End::Point(at)), .. }) if at == "2")
+            matches!(made("angle", &project(), &names(&["1", "2", "3"]), &[]), Ok(FeatureKind::Angle { at: Some(End::Point(at)), .. }) if at == "2")
         );
-        assert_eq!(made("angle", &names(&["1"]), &names(&["A"])), Err(Lacks::Angle));
-        assert_eq!(made("deviations", &[], &[]), Err(Lacks::OneFeature));
+        assert_eq!(made("angle", &project(), &names(&["1"]), &names(&["A"])), Err(Lacks::Angle));
+        assert_eq!(made("deviations", &project(), &[], &[]), Err(Lacks::OneFeature));
     }
 
     #[test]
     fn names_are_free_and_what_is_built_on_a_feature_goes_with_it() {
         let mut p = project();
-        let a = add(&mut p, made("plane", &names(&["1", "2", "3"]), &[]).expect("a plane"));
-        let b = add(&mut p, made("distance", &names(&["4"]), &names(&["A"])).expect("a distance"));
+        let a = add(&mut p, made("plane", &project(), &names(&["1", "2", "3"]), &[]).expect("a plane"));
+        let b = add(&mut p, made("distance", &project(), &names(&["4"]), &names(&["A"])).expect("a distance"));
         let system = laid("automatic", &p, &[], &[]).expect("a system");
         let c = add_system(&mut p, system);
         assert_eq!((a.as_str(), b.as_str(), c.as_str()), ("A", "B", "C"));
@@ -269,8 +298,8 @@ mod tests {
         }
         assert!(matches!(laid("best_fit", &p, &[], &[]), Ok(SystemKind::BestFit { given, .. }) if given.len() == 3));
         assert_eq!(laid("plane_line_point", &p, &names(&["1"]), &[]), Err(Lacks::PlaneLinePoint));
-        add(&mut p, made("plane", &names(&["1", "2", "3"]), &[]).expect("a plane"));
-        add(&mut p, made("line", &names(&["4", "5"]), &[]).expect("a line"));
+        add(&mut p, made("plane", &project(), &names(&["1", "2", "3"]), &[]).expect("a plane"));
+        add(&mut p, made("line", &project(), &names(&["4", "5"]), &[]).expect("a line"));
         assert!(laid("plane_line_point", &p, &names(&["1"]), &names(&["A", "B"])).is_ok());
     }
 

@@ -1071,12 +1071,15 @@ declare! { object {
     lacks_points(n): "Choose {n} points or more first: click them with Shift, or type their names.";
     lacks_ends: "A distance has two ends: choose two points, two features (with Shift), or one of each.";
     lacks_angle: "An angle is between two chosen features with a direction, or at the second of three chosen points.";
-    lacks_feature: "Choose the one feature that points deviate from; chosen points too, if not all are meant.";
+    lacks_feature: "Choose the one feature that points deviate from, or give points coordinates under control; chosen points too, if not all are meant.";
     lacks_plane_line_point: "Choose a plane and a line in the list (with Shift) and one point, where X is 0.";
     lacks_given: "A best fit needs three points with given coordinates: give them under control.";
     change_made(name): "feature {name} made";
     change_removed(name): "feature {name} removed";
     change_renamed(from, to): "feature {from} renamed to {to}";
+    change_layer(name): "colour of layer {name}";
+    layer_colour(name): "Colour of layer {name}";
+    full_screen: "Full screen";
     change_lines: "lines drawn";
 }}
 

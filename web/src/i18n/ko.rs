@@ -1036,12 +1036,15 @@ translate! { Korean object {
     lacks_points(n): "먼저 점을 {n}개 이상 고르십시오. Shift를 누르고 클릭하거나 점번호를 적으면 됩니다.";
     lacks_ends: "거리에는 두 끝이 필요합니다. 점 둘, 형상 둘(Shift), 또는 하나씩 고르십시오.";
     lacks_angle: "각은 방향이 있는 두 형상 사이, 또는 고른 세 점 가운데 둘째 점에서 잽니다.";
-    lacks_feature: "편차의 기준이 될 형상 하나를 고르십시오. 일부 점만 보려면 점도 고르십시오.";
+    lacks_feature: "편차의 기준이 될 형상 하나를 고르거나 기준점 단계에서 좌표를 주십시오. 일부 점만 보려면 점도 고르십시오.";
     lacks_plane_line_point: "목록에서 평면과 직선을(Shift), 그리고 X가 0인 점 하나를 고르십시오.";
     lacks_given: "최적 맞춤에는 좌표가 주어진 점이 셋 필요합니다. 기준점 단계에서 입력하십시오.";
     change_made(name): "형상 {name} 추가";
     change_removed(name): "형상 {name} 삭제";
     change_renamed(from, to): "형상 {from} → {to}";
+    change_layer(name): "레이어 {name} 색";
+    layer_colour(name): "레이어 {name}의 색";
+    full_screen: "전체 화면";
     change_lines: "선 그리기";
 }}
 

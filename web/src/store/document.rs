@@ -121,6 +121,7 @@ pub enum Change {
     FeatureRemoved(String),
     FeatureRenamed { from: String, to: String },
     LinesDrawn,
+    LayerColoured(String),
     ReportEdited,
     PlanEdited,
     StationMoved(String),

@@ -27,7 +27,7 @@ impl Document {
 impl Desk {
     /// Makes a feature of what is chosen; its name.
     pub fn make_feature(self, kind: &str, points: &[String], picked: &[String]) -> Option<String> {
-        match features::made(kind, points, picked) {
+        match self.document.with_untracked(|d| features::made(kind, &d.project, points, picked)) {
             Ok(kind) => {
                 let mut made = String::new();
                 let name = self.document.with_untracked(|d| features::free_letter(&d.project));
@@ -97,6 +97,13 @@ impl Desk {
         }
     }
 
+    /// Gives a layer another colour.
+    pub fn recolour_layer(self, layer: &str, colour: [u8; 3]) {
+        self.change(Change::LayerColoured(layer.to_owned()), |document| {
+            features::recolour(document.project_mut(), layer, colour);
+        });
+    }
+
     fn change_features(self, change: Change, edit: impl FnOnce(&mut Project)) {
         self.change(change, |document| edit(document.project_mut()));
         self.measure_features();
@@ -149,5 +156,28 @@ fn lacking(lacks: Lacks) -> String {
         Lacks::OneFeature => words::lacks_feature().to_owned(),
         Lacks::PlaneLinePoint => words::lacks_plane_line_point().to_owned(),
         Lacks::Given => words::lacks_given().to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sightline::adjustment::Adjustment;
+    use sightline::project::{DrawnLine, FeatureKind};
+
+    use super::*;
+
+    #[test]
+    fn features_made_since_are_out_of_date_while_the_result_is_not() {
+        let mut document = Document::default();
+        let input = document.project.clone();
+        let adjustment = Adjustment { options: document.options.clone(), ..Adjustment::default() };
+        document.result = Some(Arc::new(Result { oriented: input.clone(), input, adjustment }));
+        let line = DrawnLine { from: "1".into(), to: "2".into(), layer: String::new() };
+        document.project_mut().lines.push(line);
+        assert!(document.current().is_some() && !document.features_out_of_date());
+        features::add(document.project_mut(), FeatureKind::Plane { points: vec!["1".into()] });
+        assert!(document.current().is_some() && document.features_out_of_date());
+        document.project_mut().unit = "m".into();
+        assert!(document.current().is_none() && !document.features_out_of_date());
     }
 }

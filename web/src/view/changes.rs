@@ -38,6 +38,7 @@ pub fn change_words(change: &Change) -> String {
         Change::FeatureMade(id) => words::change_made(id),
         Change::FeatureRemoved(id) => words::change_removed(id),
         Change::FeatureRenamed { from, to } => words::change_renamed(from, to),
+        Change::LayerColoured(id) => words::change_layer(id),
         Change::LinesDrawn => words::change_lines().to_owned(),
         Change::PlanEdited => planning::change_plan().to_owned(),
         Change::StationMoved(id) => planning::change_station_moved(id),

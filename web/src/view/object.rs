@@ -7,14 +7,14 @@ mod scene;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use leptos::html::Div;
+use leptos::html::{Div, Section};
 use leptos::prelude::*;
 use leptos::task::spawn_local;
 
 use super::icon::{Glyph, Icon};
 use super::results::NoNumbers;
-use crate::browser::event;
 use crate::browser::object::{Met, Scene, State, View, numbered};
+use crate::browser::{event, page};
 use crate::edit::natural;
 use crate::format;
 use crate::i18n::{Text, object as words, text};
@@ -147,7 +147,7 @@ fn Shown() -> impl IntoView {
     });
     let open = StoredValue::new_local(None::<View>);
     let (ready, failed) = (RwSignal::new(false), RwSignal::new(None::<String>));
-    let host = NodeRef::<Div>::new();
+    let (host, space) = (NodeRef::<Div>::new(), NodeRef::<Section>::new());
     let meet = move |met: Met| match met {
         Met::Point { index, more } => {
             let Some(id) = made.with_untracked(|m| m.0.names.get(index).cloned()) else { return };
@@ -250,10 +250,11 @@ fn Shown() -> impl IntoView {
                 <Show when=move || ready.get()>
                     <button class="button" data-action="picture" on:click=move |_| save()><Glyph icon=Icon::Save/> {words::save_picture}</button>
                 </Show>
+                <button class="button primary" on:click=move |_| desk.go(Step::Report)>{text::write_report} <Glyph icon=Icon::Arrow/></button>
             </div></div>
         </div>
         <main class="object">
-            <section class="space" aria-label=words::object>
+            <section class="space" aria-label=words::object node_ref=space>
                 <div class="toggles" role="toolbar" aria-label=words::seen_from>
                     {SIDES.map(|(side, word)| view! {
                         <button class="toggle" data-side=side on:click=move |_| look(side)>{word}</button>
@@ -263,6 +264,11 @@ fn Shown() -> impl IntoView {
                     <button class="toggle" aria-pressed=move || perspective.get().to_string()
                         on:click=move |_| perspective.update(|on| *on = !*on)>{words::perspective}</button>
                     <button class="toggle" on:click=move |_| look("fit")><Glyph icon=Icon::Fit size=14/> " " {text::fit}</button>
+                    <button class="toggle" data-action="full-screen" on:click=move |_| {
+                        if let Some(element) = space.get_untracked() {
+                            page::switch_full_screen(&element);
+                        }
+                    }>{words::full_screen}</button>
                     <span class="gap"></span>
                     {SHOWN.map(|(name, word)| {
                         let on = move || shown.with(|all| all.iter().any(|(n, on)| *n == name && *on));

@@ -11,7 +11,7 @@ use super::shell::TitleBar;
 use crate::browser::{event, file, paper};
 use crate::edit::report::switch;
 use crate::format;
-use crate::i18n::{Text, text};
+use crate::i18n::{Text, object, text};
 use crate::store::Desk;
 use crate::store::report::report_language;
 
@@ -74,7 +74,7 @@ fn settings<T>(desk: Desk, read: impl FnOnce(&ReportSettings) -> T) -> T {
 #[component]
 fn Sections() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let names: [(Section, Text); 14] = [
+    let names: [(Section, Text); 15] = [
         (Section::Summary, text::section_summary),
         (Section::Uncertainty, text::section_uncertainty),
         (Section::Observations, text::section_observations),
@@ -87,6 +87,7 @@ fn Sections() -> impl IntoView {
         (Section::Statistics, text::section_statistics),
         (Section::Residuals, text::residuals),
         (Section::GrossErrors, text::section_left_out),
+        (Section::Features, object::features),
         (Section::Settings, text::section_settings),
         (Section::AllObservations, text::section_all_observations),
     ];

@@ -267,7 +267,8 @@ fn Detail() -> impl IntoView {
             let m = m.as_ref()?;
             let sigma = m.sigma_position?;
             let decimals = format::decimals_for(sigma.into_iter().fold(f64::INFINITY, f64::min));
-            Some(m.position?.map(|x| format::fixed(x, decimals)).join("  "))
+            let [place, sigma] = [m.position?, sigma].map(|all| all.map(|x| format::fixed(x, decimals)).join("  "));
+            Some((place, sigma))
         })
     };
     let direction = move || {
@@ -316,7 +317,9 @@ fn Detail() -> impl IntoView {
                         </span>
                     </h2>
                     <dl class="facts">
-                        {move || place().map(|p| view! { <dt>{words::position} " " <u>{unit}</u></dt><dd>{p}</dd> })}
+                        {move || place().map(|(p, sigma)| view! {
+                            <dt>{words::position} " " <u>{unit}</u></dt><dd>{p}</dd><dt>"± 1σ"</dt><dd>{sigma}</dd>
+                        })}
                         {move || direction().map(|d| view! { <dt>{words::direction}</dt><dd>{d}</dd> })}
                         {move || range().map(|r| view! { <dt>{words::form}  " " <u>{unit}</u></dt><dd>{r}</dd> })}
                     </dl>
@@ -421,6 +424,17 @@ fn said(system: Option<&MeasuredSystem>, unit: &str) -> (String, String) {
     (sigma0.unwrap_or_else(|| words::n_points(system.points.len())), String::new())
 }
 
+/// As colour fields have it.
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+fn from_hex(text: &str) -> Option<[u8; 3]> {
+    let n = u32::from_str_radix(text.strip_prefix('#').filter(|digits| digits.len() == 6)?, 16).ok()?;
+    let [_, r, g, b] = n.to_be_bytes();
+    Some([r, g, b])
+}
+
 /// Lines between the chosen points, in a layer.
 #[component]
 fn Lines() -> impl IntoView {
@@ -428,13 +442,33 @@ fn Lines() -> impl IntoView {
     let chosen = expect_context::<Chosen>();
     let layer = RwSignal::new(String::new());
     let count = move || desk.document.with(|d| d.project.lines.len());
+    let layers = move || {
+        desk.document.with(|d| {
+            let of = |id: &str| d.project.lines.iter().filter(|l| l.layer == id).count();
+            d.project.layers.iter().map(|l| (l.id.clone(), l.colour, of(&l.id))).collect::<Vec<_>>()
+        })
+    };
     let join = move || desk.join_points(&chosen.points.get_untracked(), layer.get_untracked().trim());
     view! {
         <div class="row" role="group" aria-label=words::lines>
             <span>{words::lines} " " <span class="id">{count}</span></span>
             <button class="link" data-action="join" on:click=move |_| join()>{words::join}</button>
             <button class="link" data-action="part" on:click=move |_| desk.part_points(&chosen.points.get_untracked())>{words::part}</button>
-            <label><span>{words::layer}</span> <input class="layer" type="text" prop:value=layer on:change=move |e| layer.set(event::value(&e))/></label>
+            {move || layers().into_iter().map(|(id, colour, count)| {
+                let (key, label, name) = (id.clone(), id.clone(), id.clone());
+                view! {
+                    <label class="layer-colour">
+                        <input type="color" data-layer=key aria-label=move || words::layer_colour(&label) prop:value=hex(colour)
+                            on:change=move |e| {
+                                if let Some(colour) = from_hex(&event::value(&e)) {
+                                    desk.recolour_layer(&id, colour);
+                                }
+                            }/>
+                        " " {name} " " <span class="id">{count}</span>
+                    </label>
+                }
+            }).collect_view()}
+            <label class="layer-name"><span>{words::layer}</span> <input class="layer" type="text" prop:value=layer on:change=move |e| layer.set(event::value(&e))/></label>
         </div>
     }
 }
@@ -442,6 +476,13 @@ fn Lines() -> impl IntoView {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn colours_are_read_as_they_are_written() {
+        assert_eq!(hex([0, 110, 200]), "#006ec8");
+        assert_eq!(from_hex("#006ec8"), Some([0, 110, 200]));
+        assert!(from_hex("red").is_none() && from_hex("#12345").is_none());
+    }
 
     #[test]
     fn figures_have_the_digits_of_their_sigma() {

@@ -2,11 +2,12 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use sightline::adjustment::MeasuredFeature;
+use sightline::adjustment::{MeasuredFeature, Quantity};
 use sightline::depiction::{ellipsoid, exaggeration, extent, frustum, round};
 use sightline::project::{Project, Role};
 
 use crate::browser::object::{Label, Scene, numbered};
+use crate::format;
 use crate::store::document::Outcome;
 
 /// Pieces of a drawn circle.
@@ -74,6 +75,8 @@ pub fn scene(result: &Outcome, project: &Project, chosen: Option<&str>) -> Scene
     for distance in &project.distances {
         if let (Some(from), Some(to)) = (at(&distance.from), at(&distance.to)) {
             scene.distances.extend(from.into_iter().chain(to));
+            let words = format!("{} – {}  {}", distance.from, distance.to, format::round(distance.length));
+            scene.labels.push(Label { words, place: std::array::from_fn(|k| 0.5 * (from[k] + to[k])), chosen: false });
         }
     }
     let mut differences = |id: &str, difference: [f64; 3]| {
@@ -193,7 +196,15 @@ fn outline(scene: &mut Scene, feature: &MeasuredFeature, about: About, chosen: b
         }
     }
     if let Some(place) = label {
-        scene.labels.push(Label { words: feature.id.clone(), place: about(place), chosen });
+        // What a length or an angle is stands with it; of the others the panel has it.
+        let shown = feature.value.filter(|_| matches!(feature.kind.as_str(), "distance" | "angle")).map(|value| {
+            let angle = feature.quantity == Some(Quantity::Angle);
+            let shown = |x: f64| if angle { x.to_degrees() } else { x };
+            let decimals = feature.sigma.map(shown).filter(|s| *s > 0.0).map_or(3, format::decimals_for);
+            format!("  {}{}", format::fixed(shown(value), decimals), if angle { "°" } else { "" })
+        });
+        let words = format!("{}{}", feature.id, shown.unwrap_or_default());
+        scene.labels.push(Label { words, place: about(place), chosen });
     }
 }
 
