@@ -71,7 +71,7 @@ fn figure(context: &Context, feature: &MeasuredFeature) -> [String; 6] {
     let shown = |x: f64| if angle { x.to_degrees() } else { x };
     let sigma = feature.sigma.map(shown);
     let decimals = sigma.filter(|s| *s > 0.0).map_or(context.decimals, decimals_for);
-    let form = feature.rms.map_or(context.decimals, |rms| decimals_for(rms).max(context.decimals));
+    let form = feature.rms.map_or(context.decimals, |rms| decimals_for(rms).max(3));
     [
         match feature.quantity {
             Some(Quantity::Distance) => words.feature_distance(),
@@ -137,7 +137,12 @@ fn coordinates(context: &Context, html: &mut Html, system: &CoordinateSystem, fo
     }
     if let Some(sigma0) = found.sigma0 {
         let redundancy = found.redundancy.unwrap_or(0);
-        html.p(&words.system_fit(&fixed(sigma0, decimals_for(sigma0)), &count(redundancy), &fixed(found.scale, 7)));
+        // Without weights of their own it is that of a coordinate.
+        let weighted =
+            matches!(&system.kind, SystemKind::BestFit { given, .. } if given.iter().any(|g| g.sigma.is_some()));
+        let unit = if weighted { String::new() } else { format!(" {unit}") };
+        let sigma0 = format!("{}{unit}", fixed(sigma0, decimals_for(sigma0)));
+        html.p(&words.system_fit(&sigma0, &count(redundancy), &fixed(found.scale, 7)));
     }
     if !found.missing.is_empty() {
         html.note(&words.feature_lacks(&system.id, &listed(found.missing.iter().map(String::as_str), LISTED)));

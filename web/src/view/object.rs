@@ -264,11 +264,6 @@ fn Shown() -> impl IntoView {
                     <button class="toggle" aria-pressed=move || perspective.get().to_string()
                         on:click=move |_| perspective.update(|on| *on = !*on)>{words::perspective}</button>
                     <button class="toggle" on:click=move |_| look("fit")><Glyph icon=Icon::Fit size=14/> " " {text::fit}</button>
-                    <button class="toggle" data-action="full-screen" on:click=move |_| {
-                        if let Some(element) = space.get_untracked() {
-                            page::switch_full_screen(&element);
-                        }
-                    }>{words::full_screen}</button>
                     <span class="gap"></span>
                     {SHOWN.map(|(name, word)| {
                         let on = move || shown.with(|all| all.iter().any(|(n, on)| *n == name && *on));
@@ -293,6 +288,11 @@ fn Shown() -> impl IntoView {
                         <Scale label=words::show_deviations step=stick_step suffix=""/>
                     </Show>
                     <span class="gap"></span>
+                    <button class="toggle" data-action="full-screen" on:click=move |_| {
+                        if let Some(element) = space.get_untracked() {
+                            page::switch_full_screen(&element);
+                        }
+                    }>{words::full_screen}</button>
                     <span class="how">{words::how_to_move}</span>
                 </div>
             </section>

@@ -267,7 +267,8 @@ fn Detail() -> impl IntoView {
             let m = m.as_ref()?;
             let sigma = m.sigma_position?;
             let decimals = format::decimals_for(sigma.into_iter().fold(f64::INFINITY, f64::min));
-            let [place, sigma] = [m.position?, sigma].map(|all| all.map(|x| format::fixed(x, decimals)).join("  "));
+            let [place, sigma] =
+                [m.position?, sigma].map(|all| all.map(|x| format::fixed(x, decimals)).join("\u{2003}"));
             Some((place, sigma))
         })
     };
@@ -276,7 +277,7 @@ fn Detail() -> impl IntoView {
             let m = m.as_ref()?;
             let sigma =
                 m.sigma_direction.map(|s| format!(" ± {}°", format::compact(s.to_degrees()))).unwrap_or_default();
-            Some(format!("{}{sigma}", m.direction?.map(|x| format::fixed(x, 6)).join("  ")))
+            Some(format!("{}{sigma}", m.direction?.map(|x| format::fixed(x, 6)).join("\u{2003}")))
         })
     };
     let range = move || {
@@ -340,7 +341,7 @@ fn Systems() -> impl IntoView {
             let measured = |id: &str| d.current()?.adjustment.systems.iter().find(|s| s.id == id).cloned();
             let fresh = !d.features_out_of_date();
             let one = |s: &sightline::project::CoordinateSystem| {
-                (s.id.clone(), system_word(&s.kind), measured(&s.id).filter(|_| fresh))
+                (s.id.clone(), system_word(&s.kind), has_weights(&s.kind), measured(&s.id).filter(|_| fresh))
             };
             d.project.systems.iter().map(one).collect::<Vec<_>>()
         })
@@ -384,9 +385,10 @@ fn Systems() -> impl IntoView {
             <h2 class="section-head"><span>{words::systems}</span>
                 <span class="aside"><Show when=move || open.with(Option::is_some)><CopyButton columns rows/></Show></span></h2>
             <ul class="feature-list">
-                {move || all.get().into_iter().map(|(id, word, measured)| {
+                {move || all.get().into_iter().map(|(id, word, weighted, measured)| {
                     let (key, gone, shown) = (id.clone(), id.clone(), id.clone());
-                    let (note, fault) = said(measured.as_ref(), &unit.get());
+                    let unit = unit.get();
+                    let (note, fault) = said(measured.as_ref(), if weighted { "" } else { &unit });
                     view! {
                         <li>
                             <button class="feature" data-system=key aria-expanded=move || open.with(|o| o.as_ref() == Some(&shown)).to_string()
@@ -412,6 +414,11 @@ fn system_word(kind: &SystemKind) -> &'static str {
         SystemKind::PlaneLinePoint { .. } => words::system_plane_line_point(),
         SystemKind::BestFit { .. } => words::system_best_fit(),
     }
+}
+
+/// Whether its σ₀ is a ratio: that of weights by standard errors; else it is a length.
+fn has_weights(kind: &SystemKind) -> bool {
+    matches!(kind, SystemKind::BestFit { given, .. } if given.iter().any(|g| g.sigma.is_some()))
 }
 
 /// What there is to say of a system, and what is wrong with it.

@@ -75,7 +75,12 @@ pub fn scene(result: &Outcome, project: &Project, chosen: Option<&str>) -> Scene
     for distance in &project.distances {
         if let (Some(from), Some(to)) = (at(&distance.from), at(&distance.to)) {
             scene.distances.extend(from.into_iter().chain(to));
-            let words = format!("{} – {}  {}", distance.from, distance.to, format::round(distance.length));
+            let words = format!(
+                "{} – {}  {}",
+                distance.from,
+                distance.to,
+                format::fixed(distance.length, format::decimals_for(distance.sigma))
+            );
             scene.labels.push(Label { words, place: std::array::from_fn(|k| 0.5 * (from[k] + to[k])), chosen: false });
         }
     }
@@ -171,22 +176,16 @@ fn outline(scene: &mut Scene, feature: &MeasuredFeature, about: About, chosen: b
             }
         }
         ("plane", Some(p), Some(n)) => {
-            // The smallest box of the points along their own longest run is what is seen of a plane.
-            let [e, f] = longest(feature, n, at).unwrap_or_else(|| across(n));
+            let [e, f] = across(n);
             let middle = about(p).map(f64::from);
             let inside = feature.residuals.iter().filter_map(|r| at(&r.point)).map(|x| {
                 let v = std::array::from_fn(|k| f64::from(x[k]) - middle[k]);
                 [dot(v, e), dot(v, f)]
             });
-            let (mut low, mut high) = ([0.0_f64; 2], [0.0_f64; 2]);
-            for [a, b] in inside {
-                (low, high) = ([low[0].min(a), low[1].min(b)], [high[0].max(a), high[1].max(b)]);
-            }
-            let corner = |a: f64, b: f64| add(add(p, a, e), b, f);
-            let corners =
-                [corner(low[0], low[1]), corner(high[0], low[1]), corner(high[0], high[1]), corner(low[0], high[1])];
-            (0..4).for_each(|k| piece(corners[k], corners[(k + 1) % 4]));
-            label = Some(corners[0]);
+            let corners: Vec<[f64; 3]> =
+                hull(inside.collect()).into_iter().map(|[a, b]| add(add(p, a, e), b, f)).collect();
+            (0..corners.len()).for_each(|k| piece(corners[k], corners[(k + 1) % corners.len()]));
+            label = corners.first().copied().or(label);
         }
         _ => {
             feature.ends.windows(2).for_each(|pair| piece(pair[0], pair[1]));
@@ -208,18 +207,27 @@ fn outline(scene: &mut Scene, feature: &MeasuredFeature, about: About, chosen: b
     }
 }
 
-/// The run between the two points that lie farthest from the first and from each other, in the plane, and across it.
-fn longest(feature: &MeasuredFeature, n: [f64; 3], at: At) -> Option<[[f64; 3]; 2]> {
-    let places: Vec<[f64; 3]> =
-        feature.residuals.iter().filter_map(|r| at(&r.point)).map(|x| x.map(f64::from)).collect();
-    let far = |from: [f64; 3]| {
-        let distance = |x: &[f64; 3]| (0..3).map(|k| (x[k] - from[k]).powi(2)).sum::<f64>();
-        places.iter().copied().max_by(|a, b| distance(a).total_cmp(&distance(b)))
+/// What a rubber band around places in a plane would touch, counter-clockwise (Andrew's monotone chain).
+fn hull(mut all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    all.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let half = |places: &mut dyn Iterator<Item = &[f64; 2]>| {
+        let mut chain: Vec<[f64; 2]> = Vec::new();
+        for c in places {
+            while let [.., a, b] = chain[..] {
+                if (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0 {
+                    break;
+                }
+                chain.pop();
+            }
+            chain.push(*c);
+        }
+        // Its last place is the first of the other half.
+        chain.pop();
+        chain
     };
-    let a = far(*places.first()?)?;
-    let run = add(far(a)?, -1.0, a);
-    let e = unit(add(run, -dot(run, n), n));
-    (dot(e, e) > 0.5).then(|| [e, cross(n, e)])
+    let mut chain = half(&mut all.iter());
+    chain.extend(half(&mut all.iter().rev()));
+    chain
 }
 
 /// Deviations of a feature's points as vectors across the form.
@@ -265,6 +273,14 @@ mod tests {
     use sightline::project::{Camera, Interior, Photo, Point};
 
     use super::*;
+
+    #[test]
+    fn a_plane_is_drawn_around_its_outermost_points() {
+        let places = [[0.0, 0.0], [4.0, 0.0], [2.0, 1.0], [4.0, 3.0], [0.0, 3.0], [2.0, 0.0]];
+        assert_eq!(hull(places.into()), [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]);
+        assert_eq!(hull(vec![[1.0, 1.0]]).len(), 0);
+        assert_eq!(hull(vec![[1.0, 1.0], [0.0, 0.0], [2.0, 2.0]]), [[0.0, 0.0], [2.0, 2.0]]);
+    }
 
     #[test]
     fn the_scene_has_every_point_photo_and_ray_about_the_middle() {
