@@ -33,18 +33,18 @@ test('broken, foreign and duplicate files are named and the rest goes on', { tim
   const { page, close } = await open();
   try {
     const png = plainPng(640, 480);
-    const heic = Buffer.concat([Buffer.from([0, 0, 0, 24]), Buffer.from('ftypheic'), Buffer.alloc(64)]);
+    const avif = Buffer.concat([Buffer.from([0, 0, 0, 24]), Buffer.from('ftypavif'), Buffer.alloc(64)]);
     await photos(page, [
       scratch('good.png', png),
       scratch('again.png', png),
       scratch('cut.png', png.subarray(0, 60)),
-      scratch('phone.heic', heic),
+      scratch('phone.avif', avif),
       scratch('letter.jpg', 'Dear Sir or Madam'),
     ]);
     assert.equal(await page.locator('.tile').count(), 1);
     const problems = await page.$$eval('.problems li', (all) => all.map((item) => item.textContent));
     assert.equal(problems.length, 4);
-    assert.ok(problems.some((p) => p.startsWith('phone.heic') && /HEI[CF]/.test(p) && /convert/i.test(p)));
+    assert.ok(problems.some((p) => p.startsWith('phone.avif') && /AVIF/.test(p) && /convert/i.test(p)));
     assert.ok(problems.some((p) => p.startsWith('cut.png') && /decoded/.test(p)));
     assert.ok(problems.some((p) => p.startsWith('good.png') && /again\.png/.test(p)));
     assert.ok(problems.some((p) => p.startsWith('letter.jpg') && /JPEG, PNG, TIFF or BMP/.test(p)));

@@ -57,6 +57,14 @@ impl Photo {
     }
 }
 
+/// Name of the format, where a file is of one whose decoder is not in the engine: HEIC, or a RAW.
+pub fn packed(bytes: &[u8]) -> Option<&'static str> {
+    match signature(bytes) {
+        Signature::Packed(name) => Some(name),
+        _ => None,
+    }
+}
+
 /// Size and depth of a picture, without decoding it.
 ///
 /// # Errors

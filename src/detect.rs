@@ -20,6 +20,7 @@ mod normal;
 mod picture;
 mod rendered;
 mod search;
+mod shot;
 mod whole;
 
 pub(crate) use ellipse::{conic, outline};
@@ -40,6 +41,7 @@ use rendered::colour::{Colour, Correlation};
 use search::blob::NoBlob;
 use search::census::Census;
 use search::{Blobs, Candidate};
+pub use shot::{detect_shot, measure_in_shot};
 pub use whole::{detect_photo, measure_in_photo};
 
 /// Finds and measures the targets of a picture.

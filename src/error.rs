@@ -179,6 +179,15 @@ pub enum Error {
         /// Place.
         at: Place,
     },
+    /// The decoders of a format are a file of their own, and it could not be loaded.
+    DecoderMissing {
+        /// The format.
+        format: String,
+        /// What kept it from being loaded.
+        message: String,
+        /// Place.
+        at: Place,
+    },
     /// The picture is larger or smaller than the engine works on.
     ImageSize {
         /// Width in pixels.
@@ -251,6 +260,7 @@ impl Error {
         match self {
             Self::UnknownImageFormat { .. } => "unknown_image_format",
             Self::BrokenImage { .. } => "broken_image",
+            Self::DecoderMissing { .. } => "decoder_missing",
             Self::ImageSize { .. } => "image_size",
             Self::Invalid { .. } => "invalid",
             Self::Unknown { .. } => "unknown",
@@ -278,6 +288,7 @@ impl Error {
         match self {
             Self::UnknownImageFormat { at, .. }
             | Self::BrokenImage { at, .. }
+            | Self::DecoderMissing { at, .. }
             | Self::ImageSize { at, .. }
             | Self::Invalid { at, .. }
             | Self::Unknown { at, .. }
@@ -300,6 +311,7 @@ impl Error {
     pub fn in_file(mut self, name: &str) -> Self {
         if let Self::UnknownImageFormat { at, .. }
         | Self::BrokenImage { at, .. }
+        | Self::DecoderMissing { at, .. }
         | Self::ImageSize { at, .. }
         | Self::Invalid { at, .. }
         | Self::Unknown { at, .. }
@@ -331,6 +343,15 @@ impl Defect {
                 ..Place::default()
             },
         }
+    }
+}
+
+/// What to do with a file of a format that is not read: a RAW keeps the sensor's samples as DNG.
+pub fn remedy(format: &str) -> &'static str {
+    if format.starts_with("RAW") {
+        "convert it to DNG (Adobe DNG Converter, dnglab), which keeps the sensor's samples"
+    } else {
+        "convert it to JPEG, PNG or TIFF"
     }
 }
 
@@ -432,13 +453,19 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnknownImageFormat { recognised: Some(name), .. } => {
-                write!(f, "this is a {name} file, which is not read here: convert it to JPEG, PNG or TIFF")?;
+                write!(f, "this is a {name} file, which is not read here: {}", remedy(name))?;
             }
             Self::UnknownImageFormat { .. } => {
                 f.write_str("not a picture the engine reads: JPEG, PNG, TIFF or BMP of 8 or 16 bits are expected")?;
             }
             Self::BrokenImage { reason, .. } => {
                 write!(f, "the picture cannot be decoded ({reason}): copy it again from the camera")?;
+            }
+            Self::DecoderMissing { format, message, .. } => {
+                write!(
+                    f,
+                    "the decoder of {format} files could not be loaded ({message}): it is fetched when the first such file comes, which needs the network once"
+                )?;
             }
             Self::ImageSize { width, height, limit, .. } => {
                 write!(f, "the picture has {width} x {height} pixels; from 1 to {limit} pixels are worked on")?;
@@ -472,6 +499,7 @@ impl fmt::Display for Error {
         let place = match self {
             Self::UnknownImageFormat { .. }
             | Self::BrokenImage { .. }
+            | Self::DecoderMissing { .. }
             | Self::ImageSize { .. }
             | Self::Invalid { .. }
             | Self::Unknown { .. }

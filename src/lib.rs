@@ -81,6 +81,7 @@ pub mod ring_code;
 pub mod rotation;
 pub mod sample;
 pub mod scene;
+pub mod sensor;
 pub mod sheets;
 pub mod statistics;
 

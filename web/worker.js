@@ -13,7 +13,20 @@ const hold = (name) =>
     navigator.locks ? navigator.locks.request(name, held).catch(done) : done();
   });
 
+/** The decoders of HEIC and RAW: fetched when the first such file comes. */
+let codecs;
+const load = async (address) => {
+  const glue = await import("./sightline-codecs.js");
+  await glue.default({ module_or_path: address });
+  return glue;
+};
+
 const start = async ({ data }) => {
+  self.sightlineCodecs = () =>
+    (codecs ??= load(data.codecs).catch((error) => {
+      codecs = undefined;
+      throw error;
+    }));
   await hold(data.life);
   await (await import("./sightline-worker.js")).default({ module_or_path: data.module });
 };

@@ -5,6 +5,7 @@
 //! errors that name the field. Errors are thrown as Error with `code`, `message`, `where` and `data`.
 
 mod before;
+mod codecs;
 mod fault;
 mod plain;
 mod table;
@@ -16,11 +17,12 @@ use wasm_bindgen::prelude::*;
 
 use fault::thrown;
 use sightline::adjustment::{AdjustOptions, Iteration};
-use sightline::detection::DetectOptions;
+use sightline::detection::{Channel, DetectOptions};
 use sightline::experiments::ExperimentOptions;
 use sightline::image::{Grey, Samples};
 use sightline::network::Network;
 use sightline::project::GivenPoint;
+use sightline::sensor::{self, Shot};
 use sightline::{Error, adjust, decode, detect, exchange, exif, experiments, features, matching, network, orient};
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -40,7 +42,7 @@ pub fn version() -> String {
     env!("CARGO_PKG_VERSION").into()
 }
 
-/// Finds and measures the targets of a photo, from the bytes of its file (PNG, JPEG, TIFF, BMP; 8 or 16 bits).
+/// Finds and measures the targets of a photo, from the bytes of its file (PNG, JPEG, TIFF, BMP, HEIC).
 #[wasm_bindgen(js_name = detect, unchecked_return_type = "Detection")]
 pub fn detect_file(
     #[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer")] bytes: JsValue,
@@ -48,7 +50,7 @@ pub fn detect_file(
 ) -> Thrown {
     let found = || {
         let options: DetectOptions = value::options(&options, &[])?;
-        detect::detect_photo(&decode::photo(&plain::bytes(&bytes, "bytes")?, options.channel)?, &options)
+        detect::detect_shot(&codecs::shot(&plain::bytes(&bytes, "bytes")?, options.channel)?, &options)
     };
     found().map(value::detection_object).map_err(|error| thrown(&error))
 }
@@ -90,7 +92,7 @@ pub fn measure_at(
     #[wasm_bindgen(unchecked_param_type = "number")] v: JsValue,
     #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
 ) -> Thrown {
-    measured_at(&u, &v, &options, |options| decode::photo(&plain::bytes(&bytes, "bytes")?, options.channel))
+    measured_at(&u, &v, &options, |options| codecs::shot(&plain::bytes(&bytes, "bytes")?, options.channel))
 }
 
 /// The same in a picture that is decoded already.
@@ -104,7 +106,7 @@ pub fn measure_at_gray(
     #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
 ) -> Thrown {
     measured_at(&u, &v, &options, |_| {
-        Ok(decode::Photo { grey: grey_of(&width, &height, &samples)?, damaged_rows: Vec::new() })
+        Ok(Shot::Photo(decode::Photo { grey: grey_of(&width, &height, &samples)?, damaged_rows: Vec::new() }))
     })
 }
 
@@ -112,12 +114,12 @@ fn measured_at(
     u: &JsValue,
     v: &JsValue,
     options: &JsValue,
-    photo: impl FnOnce(&DetectOptions) -> sightline::Result<decode::Photo>,
+    photo: impl FnOnce(&DetectOptions) -> sightline::Result<Shot>,
 ) -> Thrown {
     let found = || {
         let options: DetectOptions = value::options(options, &[])?;
         let (u, v) = (value::number(u, "u")?, value::number(v, "v")?);
-        detect::measure_in_photo(&photo(&options)?, u, v, &options)
+        detect::measure_in_shot(&photo(&options)?, u, v, &options)
     };
     found().map(|target| value::write(&target)).map_err(|error| thrown(&error))
 }
@@ -135,6 +137,11 @@ pub fn photo_info(#[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffe
     }
     let found = || {
         let bytes = plain::bytes(&bytes, "bytes")?;
+        if let Some(format) = decode::packed(&bytes) {
+            let header = codecs::unpack(&bytes, format, Channel::default(), false)?.header;
+            let sensor::Header { width, height, bits, info, .. } = header;
+            return Ok(Description { width, height, bits, info });
+        }
         let decode::Size { width, height, bits } = decode::size(&bytes)?;
         Ok(Description { width, height, bits, info: exif::read(&bytes) })
     };

@@ -49,7 +49,7 @@ pub fn decoder(file: &[u8]) -> Result<Box<dyn ImageDecoder + '_>> {
             None => Box::new(TiffDecoder::new(stream).map_err(decoding_error)?),
         },
         Signature::Bmp => Box::new(BmpDecoder::new(stream).map_err(decoding_error)?),
-        Signature::Other(name) => {
+        Signature::Other(name) | Signature::Packed(name) => {
             return Err(Error::UnknownImageFormat { recognised: Some(name.to_owned()), at: Place::default() });
         }
         Signature::Unknown => return Err(Error::UnknownImageFormat { recognised: None, at: Place::default() }),

@@ -13,13 +13,15 @@ pub enum Signature {
     Tiff,
     /// BMP.
     Bmp,
+    /// A format whose decoder is not in the engine, by name.
+    Packed(&'static str),
     /// A known format that is not read, by name.
     Other(&'static str),
     /// Nothing known.
     Unknown,
 }
 
-/// Formats that are recognised but not read: offset of the signature, the signature, the name.
+/// Formats that are recognised but not read by the engine itself: offset of the signature, the signature, the name.
 const OTHERS: [(usize, &[u8], &str); 24] = [
     (0, b"FUJIFILMCCD-RAW", "RAW (Fujifilm RAF)"),
     (0, b"IIU\0", "RAW (Panasonic RW2)"),
@@ -51,7 +53,11 @@ const OTHERS: [(usize, &[u8], &str); 24] = [
 pub fn signature(bytes: &[u8]) -> Signature {
     let at = |offset: usize, text: &[u8]| bytes.get(offset..).is_some_and(|rest| rest.starts_with(text));
     if let Some((.., name)) = OTHERS.iter().find(|(offset, text, _)| at(*offset, text)) {
-        return Signature::Other(name);
+        return if name.starts_with("RAW") || name.starts_with("HEI") {
+            Signature::Packed(name)
+        } else {
+            Signature::Other(name)
+        };
     }
     if at(0, b"\xff\xd8\xff") {
         return Signature::Jpeg;
@@ -83,11 +89,11 @@ fn tiff(bytes: &[u8]) -> Signature {
     let entries = reader.entries();
     let value = |tag| entries.iter().find(|e| e.tag == tag).and_then(|e| reader.first(e));
     if value(DNG_VERSION).is_some() {
-        return Signature::Other("RAW (DNG)");
+        return Signature::Packed("RAW (DNG)");
     }
     let preview = value(NEW_SUBFILE_TYPE) == Some(1) && value(SUB_DIRECTORIES).is_some();
     if preview || value(PHOTOMETRIC) == Some(COLOUR_FILTER_ARRAY) {
-        return Signature::Other("RAW");
+        return Signature::Packed("RAW");
     }
     Signature::Tiff
 }
@@ -115,8 +121,8 @@ mod tests {
 
     #[test]
     fn foreign_formats_are_named() {
-        assert_eq!(signature(b"\0\0\0\x18ftypheic\0\0\0\0mif1heic"), Signature::Other("HEIC"));
-        assert_eq!(signature(b"II*\0\x10\0\0\0CR\x02\0"), Signature::Other("RAW (Canon CR2)"));
+        assert_eq!(signature(b"\0\0\0\x18ftypheic\0\0\0\0mif1heic"), Signature::Packed("HEIC"));
+        assert_eq!(signature(b"II*\0\x10\0\0\0CR\x02\0"), Signature::Packed("RAW (Canon CR2)"));
         assert_eq!(signature(b"RIFF\x10\0\0\0WEBPVP8 "), Signature::Other("WebP"));
         assert_eq!(signature(b"hello, this is text"), Signature::Unknown);
         assert_eq!(signature(b""), Signature::Unknown);
@@ -125,9 +131,9 @@ mod tests {
     #[test]
     fn raw_files_built_on_tiff_are_told_from_pictures() {
         assert_eq!(signature(&directory(&[(254, 0), (262, 1)])), Signature::Tiff);
-        assert_eq!(signature(&directory(&[(254, 1), (262, 2), (330, 999)])), Signature::Other("RAW"));
-        assert_eq!(signature(&directory(&[(262, 32803)])), Signature::Other("RAW"));
-        assert_eq!(signature(&directory(&[(262, 2), (50706, 1)])), Signature::Other("RAW (DNG)"));
+        assert_eq!(signature(&directory(&[(254, 1), (262, 2), (330, 999)])), Signature::Packed("RAW"));
+        assert_eq!(signature(&directory(&[(262, 32803)])), Signature::Packed("RAW"));
+        assert_eq!(signature(&directory(&[(262, 2), (50706, 1)])), Signature::Packed("RAW (DNG)"));
         assert_eq!(signature(b"II*\0\xff\xff\xff\xff"), Signature::Tiff);
     }
 }

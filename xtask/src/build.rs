@@ -31,7 +31,7 @@ impl Profile {
 
 /// Leaves the engine as an ES module in pkg/.
 pub fn pkg() -> Outcome {
-    modules(Profile::Release, &["sightline-face"])?;
+    modules(Profile::Release, &["sightline-face", "sightline-codecs"])?;
     assemble_pkg()
 }
 
@@ -39,6 +39,7 @@ fn assemble_pkg() -> Outcome {
     let folder = root().join("pkg");
     empty(&folder)?;
     bindings(Profile::Release, "sightline_face", &folder, "sightline", true)?;
+    bindings(Profile::Release, "sightline_codecs", &folder, "codecs", true)?;
     let metadata = metadata()?;
     let engine = metadata["packages"].as_array().into_iter().flatten().find(|package| package["name"] == "sightline");
     let engine = engine.ok_or("cargo metadata does not list sightline")?;
@@ -51,17 +52,18 @@ fn assemble_pkg() -> Outcome {
         "main": "sightline.js",
         "module": "sightline.js",
         "types": "sightline.d.ts",
-        "files": ["sightline.js", "sightline.d.ts", "sightline_bg.wasm", "sightline_bg.wasm.d.ts", "snippets"],
+        "files": ["sightline.js", "sightline.d.ts", "sightline_bg.wasm", "sightline_bg.wasm.d.ts", "codecs.js", "codecs.d.ts", "codecs_bg.wasm", "codecs_bg.wasm.d.ts", "snippets"],
         "sideEffects": ["./snippets/*"],
     });
     write(&folder.join("package.json"), format!("{package:#}\n").as_bytes())?;
     report("pkg", &folder.join("sightline_bg.wasm"));
+    report("pkg", &folder.join("codecs_bg.wasm"));
     Ok(())
 }
 
 /// Leaves the page in dist/: index.html with Trunk's assets resolved, the page's module and the workers' with their glue.
 pub fn dist(profile: Profile) -> Outcome {
-    modules(profile, &["sightline-desk", "sightline-worker"])?;
+    modules(profile, &["sightline-desk", "sightline-worker", "sightline-codecs"])?;
     assemble_dist(profile)
 }
 
@@ -73,18 +75,20 @@ fn assemble_dist(profile: Profile) -> Outcome {
     }
     bindings(profile, "sightline-desk", &folder, page::MODULE, false)?;
     bindings(profile, "sightline-worker", &folder, page::WORKER, false)?;
+    bindings(profile, "sightline_codecs", &folder, page::CODECS, false)?;
     page::assemble(&root(), &folder)?;
     view3d(&folder)?;
     offline::icons(&folder)?;
     offline::seal(&folder)?;
     report("dist", &folder.join(format!("{}_bg.wasm", page::MODULE)));
     report("dist", &folder.join(format!("{}_bg.wasm", page::WORKER)));
+    report("dist", &folder.join(format!("{}_bg.wasm", page::CODECS)));
     Ok(())
 }
 
 /// Both, compiled together: what they have in common is built once.
 pub fn all() -> Outcome {
-    modules(Profile::Release, &["sightline-face", "sightline-desk", "sightline-worker"])?;
+    modules(Profile::Release, &["sightline-face", "sightline-desk", "sightline-worker", "sightline-codecs"])?;
     // Not one after the other: cargo would compile what they share with the features of each.
     assemble_pkg()?;
     assemble_dist(Profile::Release)
@@ -119,8 +123,16 @@ pub fn metadata() -> Outcome<Value> {
 
 /// What native builds are asked for: always the same packages, since cargo compiles a crate anew for other features, and those
 /// follow from the packages that are asked for.
-pub const NATIVE: [&str; 6] =
-    ["--package", "sightline", "--package", "sightline-desk", "--package", "sightline-protocol"];
+pub const NATIVE: [&str; 8] = [
+    "--package",
+    "sightline",
+    "--package",
+    "sightline-codecs",
+    "--package",
+    "sightline-desk",
+    "--package",
+    "sightline-protocol",
+];
 
 /// Builds the examples of the engine natively, asked for as the tests are, so that nothing is compiled again for other features,
 /// and gives their folder.
@@ -147,6 +159,8 @@ fn links_no_engine() -> Outcome {
         "9sightline7initial",
         "9sightline8exchange7package",
         "9zune_jpeg",
+        "8flashraw",
+        "heifer_hevc_dec",
     ];
     match engine.into_iter().find(|name| linked(name)) {
         Some(name) => Err(format!("{module}: the page links {name}, which belongs to the workers")),

@@ -28,7 +28,7 @@ pub fn target() -> Outcome {
 pub fn node() -> Outcome {
     for name in ["node", "npm"] {
         if !exists(name) {
-            return Err(format!("install Node.js 20.14 or later ({name} is not on the path): https://nodejs.org"));
+            return Err(format!("install Node.js 20.16 or later ({name} is not on the path): https://nodejs.org"));
         }
     }
     Ok(())

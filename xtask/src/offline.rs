@@ -10,11 +10,15 @@ use sha2::{Digest, Sha256};
 
 use crate::Outcome;
 use crate::build::write;
+use crate::page;
 
 /// Name of the service worker in dist/.
 const SERVICE: &str = "service.js";
 
-/// Puts the list of files before the service worker. To be called when everything else lies in `dist`.
+/// Files that few need: kept when they have been asked for once.
+const LATER: &str = page::CODECS;
+
+/// Puts the lists of files before the service worker. To be called when everything else lies in `dist`.
 pub fn seal(dist: &Path) -> Outcome {
     let mut files = BTreeMap::new();
     list(dist, "", &mut files)?;
@@ -22,8 +26,12 @@ pub fn seal(dist: &Path) -> Outcome {
     let script = String::from_utf8(script).map_err(|_| "the service worker is not UTF-8")?;
     let digests: BTreeMap<_, _> = files.iter().map(|(name, bytes)| (name, hex(bytes))).collect();
     let build = hex(serde_json::to_string(&digests).map_err(|error| error.to_string())?.as_bytes());
-    let digests = serde_json::to_string_pretty(&digests).map_err(|error| error.to_string())?;
-    write(&dist.join(SERVICE), format!("const FILES = {digests};\nconst DIGEST = '{build}';\n{script}").as_bytes())
+    let (later, files): (BTreeMap<_, _>, BTreeMap<_, _>) =
+        digests.into_iter().partition(|(name, _)| name.starts_with(LATER));
+    let text = |digests| serde_json::to_string_pretty(&digests).map_err(|error| error.to_string());
+    let lists =
+        format!("const FILES = {};\nconst LATER = {};\nconst DIGEST = '{build}';\n", text(files)?, text(later)?);
+    write(&dist.join(SERVICE), format!("{lists}{script}").as_bytes())
 }
 
 fn list(folder: &Path, prefix: &str, into: &mut BTreeMap<String, Vec<u8>>) -> Outcome {
@@ -82,7 +90,9 @@ mod tests {
     fn the_service_worker_knows_every_file_by_its_digest() {
         let folder = std::env::temp_dir().join(format!("sightline-seal-{}", std::process::id()));
         fs::create_dir_all(folder.join("deep")).expect("a folder");
-        for (name, content) in [("index.html", "<p>"), ("deep/a.js", "1"), (SERVICE, "work();")] {
+        for (name, content) in
+            [("index.html", "<p>"), ("deep/a.js", "1"), ("sightline-codecs.js", "2"), (SERVICE, "work();")]
+        {
             write(&folder.join(name), content.as_bytes()).expect("a file");
         }
         seal(&folder).expect("sealed");
@@ -90,7 +100,9 @@ mod tests {
         fs::remove_dir_all(&folder).expect("removed");
         let digest = "6b86b273ff34fce19d6b804eff5a3f5747ada4eaa22f1d49c01e52ddb7875b4b";
         assert!(text.contains(&format!("\"deep/a.js\": \"{digest}\"")) && text.ends_with("work();"), "{text}");
-        assert!(text.contains("index.html") && !text.contains(SERVICE));
+        let (files, later) = text.split_once("const LATER").expect("two lists");
+        assert!(files.contains("index.html") && !text.contains(SERVICE));
+        assert!(later.contains("sightline-codecs.js") && !files.contains("codecs"));
     }
 
     #[test]

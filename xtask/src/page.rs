@@ -12,6 +12,8 @@ pub const MODULE: &str = "desk";
 pub const WORKER: &str = "sightline-worker";
 /// The 3-D view in dist/.
 pub const VIEW3D: &str = "view3d.js";
+/// Name of the decoders' module in dist/, which workers fetch when they need it.
+pub const CODECS: &str = "sightline-codecs";
 
 /// Copies what index.html names into `dist` and writes the page there.
 pub fn assemble(root: &Path, dist: &Path) -> Outcome {

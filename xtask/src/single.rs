@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 use crate::Outcome;
 use crate::build::write;
-use crate::page::{MODULE, VIEW3D, WORKER};
+use crate::page::{CODECS, MODULE, VIEW3D, WORKER};
 
 /// Name of the file in dist/.
 pub const NAME: &str = "sightline.html";
@@ -48,7 +48,20 @@ pub fn write_to(dist: &Path) -> Outcome {
         if !start.contains(&import) {
             return Err(format!("worker.js does not start by {import}"));
         }
-        format!("{}\n{}", inlined(&text(&format!("{WORKER}.js"))?)?, start.replace(&import, "__wbg_init"))
+        let codecs = format!("await import(\"./{CODECS}.js\")");
+        if !start.contains(&codecs) {
+            return Err(format!("worker.js does not load the decoders by {codecs}"));
+        }
+        // In a function of their own, as both glues have the same names; their module beside them, as a worker of a page from a disk
+        // may fetch nothing of it.
+        let (decoders, module) = (inlined(&text(&format!("{CODECS}.js"))?)?, coded(&format!("{CODECS}_bg.wasm"))?);
+        let decoders = format!(
+            "const decoders = () => {{\n{decoders}\n\
+             const module = () => Uint8Array.from(atob('{module}'), (c) => c.charCodeAt(0));\n\
+             return {{ default: () => __wbg_init({{ module_or_path: module() }}), unpack, trapped }};\n}};"
+        );
+        let start = start.replace(&import, "__wbg_init").replace(&codecs, "decoders()");
+        format!("{decoders}\n{}\n{start}", inlined(&text(&format!("{WORKER}.js"))?)?)
     };
     let style = styles(&page)?.iter().map(|name| text(name)).collect::<Outcome<Vec<_>>>()?.concat();
     let desk = inlined(&text(&format!("{MODULE}.js"))?)?;

@@ -114,7 +114,9 @@ fn browser(products: &Products) -> Outcome<Count> {
     products.build()?;
     single::write_to(&root().join("dist"))?;
     let address = serve::background(root().join("dist"))?;
-    node_tests("e2e", &[("SIGHTLINE_URL", &address), ("CHROMIUM", &chromium)])
+    // Photos in formats that only a program writes.
+    let examples = build::examples()?;
+    node_tests("e2e", &[("SIGHTLINE_URL", &address), ("CHROMIUM", &chromium), ("SIGHTLINE_EXAMPLES", &examples)])
 }
 
 /// The page killed 200 times, for `cargo xtask bench field`; the page's tests do it a few times.

@@ -72,6 +72,7 @@ impl Worker {
                 Ok(module) => {
                     let start = Object::new();
                     set(&start, "module", &module);
+                    set(&start, "codecs", &located(CODECS).into());
                     set(&start, "life", &format!("sightline worker {}", super::page::unique_name()).into());
                     worker.post_message(&start)
                 }
@@ -134,6 +135,9 @@ pub(super) fn start_script(name: &str) -> Result<web_sys::Worker, JsValue> {
 
 /// The engine's module in dist/, beside its glue of the same name.
 const MODULE: &str = "sightline-worker_bg.wasm";
+
+/// The decoders' module in dist/: a worker fetches it when it needs it.
+const CODECS: &str = "sightline-codecs_bg.wasm";
 
 thread_local! {
     /// Compiled once for all workers.

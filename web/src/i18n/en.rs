@@ -40,9 +40,9 @@ declare! { desk {
 
     // Start
     drop_here: "Drop photos or a project anywhere on this page";
-    formats: "JPEG, PNG, TIFF and BMP, 8 or 16 bit. They stay on this computer.";
+    formats: "JPEG, HEIC, PNG, TIFF and BMP, 8 or 16 bit. They stay on this computer.";
     choose_photos: "Choose photos…";
-    heic_and_raw: "HEIC and RAW are recognised; the message says how to convert them.";
+    heic_and_raw: "RAW files are recognised; the message says how to convert them.";
 
     // Photos and cameras
     photos: "Photos";
@@ -1085,6 +1085,8 @@ declare! { object {
 
 declare! { errors {
     recognised(kind): "this is a {kind} file, which is not read here: convert it to JPEG, PNG or TIFF";
+    raw_unread(kind): "this is a {kind} file, which is not read here: convert it to DNG (Adobe DNG Converter, dnglab), which keeps the sensor's samples";
+    decoder_missing(format, message): "the decoder of {format} files could not be loaded ({message}): it is fetched when the first such file comes, which needs the network once";
     no_picture: "not a picture that is read here: JPEG, PNG, TIFF or BMP of 8 or 16 bits are expected";
     broken(detail): "the picture cannot be decoded ({detail}): copy it again from the camera";
     size(width, height, limit): "the picture has {width} × {height} pixels; from 1 to {limit} pixels are worked on";

@@ -10,9 +10,11 @@ use super::{Language, language, reasons};
 /// An error as a sentence in the language in use.
 pub fn sentence(error: &Error) -> String {
     let text = match error {
+        Error::UnknownImageFormat { recognised: Some(kind), .. } if kind.starts_with("RAW") => raw_unread(kind),
         Error::UnknownImageFormat { recognised: Some(kind), .. } => recognised(kind),
         Error::UnknownImageFormat { .. } => no_picture().to_owned(),
         Error::BrokenImage { reason, .. } => broken(damaged(reason)),
+        Error::DecoderMissing { format, message, .. } => decoder_missing(format, message),
         Error::ImageSize { width, height, limit, .. } => size(width, height, limit),
         Error::Invalid { reason, .. } => because(reason),
         Error::Unknown { kind, name, .. } => unknown(thing(*kind), name),

@@ -36,9 +36,9 @@ translate! { Korean desk {
 
     // Start
     drop_here: "사진이나 프로젝트를 이 페이지 아무 곳에나 놓으십시오";
-    formats: "JPEG, PNG, TIFF, BMP, 8·16비트. 파일은 이 컴퓨터를 떠나지 않습니다.";
+    formats: "JPEG, HEIC, PNG, TIFF, BMP, 8·16비트. 파일은 이 컴퓨터를 떠나지 않습니다.";
     choose_photos: "사진 고르기…";
-    heic_and_raw: "HEIC와 RAW는 인식하여 변환 방법을 안내합니다.";
+    heic_and_raw: "RAW 파일은 인식하여 변환 방법을 안내합니다.";
 
     // Photos and cameras
     photos: "사진";
@@ -1050,6 +1050,8 @@ translate! { Korean object {
 
 translate! { Korean errors {
     recognised(kind): "{kind} 파일입니다. 여기서는 읽지 못하므로 JPEG, PNG, TIFF로 변환하십시오";
+    raw_unread(kind): "{kind} 파일입니다. 여기서는 읽지 못하므로 센서 값을 그대로 담는 DNG로 변환하십시오(Adobe DNG Converter, dnglab)";
+    decoder_missing(format, message): "{format} 디코더를 불러오지 못했습니다({message}). 이런 파일이 처음 들어올 때 내려받으므로 그때 한 번은 네트워크가 필요합니다";
     no_picture: "읽을 수 있는 사진이 아닙니다. 8·16비트 JPEG, PNG, TIFF, BMP가 필요합니다";
     broken(detail): "사진을 복호할 수 없습니다({detail}). 카메라에서 다시 복사하십시오";
     size(width, height, limit): "사진이 {width} × {height} 화소입니다. 1화소부터 {limit}화소까지 처리합니다";

@@ -4,8 +4,10 @@
 use std::cell::RefCell;
 
 use sightline::Result;
-use sightline::decode::{self, Photo};
 use sightline::detection::Channel;
+use sightline::sensor::Shot;
+
+use crate::codecs::shot_of;
 
 /// Bytes that are kept: four photos of 24 megapixels.
 const ROOM: usize = 96 << 20;
@@ -15,7 +17,7 @@ type Key = (u64, Channel);
 
 thread_local! {
     /// The latest at the end.
-    static KEPT: RefCell<Vec<(Key, Photo)>> = const { RefCell::new(Vec::new()) };
+    static KEPT: RefCell<Vec<(Key, Shot)>> = const { RefCell::new(Vec::new()) };
 }
 
 /// Tells files with the same content; kept photos go by it, so it stays the same for ever.
@@ -24,17 +26,17 @@ pub fn digest(file: &[u8]) -> u64 {
 }
 
 /// Keeps a photo; the oldest go where room is short.
-pub fn keep(digest: u64, channel: Channel, photo: Photo) {
+pub fn keep(digest: u64, channel: Channel, photo: Shot) {
     KEPT.with_borrow_mut(|kept| put(kept, (digest, channel), photo));
 }
 
 /// Works on a photo, decoding it only where it is not kept.
-pub fn with_photo<T>(file: &[u8], digest: u64, channel: Channel, work: impl FnOnce(&Photo) -> Result<T>) -> Result<T> {
+pub fn with_photo<T>(file: &[u8], digest: u64, channel: Channel, work: impl FnOnce(&Shot) -> Result<T>) -> Result<T> {
     let key = (digest, channel);
     KEPT.with_borrow_mut(|kept| {
         let photo = match kept.iter().position(|(known, _)| *known == key) {
             Some(at) => kept.remove(at).1,
-            None => decode::photo(file, channel)?,
+            None => shot_of(file, channel)?,
         };
         let done = work(&photo);
         put(kept, key, photo);
@@ -42,7 +44,7 @@ pub fn with_photo<T>(file: &[u8], digest: u64, channel: Channel, work: impl FnOn
     })
 }
 
-fn put(kept: &mut Vec<(Key, Photo)>, key: Key, photo: Photo) {
+fn put(kept: &mut Vec<(Key, Shot)>, key: Key, photo: Shot) {
     kept.retain(|(known, _)| *known != key);
     kept.push((key, photo));
     let (mut room, mut count) = (ROOM, 0);

@@ -1,6 +1,7 @@
 //! The engine in a worker of the page: it reads a task's files, does the task and answers. Nothing else of the engine's
 //! heavy parts is in the page's own module.
 
+mod codecs;
 mod kept;
 mod scope;
 mod tasks;

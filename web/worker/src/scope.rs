@@ -1,6 +1,10 @@
 //! The worker's own scope: requests come in as text with files beside them, answers go out as text with bytes.
 
-use js_sys::{Array, Object, Reflect, Uint8Array};
+use std::cell::RefCell;
+
+use js_sys::{Array, Function, Object, Promise, Reflect, Uint8Array, Uint16Array};
+use sightline::decode;
+use sightline::image::Samples;
 use sightline_protocol::{Request, from_text};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
@@ -35,15 +39,87 @@ async fn serve(message: &JsValue) {
             Err(detail) => return say(request.unreadable(detail), Vec::new()),
         }
     }
+    if files.iter().any(|file| decode::packed(file).is_some()) {
+        load_codecs().await;
+    }
     request.serve(&Engine, files, &mut say);
+}
+
+thread_local! {
+    /// The decoders of HEIC and RAW, or why they are not here.
+    static CODECS: RefCell<Result<Option<JsValue>, String>> = const { RefCell::new(Ok(None)) };
+}
+
+/// Has the decoders loaded, by `worker.js`, unless they are. After a failure the next file tries again.
+async fn load_codecs() {
+    if CODECS.with_borrow(|codecs| matches!(codecs, Ok(Some(_)))) {
+        return;
+    }
+    let load = Reflect::get(&js_sys::global(), &"sightlineCodecs".into()).unwrap_or_default();
+    let promise = load.dyn_into::<Function>().and_then(|load| load.call0(&JsValue::NULL));
+    let loaded = match promise.and_then(|promise| promise.dyn_into::<Promise>()) {
+        Ok(promise) => JsFuture::from(promise).await,
+        Err(error) => Err(error),
+    };
+    CODECS.set(loaded.map(Some).map_err(|error| words(&error)));
+}
+
+/// What the decoders make of a file: the header, the samples as bytes or words, the small picture.
+///
+/// # Errors
+/// That the decoders are missing, and why; or the error they give, as JSON.
+pub fn unpack(bytes: &[u8], channel: &str, samples: bool, max_side: u32) -> Result<Parts, Refusal> {
+    let codecs = CODECS.with_borrow(|codecs| match codecs {
+        Ok(Some(codecs)) => Ok(codecs.clone()),
+        Ok(None) => Err(Refusal::Missing(String::new())),
+        Err(message) => Err(Refusal::Missing(message.clone())),
+    })?;
+    let function = |name: &str| Reflect::get(&codecs, &name.into()).unwrap_or_default().unchecked_into::<Function>();
+    let arguments: Array = [
+        JsValue::from(Uint8Array::from(bytes)),
+        JsValue::from(channel),
+        JsValue::from(samples),
+        JsValue::from(max_side),
+    ]
+    .into_iter()
+    .collect();
+    let parts = function("unpack").apply(&JsValue::NULL, &arguments).map_err(|error| {
+        let told = error.as_string().unwrap_or_else(|| {
+            let trapped = function("trapped").call1(&JsValue::NULL, &words(&error).into());
+            trapped.ok().and_then(|text| text.as_string()).unwrap_or_default()
+        });
+        Refusal::Error(told)
+    })?;
+    let parts: Array = parts.unchecked_into();
+    let samples = match parts.get(1).dyn_into::<Uint16Array>() {
+        Ok(words) => Samples::U16(words.to_vec()),
+        Err(bytes) => Samples::U8(bytes.unchecked_into::<Uint8Array>().to_vec()),
+    };
+    let small = parts.get(2).unchecked_into::<Uint8Array>().to_vec();
+    Ok((parts.get(0).as_string().unwrap_or_default(), samples, small))
+}
+
+/// The header as JSON, the samples, the small picture.
+pub type Parts = (String, Samples, Vec<u8>);
+
+/// Why there are no parts.
+pub enum Refusal {
+    /// The decoders could not be loaded.
+    Missing(String),
+    /// An error of the engine, as JSON.
+    Error(String),
+}
+
+fn words(error: &JsValue) -> String {
+    match error.dyn_ref::<js_sys::Error>() {
+        Some(error) => String::from(error.message()),
+        None => format!("{error:?}"),
+    }
 }
 
 async fn read(file: &JsValue) -> Result<Vec<u8>, String> {
     let blob = file.dyn_ref::<Blob>().ok_or("no file")?;
-    let buffer = JsFuture::from(blob.array_buffer()).await.map_err(|error| match error.dyn_ref::<js_sys::Error>() {
-        Some(error) => String::from(error.message()),
-        None => format!("{error:?}"),
-    })?;
+    let buffer = JsFuture::from(blob.array_buffer()).await.map_err(|error| words(&error))?;
     Ok(Uint8Array::new(&buffer).to_vec())
 }
 

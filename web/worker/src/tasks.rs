@@ -4,19 +4,18 @@ use std::collections::HashSet;
 
 use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
-use sightline::decode::Photo;
 use sightline::detection::{Channel, Codes, DetectOptions, Detection, Target};
 use sightline::error::{Error, Place, Thing};
 use sightline::exchange::export;
 use sightline::exchange::package::{self, Package};
 use sightline::experiments::{self, Experiment};
-use sightline::image::Samples;
 use sightline::matching::{MatchOptions, Matching, Prediction, match_uncoded, predict};
 use sightline::orient::{Note, orient};
 use sightline::plan::{self, Made, Prediction as PlanPrediction, Suggested};
 use sightline::project::{Plan, Project};
 use sightline::report::plots::{Plot, comparison, plots};
 use sightline::report::{self, Report};
+use sightline::sensor::{self, Shot};
 use sightline::sheets::{self, Kind};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
@@ -26,6 +25,7 @@ use sightline_protocol::{
     Shown, Situate, Situated, SuggestPhoto, Unpack, Unpacked, WriteSheets,
 };
 
+use crate::codecs::unpack;
 use crate::kept::{self, digest, with_photo};
 
 type Files = Vec<Vec<u8>>;
@@ -42,7 +42,7 @@ impl Service<Open> for Engine {
 
 impl Service<ShowPhoto> for Engine {
     fn serve(&self, _: ShowPhoto, files: Files, _: Progress<Nothing>) -> Served<Shown> {
-        let picture = decode::picture(first(&files), None)?;
+        let picture = shown(first(&files))?;
         Ok((Shown { width: picture.width, height: picture.height }, vec![picture.rgba]))
     }
 }
@@ -50,7 +50,7 @@ impl Service<ShowPhoto> for Engine {
 impl Service<Detect> for Engine {
     fn serve(&self, task: Detect, files: Files, _: Progress<Nothing>) -> Served<Detection> {
         let (file, options) = (first(&files), &task.options);
-        let detect = |photo: &Photo| detect::detect_photo(photo, options);
+        let detect = |photo: &Shot| detect::detect_shot(photo, options);
         Ok((with_photo(file, digest(file), options.channel, detect)?, Vec::new()))
     }
 }
@@ -58,7 +58,7 @@ impl Service<Detect> for Engine {
 impl Service<Measure> for Engine {
     fn serve(&self, task: Measure, files: Files, _: Progress<Nothing>) -> Served<Option<Target>> {
         let Measure { digest, u, v, options } = task;
-        let measure = |photo: &Photo| detect::measure_in_photo(photo, u, v, &options);
+        let measure = |photo: &Shot| detect::measure_in_shot(photo, u, v, &options);
         Ok((with_photo(first(&files), digest, options.channel, measure)?, Vec::new()))
     }
 }
@@ -118,22 +118,9 @@ impl Service<Predict> for Engine {
 
 impl Service<ShowPart> for Engine {
     fn serve(&self, task: ShowPart, files: Files, _: Progress<Nothing>) -> Served<Shown> {
-        let part = |photo: &Photo| {
-            let grey = &photo.grey;
-            let (left, top) = ((task.left as usize).min(grey.width), (task.top as usize).min(grey.height));
-            let (width, height) =
-                ((grey.width - left).min(task.side as usize), (grey.height - top).min(task.side as usize));
-            let mut rgba = Vec::with_capacity(4 * width * height);
-            for row in top..top + height {
-                for at in row * grey.width + left..row * grey.width + left + width {
-                    let value = match &grey.samples {
-                        Samples::U8(samples) => samples[at],
-                        Samples::U16(samples) => (samples[at] >> 8) as u8,
-                    };
-                    rgba.extend([value, value, value, 255]);
-                }
-            }
-            Ok((Shown { width: width as u32, height: height as u32 }, vec![rgba]))
+        let part = |photo: &Shot| {
+            let picture = sensor::part(photo, [task.left as usize, task.top as usize], task.side as usize);
+            Ok((Shown { width: picture.width, height: picture.height }, vec![picture.rgba]))
         };
         with_photo(first(&files), task.digest, Channel::default(), part)
     }
@@ -291,7 +278,7 @@ impl Service<SamplePhoto> for Engine {
         let file = sample::file(&task.name)?;
         let (opened, small) = look_into(&file, task.max_side)?;
         let options = DetectOptions { codes: Codes::Auto, ..DetectOptions::default() };
-        let detect = |photo: &Photo| detect::detect_photo(photo, &options);
+        let detect = |photo: &Shot| detect::detect_shot(photo, &options);
         let detection = with_photo(&file, opened.digest, options.channel, detect)?;
         Ok((SamplePhotoMade { opened, detection }, vec![file, small]))
     }
@@ -304,11 +291,14 @@ fn first(files: &[Vec<u8>]) -> &[u8] {
 /// Size, EXIF, small picture, from one decoding; the photo is kept for what comes next.
 fn look_into(file: &[u8], max_side: u32) -> Result<(Opened, Vec<u8>)> {
     let channel = Channel::default();
+    if let Some(format) = decode::packed(file) {
+        return look_into_packed(file, format, max_side);
+    }
     // Decoding all of it finds what is damaged before anything is built on it.
     let (photo, small) = decode::photo_and_picture(file, channel, max_side)?;
     let size = [photo.grey.width, photo.grey.height].map(|side| side as u32);
     let digest = digest(file);
-    kept::keep(digest, channel, photo);
+    kept::keep(digest, channel, Shot::Photo(photo));
     let opened = Opened {
         size,
         info: exif::read(file),
@@ -317,6 +307,52 @@ fn look_into(file: &[u8], max_side: u32) -> Result<(Opened, Vec<u8>)> {
         sha256: report::sha256(file),
     };
     Ok((opened, small.rgba))
+}
+
+/// The same for a format whose decoder is not in the engine. Of a RAW the picture that its camera embedded is taken, so that
+/// many of them are there at once; its samples are decoded when they are measured.
+fn look_into_packed(file: &[u8], format: &str, max_side: u32) -> Result<(Opened, Vec<u8>)> {
+    let channel = Channel::default();
+    let digest = digest(file);
+    let mut unpacked = unpack(file, format, channel, !is_raw(format), max_side)?;
+    if is_raw(format) && unpacked.small.is_empty() {
+        unpacked = unpack(file, format, channel, true, 0)?;
+    }
+    let mut small = (unpacked.header.small, std::mem::take(&mut unpacked.small));
+    let (size, info) = ([unpacked.header.width, unpacked.header.height], unpacked.header.info.clone());
+    if small.1.is_empty() || !is_raw(format) {
+        let shot = unpacked.into_shot()?;
+        if small.1.is_empty() {
+            let picture = sensor::picture(&shot, max_side);
+            small = ([picture.width, picture.height], picture.rgba);
+        }
+        kept::keep(digest, channel, shot);
+    }
+    let sha256 = report::sha256(file);
+    Ok((Opened { size, info, small: small.0, digest, sha256 }, small.1))
+}
+
+fn is_raw(format: &str) -> bool {
+    format.starts_with("RAW")
+}
+
+/// Longest side of the picture that is shown of a sensor's samples.
+const SHOWN_SIDE: u32 = 4096;
+
+/// A photo for the screen. Of a RAW its own samples are shown: what the camera embedded is cropped and straightened.
+fn shown(file: &[u8]) -> Result<decode::Picture> {
+    let channel = Channel::default();
+    match decode::packed(file) {
+        None => decode::picture(file, None),
+        Some(format) if is_raw(format) => {
+            with_photo(file, digest(file), channel, |shot| Ok(sensor::picture(shot, SHOWN_SIDE)))
+        }
+        Some(format) => {
+            let unpacked = unpack(file, format, channel, false, u32::MAX)?;
+            let [width, height] = unpacked.header.small;
+            Ok(decode::Picture { width, height, rgba: unpacked.small })
+        }
+    }
 }
 
 /// What orientation gave, as an input of the adjustment: what could not be oriented takes no part, and is not taken away.

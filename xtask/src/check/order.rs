@@ -33,6 +33,7 @@ const ORDERS: [Order; 2] = [
             "image",
             "decode",
             "exif",
+            "sensor",
             "detect",
             "initial",
             "eccentricity",

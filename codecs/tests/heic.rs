@@ -1,0 +1,197 @@
+//! HEIC files from the encoder of the decoder's own crates, over pictures of an independent renderer.
+
+#[allow(dead_code, reason = "shared with the engine's tests, which use all of it")]
+#[path = "../../tests/engine/painter.rs"]
+mod painter;
+
+use heifer::{EncodeOptions, Image, Metadata};
+use heifer_isobmff::HeifFile;
+use painter::{Canvas, Spot, Uniform};
+use sightline::decode;
+use sightline::detect::{detect_photo, detect_shot};
+use sightline::detection::{Channel, DetectOptions, Target};
+use sightline::error::Error;
+use sightline::exif::{self, PhotoInfo};
+use sightline::image::{Grey, Samples};
+use sightline::sensor::{Shot, Unpacked};
+use sightline_codecs::{Wanted, unpack};
+
+const WHOLE: Wanted = Wanted { channel: Channel::Grey, samples: true, max_side: 100 };
+
+/// 10 x 10 circles of 6 to 24 pixels, in as many tiles as a phone would make of them.
+fn scene() -> (Canvas, Vec<Spot>) {
+    let mut canvas = Canvas::new(720, 700, 40.0);
+    let mut random = Uniform(17);
+    let spots: Vec<Spot> = (0..100)
+        .map(|k| {
+            let place = |i: i32| 70.0 * f64::from(i) + 40.0;
+            let (u, v) = (place(k % 10) + random.next(), place(k / 10) + random.next());
+            let a = random.within(3.0, 12.0);
+            Spot { u, v, a, b: a * random.within(0.7, 1.0), angle: random.within(0.0, 3.1), contrast: 150.0 }
+        })
+        .collect();
+    spots.iter().for_each(|spot| canvas.add(spot, 0.8));
+    (canvas, spots)
+}
+
+fn grey_levels(grey: &Grey) -> &[u8] {
+    match &grey.samples {
+        Samples::U8(samples) => samples,
+        Samples::U16(_) => panic!("8 bits"),
+    }
+}
+
+fn heic(grey: &Grey, quality: u8) -> Vec<u8> {
+    let rgb: Vec<u8> = grey_levels(grey).iter().flat_map(|level| [*level; 3]).collect();
+    let options = EncodeOptions { quality, ..EncodeOptions::default() };
+    heifer::encode_rgb8(grey.width as u32, grey.height as u32, &rgb, &options).expect("a file")
+}
+
+fn luma(file: &[u8]) -> (Unpacked, Grey) {
+    let unpacked = unpack(file, WHOLE).expect("a picture");
+    match unpacked.clone().into_shot().expect("a photo") {
+        Shot::Photo(photo) => (unpacked, photo.grey),
+        Shot::Sensor(_) => panic!("a developed picture"),
+    }
+}
+
+fn hits(targets: &[Target], spots: &[Spot]) -> usize {
+    let near = |spot: &Spot| targets.iter().any(|target| (target.u - spot.u).hypot(target.v - spot.v) < 0.5);
+    spots.iter().filter(|spot| near(spot)).count()
+}
+
+#[test]
+fn grey_is_the_luma_plane_tile_by_tile() {
+    let picture = scene().0.expose(1.0, 5);
+    let file = heic(&picture, 95);
+    let (unpacked, grey) = luma(&file);
+    let header = &unpacked.header;
+    assert_eq!((header.width, header.height, header.bits, header.info.orientation), (720, 700, 8, 1));
+    let difference = |(a, b): (&u8, &u8)| (f64::from(*a) - f64::from(*b)).powi(2);
+    let squares: f64 = grey_levels(&picture).iter().zip(grey_levels(&grey)).map(difference).sum();
+    let rms = (squares / (720.0 * 700.0)).sqrt();
+    assert!(rms < 1.2, "{rms}");
+    assert_eq!((header.small, unpacked.small.len()), ([100, 97], 4 * 100 * 97));
+    // The header comes without decoding, and colours of a grey picture are its grey, but for rounding.
+    let bare = unpack(&file, Wanted { samples: false, max_side: 0, ..WHOLE }).expect("a header");
+    assert_eq!((bare.header.width, bare.samples), (720, Samples::U8(Vec::new())));
+    let green = unpack(&file, Wanted { channel: Channel::Green, ..WHOLE }).expect("a channel");
+    let Samples::U8(green) = green.samples else { panic!("8 bits") };
+    let apart = green.iter().zip(grey_levels(&grey)).map(|(a, b)| a.abs_diff(*b)).max();
+    assert!(apart.is_some_and(|apart| apart <= 3), "{apart:?}");
+}
+
+#[test]
+fn targets_are_found_as_in_a_jpeg_of_equal_quality() {
+    let (canvas, spots) = scene();
+    let picture = canvas.expose(2.0, 6);
+    let options = DetectOptions::default();
+    let file = heic(&picture, 85);
+    let shot = unpack(&file, Wanted::samples(Channel::Grey)).and_then(Unpacked::into_shot).expect("a photo");
+    let found = detect_shot(&shot, &options).expect("targets");
+    let mut jpeg = Vec::new();
+    let encoder = jpeg_encoder::Encoder::new(&mut jpeg, 90);
+    encoder.encode(grey_levels(&picture), 720, 700, jpeg_encoder::ColorType::Luma).expect("a file");
+    let photo = decode::photo(&jpeg, Channel::Grey).expect("a photo");
+    let beside = detect_photo(&photo, &options).expect("targets");
+    let (own, other) = (hits(&found.targets, &spots), hits(&beside.targets, &spots));
+    println!("HEIC {own} of 100 in {} bytes, JPEG {other} in {} bytes", file.len(), jpeg.len());
+    assert!(own >= other && own == 100, "{own} {other}");
+    assert_eq!(found.targets.len(), 100);
+}
+
+#[test]
+fn ten_bits_are_kept() {
+    let mut data = Vec::new();
+    for k in 0..600u16 * 64 {
+        let level = 200 + k % 600;
+        data.extend([level, level, level, 1023]);
+    }
+    let image = Image { width: 600, height: 64, bit_depth: 10, has_alpha: false, data };
+    let options = EncodeOptions { quality: 100, ..EncodeOptions::default() };
+    let (unpacked, grey) = luma(&heifer::encode(&image, &options).expect("a file"));
+    let Samples::U16(samples) = grey.samples else { panic!("more than 8 bits") };
+    assert_eq!(unpacked.header.bits, 10);
+    let worst = samples.iter().enumerate().map(|(k, level)| (level >> 6).abs_diff(200 + k as u16 % 600)).max();
+    assert!(worst.is_some_and(|worst| worst <= 3), "{worst:?}");
+}
+
+#[test]
+fn exif_and_turns_are_told_and_the_grid_stays() {
+    let mut image = Image::filled(96, 64, 8, [90, 90, 90, 255]);
+    image.data[..400].fill(200);
+    let info = PhotoInfo {
+        make: Some("Maker".into()),
+        model: Some("Model".into()),
+        focal_length_mm: Some(4.25),
+        orientation: 6,
+        date: Some("2026-02-03T04:05:06".into()),
+        ..PhotoInfo::default()
+    };
+    let metadata = Metadata { exif: Some(exif::write(&info)), ..Metadata::default() };
+    let file = heifer::encode_with_metadata(&image, &metadata, &EncodeOptions::default()).expect("a file");
+    let (unpacked, upright) = luma(&file);
+    assert_eq!(unpacked.header.info, PhotoInfo { orientation: 1, ..info.clone() });
+    // A rotation in the place of the colours: the box's first byte counts quarter turns to the left.
+    let mut turned = file.clone();
+    let at = turned.windows(8).position(|bytes| bytes == b"colrnclx").expect("colours");
+    turned[at..at + 5].copy_from_slice(b"irot\x01");
+    let (unpacked, grey) = luma(&turned);
+    assert_eq!((unpacked.header.info.orientation, grey.width, grey.height), (8, 96, 64));
+    assert_eq!(grey, upright);
+}
+
+#[test]
+fn a_tile_that_is_lost_costs_its_rows() {
+    let (canvas, spots) = scene();
+    let mut file = heic(&canvas.expose(1.0, 5), 85);
+    let (grid, cut) = {
+        let parsed = HeifFile::parse(&file).expect("boxes");
+        let extent = |id| parsed.item(id).expect("an item").location.as_ref().expect("a place").extents[0];
+        let tile = extent(parsed.referenced_items(parsed.primary_id, b"dimg")[2]);
+        (extent(parsed.primary_id), (tile.offset + tile.length / 2) as usize)
+    };
+    // Phones have the grid's sizes before the tiles, this encoder behind them: they go where the handler's box has room.
+    let room = file.windows(4).position(|bytes| bytes == b"hdlr").expect("a handler") + 16;
+    let place = [(grid.offset as u32).to_be_bytes(), (grid.length as u32).to_be_bytes()].concat();
+    let entry = file.windows(8).position(|bytes| bytes == place).expect("its entry");
+    file.copy_within(grid.offset as usize..(grid.offset + grid.length) as usize, room);
+    file[entry..entry + 4].copy_from_slice(&(room as u32).to_be_bytes());
+    // in the middle of the third tile
+    file.truncate(cut);
+    let unpacked = unpack(&file, WHOLE).expect("the first tiles");
+    let Ok(Shot::Photo(photo)) = unpacked.into_shot() else { panic!("a photo") };
+    assert_eq!(photo.damaged_rows, [[512, 700]]);
+    let found = detect_photo(&photo, &DetectOptions::default()).expect("targets");
+    let above: Vec<Spot> = spots.into_iter().filter(|spot| spot.v + spot.a + 8.0 < 512.0).collect();
+    println!("{} targets, {} of {} above", found.targets.len(), hits(&found.targets, &above), above.len());
+    assert_eq!(hits(&found.targets, &above), above.len());
+    assert!(found.targets.iter().all(|target| target.v < 512.0));
+}
+
+#[test]
+fn damage_is_told_and_nothing_else_happens() {
+    let picture = Canvas::new(64, 48, 99.0).expose(3.0, 1);
+    let whole = heic(&picture, 50);
+    for end in (0..whole.len()).step_by(7) {
+        if let Err(error) = unpack(&whole[..end], WHOLE) {
+            assert!(matches!(error, Error::BrokenImage { .. } | Error::UnknownImageFormat { .. }), "{error}");
+        }
+    }
+    let mut random = Uniform(3);
+    for _ in 0..600 {
+        let mut bytes = whole.clone();
+        for _ in 0..4 {
+            let at = (random.next() * bytes.len() as f64) as usize;
+            bytes[at] = (random.next() * 256.0) as u8;
+        }
+        if let Ok(unpacked) = unpack(&bytes, WHOLE) {
+            let _ = unpacked.into_shot();
+        }
+    }
+    // A size beyond all bytes is refused before anything of that size is taken.
+    let mut vast = whole;
+    let at = vast.windows(4).position(|bytes| bytes == b"ispe").expect("a size");
+    vast[at + 8..at + 16].copy_from_slice(&[0, 0, 0x30, 0, 0, 0, 0x30, 0]);
+    assert!(matches!(unpack(&vast, WHOLE), Err(Error::BrokenImage { .. } | Error::ImageSize { .. })));
+}

@@ -1,0 +1,67 @@
+// Formats whose decoders are a file of their own: it is fetched when the first such photo comes, and kept.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { test } from 'node:test';
+
+import { open } from './browser.mjs';
+import { detect, photos, sample } from './desk.mjs';
+
+const count = (text) => Number(text.replace(/\D/g, ''));
+
+test('a HEIC is opened and measured, and without one no decoder is fetched', { timeout: 180_000 }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), 'sightline-written-'));
+  execFileSync(join(process.env.SIGHTLINE_EXAMPLES, 'written'), [folder]);
+  const { page, context, errors, close } = await open({ width: 1366, height: 768 });
+  const asked = [];
+  context.on('request', (request) => asked.push(request.url()));
+  const decoders = () => asked.filter((url) => url.includes('sightline-codecs'));
+  try {
+    await sample(page);
+    assert.ok(await page.evaluate(async () => Boolean((await navigator.serviceWorker.ready).active)));
+    assert.deepEqual(decoders(), [], 'PNG photos need none');
+    await page.click('.mark');
+    await page.reload();
+    await photos(page, [join(folder, 'photo.heic')]);
+    assert.equal(await page.locator('.tile').count(), 1);
+    assert.equal(await page.locator('.problems li').count(), 0);
+    assert.ok(decoders().some((url) => url.endsWith('_bg.wasm')));
+    await detect(page, {});
+    const found = count(await page.textContent('[data-step=targets] .figure'));
+    assert.ok(found > 40, `${found} targets`);
+    // What was asked for once is there without a network from then on.
+    const kept = () => page.evaluate(async () => {
+      const all = await Promise.all((await caches.keys()).map(async (key) => (await (await caches.open(key)).keys()).map(({ url }) => url)));
+      return all.flat().some((url) => url.endsWith('sightline-codecs_bg.wasm'));
+    });
+    await page.reload();
+    await page.waitForSelector('.desk');
+    assert.ok(await page.evaluate(() => Boolean(navigator.serviceWorker.controller)), 'the service worker is in charge');
+    await page.evaluate(async () => (await fetch('sightline-codecs_bg.wasm')).arrayBuffer());
+    assert.ok(await kept());
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('the single file has the decoders inside', { timeout: 120_000 }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), 'sightline-written-'));
+  execFileSync(join(process.env.SIGHTLINE_EXAMPLES, 'written'), [folder]);
+  const address = new URL('../dist/sightline.html', import.meta.url).href;
+  const { page, errors, close } = await open({ address, width: 1366, height: 768 });
+  try {
+    await page.waitForSelector('.sample');
+    await photos(page, [join(folder, 'photo.heic')]);
+    assert.equal(await page.locator('.tile').count(), 1);
+    assert.equal(await page.locator('.problems li').count(), 0);
+    await detect(page, {});
+    const found = count(await page.textContent('[data-step=targets] .figure'));
+    assert.ok(found > 40, `${found} targets`);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
