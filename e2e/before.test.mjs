@@ -75,3 +75,35 @@ test('a plan is begun, made, changed by dragging, undone and kept', async () => 
     await close();
   }
 });
+
+test('points are typed, and what is wrong in them is told', async () => {
+  const { page, errors, close } = await open();
+  try {
+    await page.click('[data-open="plan"]');
+    await page.selectOption('select[name="unit"]', 'm');
+    await page.fill('textarea[name="plan-points"]', 'a, 0, 0, 0\nb, 1, x, 0');
+    await page.locator('textarea[name="plan-points"]').blur();
+    await page.waitForSelector('[role="alert"] >> text=/2/');
+    const grid = Array.from({ length: 12 }, (_, k) => `P${k + 1} ${(k % 4) * 0.5} 0 ${Math.floor(k / 4) * 0.5}`);
+    await page.fill('textarea[name="plan-points"]', grid.join('\n'));
+    await page.locator('textarea[name="plan-points"]').blur();
+    await page.waitForSelector('.plan-view .point-at');
+    assert.equal(await page.locator('.plan-view[data-view="top"] .point-at').count(), 12);
+    await page.selectOption('select[name="facing"]', 'front');
+    await page.fill('input[name="target-diameter"]', '0.01');
+    await page.press('input[name="target-diameter"]', 'Enter');
+    await page.fill('input[name="control"]', 'P1, P4, P9');
+    await page.press('input[name="control"]', 'Enter');
+    await page.selectOption('select[name="datum"]', 'control');
+    await page.click('[data-action="make"]');
+    await page.waitForSelector('.verdict [data-reached="true"]', { timeout: 30000 });
+    assert.equal(await page.locator('.plan-view[data-view="top"] .point-at.given').count(), 3);
+    await page.click('[data-look="space"]');
+    await page.waitForSelector('.plan-view[data-view="space"] .station-at');
+    await page.click('tr[data-station="1"] .id');
+    assert.match(await page.textContent('[data-unseen]'), /Sees every point|Not seen/);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});

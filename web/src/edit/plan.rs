@@ -1,7 +1,10 @@
 //! The plan of the photos: what is done with it before it becomes photos.
 
+use sightline::Error;
+use sightline::error::{Place, Thing};
 use sightline::project::{
-    Camera, DatumKind, Form, Interior, Parameter, Plan, PlanDistance, PlanStation, Project, Region, Variant,
+    Camera, DatumKind, Feature, FeatureKind, Form, Interior, Parameter, Plan, PlanDistance, PlanFace, PlanStation,
+    Point, Project, Region, Role, Variant,
 };
 
 /// Parameters that a calibration on the object estimates.
@@ -48,23 +51,212 @@ pub fn common_camera() -> Camera {
     Camera { pixel_pitch: Some([0.006; 2]), ..Camera::new("1", 6000, 4000, Interior::brown(28.0)) }
 }
 
-/// Begins a plan of a form, with the project's camera where it has one that is known.
-pub fn begin(project: &mut Project, form: Form, mm: f64) {
-    let known = |c: &&Camera| c.interior.get(Parameter::C).or(c.interior.get(Parameter::Fx)).is_some();
-    let camera = project.cameras.iter().find(known).cloned().unwrap_or_else(common_camera);
+/// Whether a camera's principal distance is known.
+pub fn is_known(camera: &Camera) -> bool {
+    camera.interior.get(Parameter::C).or(camera.interior.get(Parameter::Fx)).is_some()
+}
+
+/// A plan of nothing yet, with the project's camera where it has one that is known.
+fn empty(project: &Project, mm: f64) -> Plan {
+    let camera = project.cameras.iter().find(|c| is_known(c)).cloned().unwrap_or_else(common_camera);
     let mut plan = Plan { cameras: vec![camera], ..Plan::default() };
     plan.wanted.precision = 0.1 / mm;
     plan.lens.unit_mm = mm;
+    plan
+}
+
+/// Begins a plan of a form.
+pub fn begin(project: &mut Project, form: Form, mm: f64) {
+    let mut plan = empty(project, mm);
     set_form(&mut plan, form);
     project.plan = Some(Box::new(plan));
+}
+
+/// Takes points into the plan, or begins one of them. What is known of a point's target stays with its name.
+pub fn take_points(project: &mut Project, points: Vec<Point>, mm: f64) {
+    let mut plan = project.plan.take().map_or_else(|| empty(project, mm), |plan| *plan);
+    let given = plan.form.is_none() && !plan.points.is_empty();
+    let (facing, diameter) = (facing(&plan), plan.points.first().and_then(|p| p.diameter));
+    let fresh = points.into_iter().map(|point| match plan.points.iter().find(|p| given && p.id == point.id) {
+        Some(old) => Point { xyz: point.xyz, ..old.clone() },
+        None => Point { diameter: diameter.filter(|_| given), role: Role::Tie, sigma: None, ..point },
+    });
+    let fresh = fresh.collect();
+    let own = faces_of_form(&plan);
+    plan.faces.drain(..own);
+    plan.form = None;
+    plan.points = fresh;
+    if let (Some(facing), true) = (facing, given) {
+        set_facing(&mut plan, facing);
+    }
+    drop_unknown(&mut plan);
+    project.plan = Some(Box::new(plan));
+}
+
+/// A line a point: identifier and coordinates.
+pub fn listed(plan: &Plan) -> String {
+    let line = |point: &Point| {
+        let [x, y, z] = point.xyz.unwrap_or_default();
+        format!("{}, {x}, {y}, {z}\n", point.id)
+    };
+    plan.points.iter().map(line).collect()
+}
+
+/// Which way targets face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Facing {
+    /// Seen from every side, as balls are.
+    Every,
+    /// Towards -Y.
+    Front,
+    /// Towards +Z.
+    Up,
+    /// Away from the middle of all points.
+    Outward,
+}
+
+/// Which way the targets face, where all do the same.
+pub fn facing(plan: &Plan) -> Option<Facing> {
+    let all = |normal: Option<[f64; 3]>| plan.points.iter().all(|p| p.normal == normal);
+    if all(None) {
+        return Some(Facing::Every);
+    }
+    if all(Some([0.0, -1.0, 0.0])) {
+        return Some(Facing::Front);
+    }
+    if all(Some([0.0, 0.0, 1.0])) {
+        return Some(Facing::Up);
+    }
+    let middle = middle(plan);
+    plan.points.iter().all(|p| p.normal == outward(p, middle)).then_some(Facing::Outward)
+}
+
+/// Turns all targets.
+pub fn set_facing(plan: &mut Plan, facing: Facing) {
+    let middle = middle(plan);
+    for point in &mut plan.points {
+        point.normal = match facing {
+            Facing::Every => None,
+            Facing::Front => Some([0.0, -1.0, 0.0]),
+            Facing::Up => Some([0.0, 0.0, 1.0]),
+            Facing::Outward => outward(point, middle),
+        };
+    }
+}
+
+fn middle(plan: &Plan) -> [f64; 3] {
+    let places: Vec<[f64; 3]> = plan.points.iter().filter_map(|p| p.xyz).collect();
+    [0, 1, 2].map(|a| places.iter().map(|p| p[a]).sum::<f64>() / places.len().max(1) as f64)
+}
+
+/// The direction from the middle; a point that lies there has none.
+fn outward(point: &Point, middle: [f64; 3]) -> Option<[f64; 3]> {
+    let away = point.xyz.map(|p| [0, 1, 2].map(|a| p[a] - middle[a]))?;
+    let length = away.iter().map(|x| x * x).sum::<f64>().sqrt();
+    (length > 0.0).then(|| away.map(|x| x / length))
+}
+
+/// One diameter for all targets, or none that is known.
+pub fn set_diameter(plan: &mut Plan, diameter: Option<f64>) {
+    plan.points.iter_mut().for_each(|point| point.diameter = diameter);
+}
+
+/// The plan's control points.
+pub fn control(plan: &Plan) -> Vec<&str> {
+    plan.points.iter().filter(|p| p.role == Role::Control).map(|p| p.id.as_str()).collect()
+}
+
+/// The standard error of the first control point's first coordinate.
+pub fn control_sigma(plan: &Plan) -> Option<f64> {
+    plan.points.iter().find(|p| p.role == Role::Control)?.sigma?[0]
+}
+
+/// Makes exactly these points control points.
+///
+/// # Errors
+/// [`Error::Unknown`] for a point that the plan does not have; then nothing is changed.
+pub fn set_control(plan: &mut Plan, names: &[String]) -> Result<(), Error> {
+    if let Some(name) = names.iter().find(|name| !plan.points.iter().any(|p| p.id == **name)) {
+        return Err(Error::Unknown { kind: Thing::Point, name: name.clone(), at: Place::default() });
+    }
+    let sigma = control_sigma(plan);
+    for point in &mut plan.points {
+        let named = names.contains(&point.id);
+        if named && point.role != Role::Control {
+            (point.role, point.sigma) = (Role::Control, sigma.map(|s| [Some(s); 3]));
+        } else if !named && point.role == Role::Control {
+            (point.role, point.sigma) = (Role::Tie, None);
+        }
+    }
+    if names.is_empty() && plan.datum.kind == DatumKind::Control {
+        plan.datum.kind = DatumKind::Free;
+    }
+    Ok(())
+}
+
+/// How well control points are known; none: without error.
+pub fn set_control_sigma(plan: &mut Plan, sigma: Option<f64>) {
+    for point in plan.points.iter_mut().filter(|p| p.role == Role::Control) {
+        point.sigma = sigma.map(|s| [Some(s); 3]);
+    }
+}
+
+/// How many of the plan's faces, the first, are its form's.
+pub fn faces_of_form(plan: &Plan) -> usize {
+    plan.form.as_ref().map_or(0, |form| sightline::plan::targets_on(form).1.len()).min(plan.faces.len())
+}
+
+/// A face from three corners, as "x, y, z, x, y, z, x, y, z": the middle one lies between the two others.
+pub fn face(numbers: &[f64]) -> Option<PlanFace> {
+    let [a, b, c, d, e, f, g, h, i] = *numbers else { return None };
+    let corner = [d, e, f];
+    let to = |p: [f64; 3]| [0, 1, 2].map(|k| p[k] - corner[k]);
+    let (along, across) = (to([a, b, c]), to([g, h, i]));
+    let [x, y] = [along, across];
+    let area = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
+    let wide = numbers.iter().all(|v| v.abs() < 1e9) && area.iter().any(|v| v.abs() > 1e-12);
+    wide.then_some(PlanFace { corner, along, across })
+}
+
+/// Points of the project's features that the plan has, by the feature's name.
+pub fn features(project: &Project, plan: &Plan) -> Vec<(String, Vec<String>)> {
+    let of = |feature: &Feature| {
+        let (FeatureKind::Line { points }
+        | FeatureKind::Plane { points }
+        | FeatureKind::Circle { points }
+        | FeatureKind::Sphere { points }
+        | FeatureKind::Cylinder { points }) = &feature.kind
+        else {
+            return None;
+        };
+        let planned = |id: &&String| plan.points.iter().any(|p| p.id == **id);
+        let points: Vec<String> = points.iter().filter(planned).cloned().collect();
+        (!points.is_empty()).then(|| (feature.id.clone(), points))
+    };
+    project.features.iter().filter_map(of).collect()
+}
+
+/// Plans with another camera; whether it is calibrated with the photos stays.
+pub fn set_camera(plan: &mut Plan, camera: Camera) {
+    let calibrated = calibrates(plan);
+    plan.cameras = vec![camera];
+    plan.stations.iter_mut().for_each(|station| station.camera.clear());
+    plan.variants.iter_mut().flat_map(|v| &mut v.stations).for_each(|station| station.camera.clear());
+    set_calibrates(plan, calibrated);
 }
 
 /// Puts targets on another form; what names points that are gone goes with them.
 pub fn set_form(plan: &mut Plan, form: Form) {
     let (points, faces) = sightline::plan::targets_on(&form);
+    let own = faces_of_form(plan);
+    plan.faces.splice(..own, faces);
     plan.form = Some(form);
     plan.points = points;
-    plan.faces = faces;
+    drop_unknown(plan);
+}
+
+/// What names points that are gone goes with them.
+fn drop_unknown(plan: &mut Plan) {
     let ids: std::collections::HashSet<&str> = plan.points.iter().map(|p| p.id.as_str()).collect();
     plan.distances.retain(|d| ids.contains(d.from.as_str()) && ids.contains(d.to.as_str()));
     if plan.datum.points.as_ref().is_some_and(|named| !named.iter().all(|id| ids.contains(id.as_str()))) {
@@ -117,10 +309,10 @@ pub fn next_id(plan: &Plan) -> String {
     (plan.stations.len() + 1..).find(free).unwrap_or(1).to_string()
 }
 
-/// Moves a station along two axes; it goes on looking at what it looked at.
-pub fn move_station(plan: &mut Plan, id: &str, axes: [usize; 2], to: [f64; 2]) {
+/// Moves a station along an axis; it goes on looking at what it looked at.
+pub fn move_station(plan: &mut Plan, id: &str, axis: usize, to: f64) {
     if let Some(station) = plan.stations.iter_mut().find(|s| s.id == id) {
-        axes.into_iter().zip(to).for_each(|(axis, value)| station.position[axis] = value);
+        station.position[axis] = to;
     }
 }
 
@@ -218,7 +410,8 @@ mod tests {
         let names: Vec<_> = (0..3).filter_map(|_| add_station(&mut plan)).collect();
         assert_eq!(names, ["1", "2", "3"]);
         let aim = plan.stations[1].look_at;
-        move_station(&mut plan, "2", [0, 1], [5.0, 7.0]);
+        move_station(&mut plan, "2", 0, 5.0);
+        move_station(&mut plan, "2", 1, 7.0);
         assert_eq!((plan.stations[1].position[..2].to_vec(), plan.stations[1].look_at), (vec![5.0, 7.0], aim));
         aim_station(&mut plan, "2", 2, 9.0);
         assert_eq!(plan.stations[1].look_at.map(|aim| aim[2]), Some(9.0));
@@ -246,6 +439,64 @@ mod tests {
         assert!(plan.distances.is_empty());
         set_bar(&mut plan, None);
         assert!(plan.distances.is_empty());
+    }
+
+    #[test]
+    fn given_points_keep_what_is_known_of_them() {
+        let mut project = Project::default();
+        let point = |id: &str, x: f64| Point { id: id.into(), xyz: Some([x, 1.0, 2.0]), ..Point::default() };
+        take_points(&mut project, vec![point("a", 0.0), point("b", 1.0), point("c", 3.0)], 1000.0);
+        let plan = project.plan.as_mut().expect("a plan");
+        assert_eq!((facing(plan), plan.wanted.precision), (Some(Facing::Every), 0.0001));
+        set_diameter(plan, Some(0.01));
+        set_facing(plan, Facing::Up);
+        set_control(plan, &["b".into()]).expect("known points");
+        set_control_sigma(plan, Some(0.001));
+        assert!(set_control(plan, &["x".into()]).is_err());
+        set_bar(plan, Some(0.02));
+        take_points(&mut project, vec![point("b", 5.0), point("d", 6.0)], 1000.0);
+        let plan = project.plan.as_mut().expect("a plan");
+        assert_eq!(plan.points[0].xyz, Some([5.0, 1.0, 2.0]));
+        assert_eq!((control(plan), control_sigma(plan)), (vec!["b"], Some(0.001)));
+        assert_eq!((plan.points[1].diameter, plan.points[1].normal), (Some(0.01), Some([0.0, 0.0, 1.0])));
+        assert!(plan.distances.is_empty());
+        for way in [Facing::Every, Facing::Front, Facing::Outward] {
+            set_facing(plan, way);
+            assert_eq!(facing(plan), Some(way));
+        }
+        plan.datum.kind = DatumKind::Control;
+        set_control(plan, &[]).expect("none");
+        assert_eq!(plan.datum.kind, DatumKind::Free);
+        assert_eq!(listed(plan), "b, 5, 1, 2\nd, 6, 1, 2\n");
+    }
+
+    #[test]
+    fn own_faces_stay_when_the_form_changes() {
+        let mut plan = planned();
+        assert_eq!((faces_of_form(&plan), plan.faces.len()), (1, 1));
+        plan.faces.push(face(&[1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0]).expect("a face"));
+        set_form(&mut plan, first_form("cylinder", 1.0));
+        assert_eq!(plan.faces.len(), faces_of_form(&plan) + 1);
+        assert_eq!(plan.faces.last().map(|f| (f.along, f.across)), Some(([1.0, 0.0, 0.0], [0.0, 2.0, 0.0])));
+        assert!(face(&[1.0; 9]).is_none() && face(&[1.0; 6]).is_none());
+    }
+
+    #[test]
+    fn another_camera_stays_calibrated() {
+        let mut plan = planned();
+        add_station(&mut plan);
+        plan.stations[0].camera = "1".into();
+        set_calibrates(&mut plan, true);
+        set_camera(&mut plan, Camera::new("other", 4000, 3000, Interior::brown(20.0)));
+        assert!(calibrates(&plan) && plan.stations[0].camera.is_empty() && is_known(&plan.cameras[0]));
+    }
+
+    #[test]
+    fn features_are_judged_by_the_points_that_are_planned() {
+        let plan = planned();
+        let kind = FeatureKind::Plane { points: vec!["1".into(), "2".into(), "gone".into()] };
+        let project = Project { features: vec![Feature { id: "wall".into(), kind }], ..Project::default() };
+        assert_eq!(features(&project, &plan), [("wall".to_owned(), vec!["1".to_owned(), "2".to_owned()])]);
     }
 
     #[test]

@@ -1,27 +1,36 @@
 //! The plan of the photos: what is done with it, and what workers say of it.
 
+use std::sync::Arc;
+
 use leptos::prelude::*;
 use sightline::Error;
+use sightline::exchange::control_csv;
 use sightline::plan::{Criterion, MakeOptions, Prediction, Suggested};
-use sightline::project::{Plan, PlanStation};
-use sightline_protocol::{BeginPlan, MakePlan, PlanOf, PredictPlan, SuggestPhoto};
+use sightline::project::{Plan, PlanStation, Project};
+use sightline_protocol::{BeginPlan, MakePlan, Open, PlanOf, PredictPlan, SuggestPhoto};
 
 use super::document::Change;
+use super::intake::SMALL_SIDE;
 use super::pool::{Failure, Outcome};
 use super::{Desk, JobKind};
-use crate::edit::control::UNITS;
+use crate::browser::file::NamedFile;
+use crate::edit::cameras::{self, Signature};
+use crate::edit::control::{UNITS, has_lengths};
 use crate::edit::plan;
+use crate::i18n::planning as words;
 
 /// What is known of the plan.
 #[derive(Clone, Copy)]
 pub struct Planning {
     /// The plan as it is while a station is dragged.
-    pub live: RwSignal<Option<Plan>>,
+    pub live: RwSignal<Option<Arc<Plan>>>,
     /// Of the plan, and of the others beside it.
-    pub predicted: RwSignal<Option<Result<Vec<Prediction>, Error>>>,
+    pub predicted: RwSignal<Option<Result<Vec<Arc<Prediction>>, Error>>>,
     /// The station that is chosen.
     pub chosen: RwSignal<Option<String>>,
     pub criterion: RwSignal<Criterion>,
+    /// The unit that a plan begins with where nothing has lengths yet.
+    pub unit: RwSignal<String>,
     /// Places for the next photo, of the plan as it is.
     pub suggested: RwSignal<Vec<Suggested>>,
     /// A prediction is under way, and what is to be predicted next.
@@ -36,6 +45,7 @@ impl Default for Planning {
             predicted: RwSignal::new(None),
             chosen: RwSignal::new(None),
             criterion: RwSignal::new(Criterion::Worst),
+            unit: RwSignal::new("mm".to_owned()),
             suggested: RwSignal::new(Vec::new()),
             busy: StoredValue::new(false),
             next: StoredValue::new(None),
@@ -49,22 +59,82 @@ impl Desk {
         self.document.with(|d| d.project.plan.as_deref().cloned())
     }
 
-    /// The plan as it is shown: with the station that is being dragged.
-    pub fn shown_plan(self) -> Option<Plan> {
-        self.planning.live.get().or_else(|| self.plan())
+    /// Reads the plan as it is shown: with the station that is being dragged.
+    pub fn with_plan<T>(self, read: impl FnOnce(&Plan) -> T) -> Option<T> {
+        match self.planning.live.get() {
+            Some(live) => Some(read(&live)),
+            None => self.document.with(|d| d.project.plan.as_deref().map(read)),
+        }
     }
 
-    /// Millimetres in the project's unit.
-    pub fn unit_mm(self) -> f64 {
-        let unit = self.document.with_untracked(|d| d.project.unit.clone());
-        UNITS.iter().find(|(name, _)| *name == unit).map_or(1.0, |(_, mm)| *mm)
+    /// The plan as it is shown.
+    pub fn shown_plan(self) -> Option<Plan> {
+        self.with_plan(Plan::clone)
+    }
+
+    /// The unit of a plan that is begun: what has lengths keeps its own.
+    fn unit_to_begin(self) -> (String, f64) {
+        let own = self
+            .document
+            .with_untracked(|d| (has_lengths(&d.project) || d.project.plan.is_some()).then(|| d.project.unit.clone()));
+        let unit = own.unwrap_or_else(|| self.planning.unit.get_untracked());
+        let mm = UNITS.iter().find(|(name, _)| *name == unit).map_or(1.0, |(_, mm)| *mm);
+        (unit, mm)
     }
 
     /// Begins a plan of a form.
     pub fn begin_plan(self, kind: &str) {
-        let mm = self.unit_mm();
+        let (unit, mm) = self.unit_to_begin();
         let form = plan::first_form(kind, mm);
-        self.change(Change::PlanEdited, |document| plan::begin(document.project_mut(), form, mm));
+        self.change(Change::PlanEdited, |document| {
+            let project = document.project_mut();
+            project.unit = unit;
+            plan::begin(project, form, mm);
+        });
+    }
+
+    /// Takes a list of points into the plan, or begins one of them. A bad row is told, and then nothing is taken.
+    pub fn take_plan_points(self, content: &str) {
+        let points = match control_csv::parse(content).into_points() {
+            Ok(points) => points,
+            Err(error) => return self.warn_error(error),
+        };
+        let (unit, mm) = self.unit_to_begin();
+        self.planning.live.set(None);
+        self.planning.suggested.set(Vec::new());
+        self.change(Change::PlanEdited, |document| {
+            let project = document.project_mut();
+            project.unit = unit;
+            plan::take_points(project, points, mm);
+        });
+    }
+
+    /// Plans with a camera of the project.
+    pub fn plan_with_camera(self, id: &str) {
+        let found = self.document.with_untracked(|d| d.project.cameras.iter().find(|c| c.id == id).cloned());
+        if let Some(camera) = found {
+            self.edit_plan(Change::PlanEdited, |plan| plan::set_camera(plan, camera));
+        }
+    }
+
+    /// Plans with the camera that a photo was taken with, as far as its file says.
+    pub fn plan_with_photo(self, photo: NamedFile) {
+        let NamedFile { name, content } = photo;
+        let on_outcome = move |outcome: Outcome<Open>| match outcome {
+            Outcome::Done(opened, _) => {
+                let signature = Signature::of(&name, &opened.info, opened.size);
+                let camera = cameras::camera(&signature, &opened.info, &Project::default());
+                if plan::is_known(&camera) {
+                    self.edit_plan(Change::PlanEdited, |plan| plan::set_camera(plan, camera));
+                } else {
+                    let name = name.clone();
+                    self.warn_here(move || words::no_focal_length(&name));
+                }
+            }
+            Outcome::Failed(failure) => self.tell_failure(failure),
+            Outcome::Progress(nothing) => match nothing {},
+        };
+        self.pool.with_value(|pool| pool.submit_first(Open { max_side: SMALL_SIDE }, vec![content], on_outcome));
     }
 
     /// Begins a plan from one of the papers' networks, or from the project as it was measured.
@@ -119,7 +189,9 @@ impl Desk {
         self.planning.busy.set_value(true);
         let on_outcome = move |outcome: Outcome<PredictPlan>| {
             match outcome {
-                Outcome::Done(predictions, _) => self.planning.predicted.set(Some(Ok(predictions))),
+                Outcome::Done(predictions, _) => {
+                    self.planning.predicted.set(Some(Ok(predictions.into_iter().map(Arc::new).collect())))
+                }
                 Outcome::Failed(Failure::Refused(error)) => self.planning.predicted.set(Some(Err(error))),
                 Outcome::Failed(failure) => self.tell_failure(failure),
                 Outcome::Progress(nothing) => match nothing {},

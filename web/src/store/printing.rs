@@ -104,13 +104,14 @@ impl Desk {
     /// The project's camera as diameters are advised for, or a common one.
     pub fn seeing(self) -> Seeing {
         self.document.with(|d| {
-            let own = d.project.cameras.first().and_then(|camera| {
-                let c_px = match camera.interior {
-                    Interior::Brown { c, .. } => c? / camera.pitch()[0],
-                    Interior::Opencv { fx, .. } => fx?,
-                };
-                Some(Seeing { size: [camera.width, camera.height], c_px, assumed: false })
-            });
+            let own =
+                d.project.cameras.first().or_else(|| d.project.plan.as_ref()?.cameras.first()).and_then(|camera| {
+                    let c_px = match camera.interior {
+                        Interior::Brown { c, .. } => c? / camera.pitch()[0],
+                        Interior::Opencv { fx, .. } => fx?,
+                    };
+                    Some(Seeing { size: [camera.width, camera.height], c_px, assumed: false })
+                });
             // 28 mm on 36 x 24 mm with 6000 pixels.
             own.unwrap_or(Seeing { size: [6000, 4000], c_px: 28.0 / 0.006, assumed: true })
         })

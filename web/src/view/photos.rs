@@ -12,7 +12,7 @@ use super::strip::{NoThumbnail, Thumbnail};
 use crate::browser::event;
 use crate::edit::cameras::distance_parameter;
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{planning, text};
 use crate::store::{Desk, Problem, Step};
 
 #[component]
@@ -29,6 +29,7 @@ pub fn Photos() -> impl IntoView {
     view! {
         <TitleBar title=text::photos sentence=Signal::derive(sentence)>
             <button class="button" on:click=move |_| choose_photos(desk)>{text::add_photos}</button>
+            <button class="button" data-open="plan" on:click=move |_| desk.go(Step::Plan)>{planning::plan}</button>
             <Show when=move || any.get()>
                 <button class="button primary" on:click=move |_| desk.go(Step::Targets)>
                     {text::on_to_targets} <Glyph icon=Icon::Arrow/>

@@ -1,10 +1,15 @@
 //! The plan of the photos: object, camera and wishes; stations in plan and elevation; what they promise.
 
+mod camera;
 mod drawing;
+mod frame;
 mod inputs;
+mod object;
 mod print;
 mod stations;
 mod verdict;
+
+use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::plan::Prediction;
@@ -68,6 +73,6 @@ fn add(desk: Desk) {
 }
 
 /// The prediction of the plan that is shown.
-fn predicted(desk: Desk) -> Option<Prediction> {
+fn predicted(desk: Desk) -> Option<Arc<Prediction>> {
     desk.planning.predicted.with(|p| p.as_ref()?.as_ref().ok()?.first().cloned())
 }

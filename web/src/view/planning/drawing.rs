@@ -1,69 +1,49 @@
-//! Plan and elevation to one scale each, with stations that can be dragged, and points by what they reach.
+//! The plan from above and from another side to one scale each, with stations that can be dragged, and points by what they reach.
+
+use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::plan::Prediction;
-use sightline::project::{Plan, Role};
+use sightline::project::{DatumKind, Plan, Role};
 
+use super::frame::{Frame, HEIGHT, Look, WIDTH};
 use super::predicted;
 use crate::browser::event;
-use crate::edit::plan::move_station;
 use crate::format;
 use crate::i18n::planning as words;
 use crate::store::Desk;
 use crate::store::document::Change;
 
-const WIDTH: f64 = 640.0;
-const HEIGHT: f64 = 276.0;
-const MARGIN: f64 = 26.0;
 /// Length of a station's sign.
 const SIGN: f64 = 13.0;
-
-/// How lengths become places in the drawing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Frame {
-    /// Axes across and up.
-    axes: [usize; 2],
-    middle: [f64; 2],
-    scale: f64,
-}
-
-impl Frame {
-    /// Everything of the plan in sight, with some room to move stations in.
-    fn of(plan: &Plan, axes: [usize; 2]) -> Self {
-        let points = plan.points.iter().filter_map(|p| p.xyz);
-        let regions = plan.forbidden.iter().flat_map(|r| [r.low, r.high]).filter(|c| c.iter().all(|x| x.abs() < 1e6));
-        let all: Vec<[f64; 3]> = points.chain(plan.stations.iter().map(|s| s.position)).chain(regions).collect();
-        let extent = |axis: usize| {
-            let low = all.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
-            let high = all.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
-            if low <= high { (low, high) } else { (-1.0, 1.0) }
-        };
-        let [across, up] = axes.map(extent);
-        let size = |(low, high): (f64, f64)| (1.15 * (high - low)).max(1e-9);
-        let scale = ((WIDTH - 2.0 * MARGIN) / size(across)).min((HEIGHT - 2.0 * MARGIN) / size(up));
-        Self { axes, middle: [(across.0 + across.1) / 2.0, (up.0 + up.1) / 2.0], scale: scale.min(1e9) }
-    }
-
-    fn at(&self, xyz: &[f64; 3]) -> [f64; 2] {
-        [
-            WIDTH / 2.0 + (xyz[self.axes[0]] - self.middle[0]) * self.scale,
-            HEIGHT / 2.0 - (xyz[self.axes[1]] - self.middle[1]) * self.scale,
-        ]
-    }
-
-    /// The lengths of a place.
-    fn back(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [self.middle[0] + (x - WIDTH / 2.0) / self.scale, self.middle[1] - (y - HEIGHT / 2.0) / self.scale]
-    }
-}
+/// Half axis of an ellipse as large as is wanted.
+const WANTED: f64 = 8.0;
+/// Largest half axis that is drawn.
+const LARGEST: f64 = 60.0;
+/// Turn and tilt that the view in space begins with.
+const BEGIN: [f64; 2] = [-0.6, 0.45];
 
 #[component]
 pub fn Views() -> impl IntoView {
+    let upper = RwSignal::new(Look::Top);
+    let lower = RwSignal::new(Look::Front);
+    let tab = move |look: Look, label: fn() -> &'static str| {
+        let chosen = move || lower.with(|l| l.name() == look.name());
+        view! {
+            <button class="link" class:chosen=chosen aria-pressed=move || chosen().to_string() data-look=look.name()
+                on:click=move |_| lower.set(look)>{label}</button>
+        }
+    };
     view! {
         <h2 class="section-head"><span>{words::top_view}</span><span class="aside">{words::drag_hint}</span></h2>
-        <Drawing axes=[0, 1] name="top"/>
-        <h2 class="section-head"><span>{words::front_view}</span><Legend/></h2>
-        <Drawing axes=[0, 2] name="front"/>
+        <Drawing look=upper/>
+        <div class="section-head">
+            <span class="looks">
+                {tab(Look::Front, words::front_view)}{tab(Look::Side, words::side_view)}{tab(Look::Space(BEGIN), words::space_view)}
+            </span>
+            <Legend/>
+        </div>
+        <Drawing look=lower/>
     }
 }
 
@@ -81,8 +61,8 @@ fn Legend() -> impl IntoView {
 /// How a point is coloured: by its half axis over what is wanted.
 fn class_of(plan: &Plan, prediction: Option<&Prediction>, place: usize) -> &'static str {
     let Some(prediction) = prediction else { return "none" };
-    let point = &plan.points[place];
-    if point.role == Role::Control && plan.datum.kind == sightline::project::DatumKind::Control {
+    let Some(point) = plan.points.get(place) else { return "none" };
+    if point.role == Role::Control && plan.datum.kind == DatumKind::Control {
         return "given";
     }
     let Some(axis) = prediction.points.get(place).and_then(|p| p.axis) else { return "none" };
@@ -95,14 +75,24 @@ fn class_of(plan: &Plan, prediction: Option<&Prediction>, place: usize) -> &'sta
     }
 }
 
+/// What is being dragged.
+#[derive(Clone, PartialEq)]
+enum Dragged {
+    Station(String),
+    /// The view itself, from this place.
+    Space([f64; 2]),
+}
+
 #[component]
-fn Drawing(axes: [usize; 2], name: &'static str) -> impl IntoView {
+fn Drawing(look: RwSignal<Look>) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let planning = desk.planning;
     // While a station is dragged the drawing stands still.
-    let frame = Memo::new(move |_| desk.document.with(|d| d.project.plan.as_deref().map(|plan| Frame::of(plan, axes))));
-    let dragged = StoredValue::new(None::<String>);
-    let moved = StoredValue::new(false);
+    let frame = Memo::new(move |_| {
+        let look = look.get();
+        desk.document.with(|d| d.project.plan.as_deref().map(|plan| Frame::of(plan, look)))
+    });
+    let dragged = StoredValue::new(None::<Dragged>);
     let place = move |e: &leptos::ev::PointerEvent| {
         let [x, y] = event::share(e);
         [x * WIDTH, y * HEIGHT]
@@ -116,89 +106,126 @@ fn Drawing(axes: [usize; 2], name: &'static str) -> impl IntoView {
         };
         let near = plan.stations.iter().min_by(|a, b| far(&a.position).total_cmp(&far(&b.position)));
         let reach = if event::pointer(&e).touch { 30.0 } else { 16.0 };
-        if let Some(station) = near.filter(|s| far(&s.position) < reach) {
-            event::capture(&e);
-            e.prevent_default();
-            planning.chosen.set(Some(station.id.clone()));
-            dragged.set_value(Some(station.id.clone()));
-            moved.set_value(false);
-        }
+        let what = match near.filter(|s| far(&s.position) < reach) {
+            Some(station) => {
+                planning.chosen.set(Some(station.id.clone()));
+                Dragged::Station(station.id.clone())
+            }
+            None if matches!(look.get_untracked(), Look::Space(_)) => Dragged::Space(at),
+            None => return,
+        };
+        event::capture(&e);
+        e.prevent_default();
+        dragged.set_value(Some(what));
     };
     let on_move = move |e: leptos::ev::PointerEvent| {
-        let (Some(id), Some(frame)) = (dragged.get_value(), frame.get_untracked()) else { return };
-        let Some(mut plan) = untrack(|| desk.shown_plan()) else { return };
-        moved.set_value(true);
-        move_station(&mut plan, &id, frame.axes, frame.back(place(&e)).map(rounded));
-        planning.live.set(Some(plan));
-    };
-    let on_up = move |_: leptos::ev::PointerEvent| {
-        let Some(id) = dragged.get_value() else { return };
-        dragged.set_value(None);
-        let live = planning.live.get_untracked();
-        if let (true, Some(live)) = (moved.get_value(), live) {
-            let stations = live.stations;
-            desk.edit_plan(Change::StationMoved(id), |plan| plan.stations = stations);
+        let (Some(what), Some(frame)) = (dragged.get_value(), frame.get_untracked()) else { return };
+        let to = place(&e);
+        match what {
+            Dragged::Station(id) => {
+                let Some(mut plan) = untrack(|| desk.shown_plan()) else { return };
+                if let Some(station) = plan.stations.iter_mut().find(|s| s.id == id) {
+                    station.position = frame.moved(&station.position, to);
+                    planning.live.set(Some(Arc::new(plan)));
+                }
+            }
+            Dragged::Space(from) => {
+                if let Look::Space([turn, tilt]) = look.get_untracked() {
+                    let turned = [turn - (to[0] - from[0]) * 0.01, (tilt + (to[1] - from[1]) * 0.01).clamp(-1.5, 1.5)];
+                    look.set(Look::Space(turned));
+                }
+                dragged.set_value(Some(Dragged::Space(to)));
+            }
         }
     };
-    let content = move || {
+    let on_up = move |_: leptos::ev::PointerEvent| {
+        let what = dragged.get_value();
+        dragged.set_value(None);
+        let (Some(Dragged::Station(id)), Some(live)) = (what, planning.live.get_untracked()) else { return };
+        let stations = live.stations.clone();
+        desk.edit_plan(Change::StationMoved(id), |plan| plan.stations = stations);
+    };
+    let object = move || {
         let frame = frame.get()?;
-        let plan = desk.shown_plan()?;
-        let prediction = predicted(desk);
-        Some(drawn(&frame, &plan, prediction.as_ref(), planning.chosen.get().as_deref(), &desk))
+        desk.document.with(|d| d.project.plan.as_deref().map(|plan| object(&frame, plan)))
+    };
+    let points = move || {
+        let (frame, prediction) = (frame.get()?, predicted(desk));
+        desk.document.with(|d| d.project.plan.as_deref().map(|plan| points(&frame, plan, prediction.as_deref())))
+    };
+    let hints = move || Some(hints(&frame.get()?, &desk));
+    let stations = move || {
+        let (frame, prediction, chosen) = (frame.get()?, predicted(desk), planning.chosen.get());
+        desk.with_plan(|plan| stations(&frame, plan, prediction.as_deref(), chosen.as_deref()))
+    };
+    let rule = move || {
+        let frame = frame.get()?;
+        let (unit, wanted) = desk
+            .document
+            .with(|d| (d.project.unit.clone(), d.project.plan.as_deref().map_or(1.0, |plan| plan.wanted.precision)));
+        Some(rule(&frame, &unit, wanted))
     };
     view! {
-        <svg class="plan-view" data-view=name viewBox=format!("0 0 {WIDTH} {HEIGHT}") role="img"
-            aria-label=move || if axes[1] == 1 { words::top_view() } else { words::front_view() }
+        <svg class="plan-view" data-view=move || look.with(|l| l.name()) viewBox=format!("0 0 {WIDTH} {HEIGHT}") role="img"
+            aria-label=move || match look.get() {
+                Look::Top => words::top_view(),
+                Look::Front => words::front_view(),
+                Look::Side => words::side_view(),
+                Look::Space(_) => words::space_view(),
+            }
             on:pointerdown=on_down on:pointermove=on_move on:pointerup=on_up on:pointercancel=on_up>
-            {content}
+            {object}{points}{hints}{stations}{rule}
         </svg>
     }
 }
 
-/// A coordinate to three digits after the first that matters in a drawing.
-pub fn rounded(value: f64) -> f64 {
-    let step = 10f64.powf((value.abs().max(1e-9)).log10().floor() - 3.0);
-    (value / step).round() * step
-}
-
-fn drawn(
-    frame: &Frame,
-    plan: &Plan,
-    prediction: Option<&Prediction>,
-    chosen: Option<&str>,
-    desk: &Desk,
-) -> impl IntoView + use<> {
+/// Faces, and where nobody can stand.
+fn object(frame: &Frame, plan: &Plan) -> impl IntoView + use<> {
+    let clip = |[x, y]: [f64; 2]| (x.clamp(-50.0, WIDTH + 50.0), y.clamp(-50.0, HEIGHT + 50.0));
+    let faces = plan.faces.iter().map(|face| {
+        let corner =
+            |a: f64, b: f64| frame.at(&[0, 1, 2].map(|k| face.corner[k] + a * face.along[k] + b * face.across[k]));
+        let [p, q, r, s] = [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)];
+        format!("M{:.1} {:.1}L{:.1} {:.1}L{:.1} {:.1}L{:.1} {:.1}Z", p[0], p[1], q[0], q[1], r[0], r[1], s[0], s[1])
+    });
+    let faces: String = faces.collect();
     let regions = plan.forbidden.iter().map(|region| {
-        let (a, b) = (frame.at(&region.low), frame.at(&region.high));
-        let clip = |v: f64| v.clamp(-50.0, WIDTH + 50.0);
-        let (x, y) = (clip(a[0].min(b[0])), clip(a[1].min(b[1])));
-        let (x1, y1) = (clip(a[0].max(b[0])), clip(a[1].max(b[1])));
-        view! { <rect class="forbidden" x=x y=y width=x1 - x height=y1 - y></rect> }
+        // The outline of its eight corners, as wide and high as they are seen.
+        let corners = (0..8).map(|n| {
+            let side = |k: usize| if n >> k & 1 == 0 { region.low[k] } else { region.high[k] };
+            clip(frame.at(&[side(0), side(1), side(2)]))
+        });
+        let (mut low, mut high) = ((f64::INFINITY, f64::INFINITY), (f64::NEG_INFINITY, f64::NEG_INFINITY));
+        for (x, y) in corners {
+            low = (low.0.min(x), low.1.min(y));
+            high = (high.0.max(x), high.1.max(y));
+        }
+        view! { <rect class="forbidden" x=low.0 y=low.1 width=high.0 - low.0 height=high.1 - low.1></rect> }
     });
     let regions = regions.collect_view();
-    // What the chosen station sees, as its picture's corners at the object's distance.
-    let cone = chosen.and_then(|id| {
-        let place = plan.stations.iter().position(|s| s.id == id)?;
-        let sight = prediction?.stations.get(place)?;
-        let reach = sight.distance? * 1.05;
-        let from = frame.at(&plan.stations[place].position);
-        let ends = sight.corners.map(|c| {
-            let p = plan.stations[place].position;
-            frame.at(&[0, 1, 2].map(|k| p[k] + reach * c[k]))
-        });
-        let rays = ends.map(|e| format!("M{:.1} {:.1}L{:.1} {:.1}", from[0], from[1], e[0], e[1])).concat();
-        let frame = format!(
-            "M{:.1} {:.1}L{:.1} {:.1}L{:.1} {:.1}L{:.1} {:.1}Z",
-            ends[0][0], ends[0][1], ends[1][0], ends[1][1], ends[2][0], ends[2][1], ends[3][0], ends[3][1]
-        );
-        Some(view! { <path class="cone" d=frame></path><path class="cone-rays" d=rays></path> })
-    });
-    let points = (0..plan.points.len()).filter_map(|k| {
+    view! { {regions}<path class="faces" d=faces></path> }
+}
+
+/// Points by what they reach, with their ellipses.
+fn points(frame: &Frame, plan: &Plan, prediction: Option<&Prediction>) -> impl IntoView + use<> {
+    // As large as is wanted, with the wanted probability, is as large everywhere.
+    let times = prediction.map_or(1.0, |p| p.factor) * WANTED / plan.wanted.precision;
+    let mut ellipses = Vec::new();
+    let signs = (0..plan.points.len()).filter_map(|k| {
         let [x, y] = frame.at(&plan.points[k].xyz?);
         let class = class_of(plan, prediction, k);
-        let id = plan.points[k].id.clone();
-        let told = prediction
-            .and_then(|p| p.points.get(k))
+        let predicted = prediction.and_then(|p| p.points.get(k));
+        if let Some(covariance) = predicted.and_then(|p| p.covariance).filter(|_| class != "given") {
+            let [large, small, angle] = frame.ellipse(&covariance);
+            let [large, small] = [large, small].map(|axis| (axis * times).min(LARGEST));
+            let turned = format!("rotate({angle:.1} {x:.1} {y:.1})");
+            ellipses.push(view! {
+                <ellipse class="ellipse" class:beyond=class == "beyond" cx=format!("{x:.1}") cy=format!("{y:.1}")
+                    rx=format!("{large:.1}") ry=format!("{small:.1}") transform=turned></ellipse>
+            });
+        }
+        let id = &plan.points[k].id;
+        let told = predicted
             .and_then(|p| p.axis)
             .zip(prediction)
             .map_or_else(|| id.clone(), |(axis, p)| format!("{id}: {}", format::compact(axis * p.factor)));
@@ -206,11 +233,16 @@ fn drawn(
             let d = format!("M{:.1} {:.1}l6 6m0 -6l-6 6", x - 3.0, y - 3.0);
             view! { <path class="beyond-at" d=d><title>{told}</title></path> }.into_any()
         } else {
-            view! { <circle class=format!("point-at {class}") cx=x cy=y r="3"><title>{told}</title></circle> }
+            view! { <circle class=format!("point-at {class}") cx=format!("{x:.1}") cy=format!("{y:.1}") r="3"><title>{told}</title></circle> }
                 .into_any()
         })
     });
-    let points = points.collect_view();
+    let signs = signs.collect_view();
+    view! { {ellipses}{signs} }
+}
+
+/// Places for the next photo.
+fn hints(frame: &Frame, desk: &Desk) -> impl IntoView + use<> {
     let suggested = desk.planning.suggested.get();
     let hints = suggested.iter().enumerate().map(|(k, s)| {
         let [x, y] = frame.at(&s.station.position);
@@ -220,12 +252,34 @@ fn drawn(
             <text class="axis hint-label" x=x y=y + 3.5 text-anchor="middle">{label}</text>
         }
     });
-    let hints = hints.collect_view();
-    let stations = plan.stations.iter().enumerate().map(|(k, station)| {
+    hints.collect_view()
+}
+
+/// Stations, and what the chosen one sees: its picture's corners at the object's distance.
+fn stations(
+    frame: &Frame,
+    plan: &Plan,
+    prediction: Option<&Prediction>,
+    chosen: Option<&str>,
+) -> impl IntoView + use<> {
+    let cone = chosen.and_then(|id| {
+        let place = plan.stations.iter().position(|s| s.id == id)?;
+        let sight = prediction?.stations.get(place)?;
+        let reach = sight.distance? * 1.05;
+        let p = plan.stations[place].position;
+        let from = frame.at(&p);
+        let ends = sight.corners.map(|c| frame.at(&[0, 1, 2].map(|k| p[k] + reach * c[k])));
+        let rays = ends.map(|e| format!("M{:.1} {:.1}L{:.1} {:.1}", from[0], from[1], e[0], e[1])).concat();
+        let outline = format!(
+            "M{:.1} {:.1}L{:.1} {:.1}L{:.1} {:.1}L{:.1} {:.1}Z",
+            ends[0][0], ends[0][1], ends[1][0], ends[1][1], ends[2][0], ends[2][1], ends[3][0], ends[3][1]
+        );
+        Some(view! { <path class="cone" d=outline></path><path class="cone-rays" d=rays></path> })
+    });
+    let signs = plan.stations.iter().enumerate().map(|(k, station)| {
         let [x, y] = frame.at(&station.position);
         let sight = prediction.and_then(|p| p.stations.get(k)).filter(|s| s.id == station.id);
-        let look = sight.map_or([0.0, 1.0, 0.0], |s| s.direction);
-        let [dx, dy] = [look[frame.axes[0]], -look[frame.axes[1]]];
+        let [dx, dy] = frame.along(&sight.map_or([0.0, 1.0, 0.0], |s| s.direction));
         let length = dx.hypot(dy);
         let path = if length < 0.3 {
             format!("M{:.1} {:.1}h10v10h-10z", x - 5.0, y - 5.0)
@@ -251,14 +305,20 @@ fn drawn(
             </g>
         }
     });
-    let stations = stations.collect_view();
-    let unit = desk.document.with(|d| d.project.unit.clone());
+    let signs = signs.collect_view();
+    view! { {cone}{signs} }
+}
+
+/// The scale of the drawing, and how much larger the ellipses are.
+fn rule(frame: &Frame, unit: &str, wanted: f64) -> impl IntoView + use<> {
     let bar = round_length(110.0 / frame.scale);
     let long = bar * frame.scale;
+    let times = WANTED / (wanted * frame.scale);
+    let enlarged = (times > 1.0).then(|| words::ellipses_enlarged(two_digits(times)));
     view! {
-        {regions}{cone}{points}{hints}{stations}
         <path class="rule" d=format!("M{:.1} {:.1}v5h{long:.1}v-5", WIDTH - 14.0 - long, HEIGHT - 16.0)></path>
         <text class="axis" x=WIDTH - 20.0 - long y=HEIGHT - 11.0 text-anchor="end">{format!("{} {unit}", format::round(bar))}</text>
+        <text class="axis" x="12" y=HEIGHT - 11.0>{enlarged}</text>
     }
 }
 
@@ -268,4 +328,10 @@ fn round_length(length: f64) -> f64 {
     let share = length / power;
     let first = [5.0, 2.0, 1.0].into_iter().find(|step| share >= *step).unwrap_or(1.0);
     power * first
+}
+
+/// A number to two digits.
+fn two_digits(value: f64) -> String {
+    let step = 10f64.powf(value.max(1e-9).log10().floor() - 1.0);
+    format::count(((value / step).round() * step).max(1.0) as usize)
 }

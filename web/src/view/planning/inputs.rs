@@ -4,7 +4,10 @@ use leptos::prelude::*;
 use sightline::project::{Camera, DatumKind, Form, Interior, Parameter, Plan};
 use sightline_protocol::PlanOf;
 
+use super::camera::KnownCameras;
+use super::object::{Control, Faces, Points, Targets, choose_points, numbers};
 use crate::browser::event;
+use crate::edit::control::{UNITS, has_lengths};
 use crate::edit::plan;
 use crate::format;
 use crate::i18n::planning as words;
@@ -26,15 +29,27 @@ pub fn Beginnings() -> impl IntoView {
         ("kang", words::example_kang),
         ("kim", words::example_kim),
     ];
+    let fresh = Memo::new(move |_| desk.document.with(|d| !has_lengths(&d.project)));
     let measured = Memo::new(move |_| desk.document.with(|d| d.project.points.iter().any(|p| p.xyz.is_some())));
     view! {
         <section class="begin">
             <h2>{words::begin_with}</h2>
             <p class="hint">{words::begin_words}</p>
+            <Show when=move || fresh.get()>
+                <label class="field unit-to-begin">
+                    <span>{words::unit}</span>
+                    <select name="unit" on:change=move |e| desk.planning.unit.set(event::value(&e))>
+                        {UNITS.map(|(name, _)| view! {
+                            <option value=name selected=move || desk.planning.unit.with(|u| u == name)>{name}</option>
+                        })}
+                    </select>
+                </label>
+            </Show>
             <div class="row">
                 {forms.map(|(kind, label)| view! {
                     <button class="button large" data-form=kind on:click=move |_| desk.begin_plan(kind)>{label}</button>
                 }).collect_view()}
+                <button class="button large" data-form="list" on:click=move |_| choose_points(desk)>{words::points_file}</button>
                 <Show when=move || measured.get()>
                     <button class="button large" data-form="project" on:click=move |_| {
                         let project = desk.document.with_untracked(|d| (*d.project).clone());
@@ -48,6 +63,7 @@ pub fn Beginnings() -> impl IntoView {
                     <Glyph icon=Icon::Arrow/>
                 </button>
             }).collect_view()}
+            <Points/>
         </section>
     }
 }
@@ -207,7 +223,7 @@ pub fn Inputs() -> impl IntoView {
                 write=|f, on| if let Form::Cylinder { inside, .. } = f { *inside = on }/>
         }
         .into_any(),
-        _ => view! { <p class="hint">{words::given_points}</p> }.into_any(),
+        _ => view! { <Points/><Targets/> }.into_any(),
     }
     };
     view! {
@@ -230,8 +246,10 @@ pub fn Inputs() -> impl IntoView {
                     fits
                 }/>
         </div>
+        <Faces/>
         <h2 class="section-head"><span>{words::camera}</span></h2>
         <div class="fields">
+            <KnownCameras/>
             <Number label=words::principal_distance name="c" unit="mm" read=principal_distance write=set_principal_distance/>
             <Number label=words::sensor_width name="sensor-width" unit="px" read=|p| Some(f64::from(p.cameras.first()?.width))
                 write=|p, v| set_size_px(p, v, |camera| &mut camera.width)/>
@@ -281,6 +299,7 @@ pub fn Inputs() -> impl IntoView {
                     </Show>
                 </select>
             </label>
+            <Control/>
         </div>
         <Regions/>
         <div class="fields">
@@ -341,17 +360,10 @@ fn Regions() -> impl IntoView {
         };
         regions.into_iter().map(row).collect_view()
     };
-    let commit = move |typed: String| {
-        let numbers: Vec<f64> = typed
-            .split([',', ';', ' ', '…'])
-            .filter(|part| !part.trim().is_empty())
-            .filter_map(format::parse)
-            .collect();
-        match plan::region(&numbers) {
-            Some(region) => desk.edit_plan(Change::PlanEdited, |plan| plan.forbidden.push(region)),
-            None if typed.trim().is_empty() => {}
-            None => desk.warn_here(move || text::not_a_length(&typed)),
-        }
+    let commit = move |typed: String| match plan::region(&numbers(&typed)) {
+        Some(region) => desk.edit_plan(Change::PlanEdited, |plan| plan.forbidden.push(region)),
+        None if typed.trim().is_empty() => {}
+        None => desk.warn_here(|| words::forbidden_hint().to_owned()),
     };
     view! {
         <h2 class="section-head"><span>{words::forbidden}</span></h2>

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::drawing::rounded;
+use super::frame::rounded;
 use super::predicted;
 use crate::browser::event;
 use crate::edit::plan;
@@ -26,15 +26,15 @@ pub fn Stations() -> impl IntoView {
             let id = StoredValue::new(station.id.clone());
             let coordinate = move |axis: usize| {
                 let value = Signal::derive(move || {
-                    let place = desk.shown_plan().and_then(|p| p.stations.get(k).map(|s| s.position[axis]));
+                    let place = desk.with_plan(|p| p.stations.get(k).map(|s| s.position[axis])).flatten();
                     place.map_or(String::new(), |v| format::editable(rounded(v)))
                 });
                 let commit = move |typed: String| {
                     let Some(number) = format::parse(&typed).filter(|v| v.is_finite() && v.abs() < 1e9) else {
-                        return desk.warn_here(move || text::not_a_length(&typed));
+                        return desk.warn_here(move || text::not_a_number(&typed));
                     };
                     desk.edit_plan(Change::StationMoved(id.get_value()), |plan| {
-                        plan::move_station(plan, &id.get_value(), [axis, axis], [number, number]);
+                        plan::move_station(plan, &id.get_value(), axis, number);
                     });
                 };
                 let name = ["X", "Y", "Z"][axis];
@@ -49,6 +49,12 @@ pub fn Stations() -> impl IntoView {
                 <tr class:chosen=chosen.as_deref() == Some(station.id.as_str()) data-station=station.id.clone()
                     on:click=move |_| planning.chosen.set(Some(id.get_value()))>
                     <td class="left id">{station.id.clone()}</td>
+                    <td>
+                        <input type="checkbox" aria-label=move || words::taken_station(id.get_value()) prop:checked=taken on:change=move |e| {
+                            let on = event::checked(&e);
+                            desk.edit_plan(Change::PlanEdited, |plan| if let Some(s) = plan.stations.get_mut(k) { s.taken = on });
+                        }/>
+                    </td>
                     {coordinate(0)}{coordinate(1)}{coordinate(2)}
                     <td>
                         <button class="link" aria-label=move || words::turn_station(id.get_value()) on:click=move |_| {
@@ -61,12 +67,6 @@ pub fn Stations() -> impl IntoView {
                     </td>
                     <td>{sight(|s| s.distance.map_or("–".to_owned(), format::compact))}</td>
                     <td>{sight(|s| format::count(s.points.len()))}</td>
-                    <td>
-                        <input type="checkbox" aria-label=move || words::taken_station(id.get_value()) prop:checked=taken on:change=move |e| {
-                            let on = event::checked(&e);
-                            desk.edit_plan(Change::PlanEdited, |plan| if let Some(s) = plan.stations.get_mut(k) { s.taken = on });
-                        }/>
-                    </td>
                     <td>
                         <button class="icon-button small" aria-label=move || words::remove_station(id.get_value()) on:click=move |e| {
                             e.stop_propagation();
@@ -90,13 +90,14 @@ pub fn Stations() -> impl IntoView {
         <div class="scroll-x">
             <table class="table stations">
                 <thead><tr>
-                    <th class="left">{words::number}</th><th>{words::x}</th><th>{words::y}</th><th>{words::z}</th>
-                    <th>{words::roll}</th><th>{words::distance}</th><th>{words::sees}</th><th>{words::taken}</th><th></th>
+                    <th class="left">{words::number}</th><th>{words::taken}</th><th>{words::x}</th><th>{words::y}</th><th>{words::z}</th>
+                    <th>{words::roll}</th><th>{words::distance}</th><th>{words::sees}</th><th></th>
                 </tr></thead>
                 <tbody>{rows}</tbody>
             </table>
         </div>
         <Aim/>
+        <Unseen/>
     }
 }
 
@@ -122,7 +123,7 @@ fn Aim() -> impl IntoView {
                 Some(number) => {
                     desk.edit_plan(Change::StationMoved(id.clone()), |plan| plan::aim_station(plan, &id, axis, number))
                 }
-                None => desk.warn_here(move || text::not_a_length(&typed)),
+                None => desk.warn_here(move || text::not_a_number(&typed)),
             };
             let name = ["X", "Y", "Z"][axis];
             view! { <Field value commit attr:class="short" attr:name=format!("aim-{}", name.to_lowercase()) attr:aria-label=move || format!("{} {name}", words::look_at())/> }
@@ -135,6 +136,31 @@ fn Aim() -> impl IntoView {
         })
     };
     view! { <div>{fields}</div> }
+}
+
+/// What the chosen station does not see, and why.
+#[component]
+fn Unseen() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let told = move || {
+        let id = desk.planning.chosen.get()?;
+        let prediction = predicted(desk)?;
+        let sight = prediction.stations.iter().find(|s| s.id == id)?;
+        let unseen = sight.unseen;
+        let reasons = [
+            (unseen.outside, words::unseen_outside as fn(String) -> String),
+            (unseen.turned_away, words::unseen_turned_away),
+            (unseen.hidden, words::unseen_hidden),
+            (unseen.too_small, words::unseen_too_small),
+            (unseen.blurred, words::unseen_blurred),
+        ];
+        let told: Vec<String> =
+            reasons.into_iter().filter(|(n, _)| *n > 0).map(|(n, words)| words(format::count(n))).collect();
+        let smallest = sight.smallest_px.map(|px| words::smallest_target(format::fixed(px, 1)));
+        let all = if told.is_empty() { words::sees_all().to_owned() } else { words::does_not_see(told.join(", ")) };
+        Some(view! { <p class="note" data-unseen>{all} " " {smallest}</p> })
+    };
+    view! { <div>{told}</div> }
 }
 
 /// What to look after on site.

@@ -147,9 +147,14 @@ pub fn Next() -> impl IntoView {
         let now = planning.criterion.get();
         let mut all =
             vec![(Criterion::Worst, words::by_worst().to_owned()), (Criterion::Mean, words::by_mean().to_owned())];
-        if let Some(worst) = predicted(desk).and_then(|p| p.worst).or_else(chosen_point) {
+        if let Some(worst) = predicted(desk).and_then(|p| p.worst.clone()).or_else(chosen_point) {
             let words = words::by_chosen(&worst);
             all.push((Criterion::Points { points: vec![worst] }, words));
+        }
+        let features =
+            desk.document.with(|d| d.project.plan.as_deref().map_or(Vec::new(), |p| plan::features(&d.project, p)));
+        for (name, points) in features {
+            all.push((Criterion::Points { points }, words::by_feature(name)));
         }
         for parameter in parameters().unwrap_or_default() {
             all.push((Criterion::Parameter { parameter }, words::by_parameter(parameter_name(parameter))));
