@@ -156,3 +156,35 @@ test('a click before detection measures, typing names, Alt-click and the button 
     await close();
   }
 });
+
+test('residuals are drawn over the photo, as many times their length as asked', longer, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  // Pixels of the drawing, however pale: more where vectors are longer.
+  const drawn = () =>
+    page.evaluate(() => {
+      const canvas = document.querySelector('canvas.photo');
+      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let k = 3; k < data.length; k += 4) count += data[k] > 0 ? 1 : 0;
+      return count;
+    });
+  try {
+    await sample(page);
+    await go(page, 'targets');
+    await showPhoto(page, 'sample-1');
+    await page.click('[data-action=layers]');
+    const without = await drawn();
+    await page.check('[name=layer-residuals]');
+    await page.press('[name=residual-factor]', 'Home');
+    const short = await drawn();
+    await page.press('[name=residual-factor]', 'End');
+    assert.match(await page.textContent('.layers'), /1.?000 times/);
+    const long = await drawn();
+    assert.ok(short > without && long > 1.5 * (short - without) + without, `${without} ${short} ${long}`);
+    await page.uncheck('[name=layer-residuals]');
+    assert.equal(await drawn(), without);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});

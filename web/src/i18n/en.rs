@@ -405,6 +405,9 @@ declare! { desk {
     layer_names: "names";
     layer_predicted: "where the point should be";
     layer_epipolar: "epipolar lines";
+    layer_residuals: "residuals";
+    residual_factor: "How many times their length residuals are drawn";
+    times(n): "{n} times";
     brightness: "brightness";
     picture_contrast: "contrast";
     as_it_is: "As it is";

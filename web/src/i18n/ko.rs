@@ -396,6 +396,9 @@ translate! { Korean desk {
     layer_names: "점번호";
     layer_predicted: "예측 위치";
     layer_epipolar: "에피폴라선";
+    layer_residuals: "잔차";
+    residual_factor: "잔차 벡터의 확대 배율";
+    times(n): "{n}배";
     brightness: "밝기";
     picture_contrast: "대비";
     as_it_is: "원래대로";

@@ -225,6 +225,9 @@ pub struct Layers {
     pub names: bool,
     pub predicted: bool,
     pub epipolar: bool,
+    pub residuals: bool,
+    /// How many times their length residuals are drawn.
+    pub residual_factor: f64,
     /// How bright and how rich in contrast photos are shown; 1 is as they are.
     pub brightness: f64,
     pub contrast: f64,
@@ -232,7 +235,16 @@ pub struct Layers {
 
 impl Default for Layers {
     fn default() -> Self {
-        Self { ellipses: true, names: true, predicted: true, epipolar: true, brightness: 1.0, contrast: 1.0 }
+        Self {
+            ellipses: true,
+            names: true,
+            predicted: true,
+            epipolar: true,
+            residuals: false,
+            residual_factor: 100.0,
+            brightness: 1.0,
+            contrast: 1.0,
+        }
     }
 }
 

@@ -1,12 +1,16 @@
-//! What is drawn over photos and how bright these are shown; and the drawing of what is predicted.
+//! What is drawn over photos and how bright these are shown; and the drawing of what is predicted and of residuals.
 
 use leptos::prelude::*;
+use sightline::adjustment::PhotoUnit;
 use sightline::matching::PhotoPrediction;
+use sightline::project::Interior;
 
 use super::transform::Placement;
 use crate::browser::canvas::Surface;
 use crate::browser::event;
+use crate::format;
 use crate::i18n::{Text, text};
+use crate::store::document::Document;
 use crate::store::{Desk, Layers};
 
 /// Colours and dashes of epipolar lines, one for each of the first photos they come from.
@@ -28,6 +32,53 @@ pub fn draw_prediction(surface: &Surface, placement: Placement, predicted: &Phot
         surface.pen(&surface.token("--p-accent"), 2.0, &[5.0, 4.0]);
         let half = |axis: f64| (axis * placement.scale).max(6.0);
         surface.ellipse(x, y, half(a), half(b), placement.angle_on_screen(angle));
+    }
+}
+
+/// Factors that residuals may be drawn with.
+const FACTORS: [f64; 7] = [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0];
+
+/// Where a measurement lies in its photo and by how much the adjustment moves it, pixels to the right and down.
+pub struct Residual {
+    pub at: [f64; 2],
+    pub by: [f64; 2],
+    /// Whether a test calls it a gross error.
+    pub over: bool,
+}
+
+/// The residuals of a photo's measurements that took part in the last adjustment.
+pub fn residuals_in(document: &Document, photo: &str) -> Vec<Residual> {
+    let Some(result) = &document.result else { return Vec::new() };
+    let (project, adjustment) = (&result.oriented, &result.adjustment);
+    let camera = project.photos.iter().find(|p| p.id == photo).map(|p| &p.camera);
+    let Some(camera) = project.cameras.iter().find(|c| Some(&c.id) == camera) else { return Vec::new() };
+    let [px, py] = PhotoUnit::of(camera).1;
+    // photo coordinates of the brown model count upwards
+    let down = if matches!(camera.interior, Interior::Opencv { .. }) { 1.0 } else { -1.0 };
+    let pairs = project.observations.iter().zip(&adjustment.observations);
+    let here = pairs.filter(|(o, r)| r.enabled && o.photo == photo && o.photo == r.photo && o.point == r.point);
+    let residual = here.filter_map(|(o, r)| {
+        let over = |w: Option<f64>| w.is_some_and(|w| w.abs() > adjustment.criteria.w);
+        Some(Residual { at: [o.u, o.v], by: [r.vx? / px, down * r.vy? / py], over: over(r.wx) || over(r.wy) })
+    });
+    residual.collect()
+}
+
+/// Draws residuals as vectors from where was measured, so many times their length; what a test calls a gross error in its colour.
+pub fn draw_residuals(surface: &Surface, placement: Placement, residuals: &[Residual], factor: f64) {
+    for over in [false, true] {
+        surface.pen(&surface.token(if over { "--p-bad" } else { "--p-b" }), 2.0, &[]);
+        for residual in residuals.iter().filter(|r| r.over == over) {
+            let [x, y] = placement.to_screen(residual.at);
+            let [x2, y2] = placement.to_screen([0, 1].map(|k| residual.at[k] + factor * residual.by[k]));
+            surface.line(x, y, x2, y2);
+            let (length, angle) = ((x2 - x).hypot(y2 - y), (y2 - y).atan2(x2 - x));
+            if length > 6.0 {
+                for turn in [-2.6, 2.6] {
+                    surface.line(x2, y2, x2 + 6.0 * (angle + turn).cos(), y2 + 6.0 * (angle + turn).sin());
+                }
+            }
+        }
     }
 }
 
@@ -62,6 +113,17 @@ pub fn LayerChoice() -> impl IntoView {
                 {tick(text::layer_names, "layer-names", |l| l.names, |l, on| l.names = on)}
                 {tick(text::layer_predicted, "layer-predicted", |l| l.predicted, |l, on| l.predicted = on)}
                 {tick(text::layer_epipolar, "layer-epipolar", |l| l.epipolar, |l, on| l.epipolar = on)}
+                <Show when=move || desk.document.with(|d| d.result.is_some())>
+                    {tick(text::layer_residuals, "layer-residuals", |l| l.residuals, |l, on| l.residuals = on)}
+                    <label class="slide"><span>{move || text::times(format::fixed(desk.layers.with(|l| l.residual_factor), 0))}</span>
+                        <input type="range" name="residual-factor" aria-label=text::residual_factor min="0" max=FACTORS.len() - 1 step="1"
+                            prop:value=move || FACTORS.iter().position(|f| *f == desk.layers.with(|l| l.residual_factor)).unwrap_or(3).to_string()
+                            on:input=move |e| {
+                                let chosen = event::value(&e).parse::<usize>().ok().and_then(|k| FACTORS.get(k));
+                                if let Some(factor) = chosen { desk.layers.update(|l| l.residual_factor = *factor) }
+                            }/>
+                    </label>
+                </Show>
                 {slide(text::brightness, "brightness", |l| l.brightness, |l, v| l.brightness = v)}
                 {slide(text::picture_contrast, "contrast", |l| l.contrast, |l, v| l.contrast = v)}
                 <button class="button small" type="button" on:click=move |_| desk.layers.set(Layers::default())>{text::as_it_is}</button>

@@ -9,7 +9,7 @@ use leptos::prelude::*;
 use super::icon::{Glyph, Icon};
 use super::insets::Insets;
 use super::keys;
-use super::layers::{LayerChoice, draw_prediction};
+use super::layers::{LayerChoice, draw_prediction, draw_residuals, residuals_in};
 use super::transform::Placement;
 use crate::browser::canvas::{SizeWatch, Surface, TEXT_SIZE};
 use crate::browser::event::{self, Key, Pointer};
@@ -210,12 +210,16 @@ pub fn PhotoView(
         let (Some(element), Some(placement)) = (canvas.get(), placement.get()) else { return };
         let Some(surface) = Surface::new(&element) else { return };
         let layers = desk.layers.get();
-        if frame.get().is_some() {
+        if let Some((photo, ..)) = frame.get() {
             if let Some(predicted) = desk.prediction_here() {
                 draw_prediction(&surface, placement, &predicted, layers);
             }
             marks.with(|marks| draw_marks(&surface, placement, marks, layers));
             strokes.with(|strokes| draw_strokes(&surface, placement, strokes));
+            if layers.residuals {
+                let residuals = desk.document.with(|document| residuals_in(document, &photo));
+                draw_residuals(&surface, placement, &residuals, layers.residual_factor);
+            }
             if let Some([x, y]) = cross.get() {
                 surface.pen(&surface.token("--p-accent"), 1.0, &[]);
                 for (dx, dy) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {

@@ -238,6 +238,8 @@ fn Residuals() -> impl IntoView {
         read(desk, |a, project| {
             let [px, py] = pixel_of(&camera);
             let (w, h) = (f64::from(camera.width), f64::from(camera.height));
+            // those of the opencv model count downwards
+            let up = if matches!(camera.interior, sightline::project::Interior::Opencv { .. }) { -1.0 } else { 1.0 };
             let places = project.observations.iter().zip(&a.observations);
             let here =
                 places.filter(|(o, r)| o.photo == photo && r.enabled && o.point == r.point && o.photo == r.photo);
@@ -245,7 +247,7 @@ fn Residuals() -> impl IntoView {
                 Some(Vector {
                     point: o.point.clone(),
                     at: [(o.u - w / 2.0) * px, (h / 2.0 - o.v) * py],
-                    residual: [r.vx?, r.vy?],
+                    residual: [r.vx?, up * r.vy?],
                     chosen: Some(&o.point) == chosen.as_ref(),
                     over: largest_w(r).is_some_and(|w| w.abs() > a.criteria.w),
                 })
