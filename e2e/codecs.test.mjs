@@ -7,11 +7,11 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 
 import { open } from './browser.mjs';
-import { detect, photos, sample } from './desk.mjs';
+import { detect, drop, idle, photos, sample } from './desk.mjs';
 
 const count = (text) => Number(text.replace(/\D/g, ''));
 
-test('a HEIC is opened and measured, and without one no decoder is fetched', { timeout: 180_000 }, async () => {
+test('HEIC and RAW are opened and measured, and without one no decoder is fetched', { timeout: 180_000 }, async () => {
   const folder = mkdtempSync(join(tmpdir(), 'sightline-written-'));
   execFileSync(join(process.env.SIGHTLINE_EXAMPLES, 'written'), [folder]);
   const { page, context, errors, close } = await open({ width: 1366, height: 768 });
@@ -28,9 +28,13 @@ test('a HEIC is opened and measured, and without one no decoder is fetched', { t
     assert.equal(await page.locator('.tile').count(), 1);
     assert.equal(await page.locator('.problems li').count(), 0);
     assert.ok(decoders().some((url) => url.endsWith('_bg.wasm')));
+    // The picture of a RAW that has no preview comes from its samples.
+    await drop(page, [join(folder, 'photo.dng')]);
+    await page.waitForFunction(() => document.querySelectorAll('.tile').length === 2);
+    await idle(page);
     await detect(page, {});
     const found = count(await page.textContent('[data-step=targets] .figure'));
-    assert.ok(found > 40, `${found} targets`);
+    assert.ok(found > 80, `${found} targets`);
     // What was asked for once is there without a network from then on.
     const kept = () => page.evaluate(async () => {
       const all = await Promise.all((await caches.keys()).map(async (key) => (await (await caches.open(key)).keys()).map(({ url }) => url)));

@@ -5,7 +5,8 @@
 //! confirms them: sub-pixel edges, a robust ellipse through them ([`ellipse`] is the shape itself), the grey levels around.
 //! [`rendered`] measures the centre by the fit of a rendered ellipse, or [`centroid`] by a classical operator; [`measure`] leads
 //! from one to the next. Rings around a target are read as codes ([`code`]). In ordinary photos [`alike`] finds more by what the targets
-//! found have in common. A room uses those before it, never the reverse. [`whole`] goes around what a damaged file does not give.
+//! found have in common. A room uses those before it, never the reverse. [`whole`] goes around what a damaged file does not give,
+//! [`sites`] measures on a sensor's own samples.
 
 mod alike;
 mod centroid;
@@ -21,6 +22,7 @@ mod picture;
 mod rendered;
 mod search;
 mod shot;
+mod sites;
 mod whole;
 
 pub(crate) use ellipse::{conic, outline};

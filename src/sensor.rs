@@ -10,12 +10,12 @@ mod part;
 use serde::{Deserialize, Serialize};
 
 use crate::decode::{Photo, Picture};
-use crate::detection::Channel;
+use crate::detection::{Channel, Colour};
 use crate::error::{Damage, Error, Place, Result};
 use crate::exif::PhotoInfo;
 use crate::image::{Grey, Samples};
 use crate::limits;
-pub use mosaic::{Black, Colour, Mosaic, Pattern};
+pub use mosaic::{Black, BlackRow, Mosaic, Pattern};
 pub use part::part;
 
 /// What is said of the samples.

@@ -638,6 +638,30 @@ export interface PictureReport {
   softened: boolean;
 }
 
+/** Colour of a filter of a sensor. */
+export type Colour = "red" | "green" | "blue" | "cyan" | "magenta" | "yellow" | "white" | "emerald";
+
+/** A sensor's own samples that were measured on; levels and noise in these samples. */
+export interface Measured {
+  /** "sites": each site by itself; "interpolated_sites": a picture between them, for methods other than "least_squares". */
+  on: "sites" | "interpolated_sites";
+  format: string;
+  colour: Colour | null;
+  /** Filters, one letter a site, row by row. */
+  pattern: string | null;
+  bits: number;
+  /** The part of the grid that light reaches: left, top, width, height. Coordinates are on the whole grid. */
+  active_area: [number, number, number, number] | null;
+  /** Sample from which one is clipped. */
+  white: number | null;
+  /** Growth of a sample's variance with the light in it. */
+  gain: number | null;
+  /** Standard deviation of a sample without light. */
+  read_noise: number | null;
+  /** Sites that shine by themselves. */
+  hot_sites: number | null;
+}
+
 export interface Detection {
   width: number;
   height: number;
@@ -645,6 +669,8 @@ export interface Detection {
   /** Rows that could not be decoded and were not measured: first row and the row after the last. Empty for a sound file. */
   damaged_rows: [number, number][];
   picture: PictureReport;
+  /** What was measured on, where it is a sensor's own samples (RAW). */
+  measured?: Measured;
   targets: Target[];
   rejected: Partial<Record<RejectionReason, number>>;
   /** Made when they are first read. */

@@ -40,9 +40,9 @@ declare! { desk {
 
     // Start
     drop_here: "Drop photos or a project anywhere on this page";
-    formats: "JPEG, HEIC, PNG, TIFF and BMP, 8 or 16 bit. They stay on this computer.";
+    formats: "JPEG, HEIC, RAW, PNG, TIFF and BMP, 8 or 16 bit. They stay on this computer.";
     choose_photos: "Choose photos…";
-    heic_and_raw: "RAW files are recognised; the message says how to convert them.";
+    heic_and_raw: "RAW photos are measured on the sensor's own samples; a kind that is not read is named, with how to convert it.";
 
     // Photos and cameras
     photos: "Photos";

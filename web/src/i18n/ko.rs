@@ -36,9 +36,9 @@ translate! { Korean desk {
 
     // Start
     drop_here: "사진이나 프로젝트를 이 페이지 아무 곳에나 놓으십시오";
-    formats: "JPEG, HEIC, PNG, TIFF, BMP, 8·16비트. 파일은 이 컴퓨터를 떠나지 않습니다.";
+    formats: "JPEG, HEIC, RAW, PNG, TIFF, BMP, 8·16비트. 파일은 이 컴퓨터를 떠나지 않습니다.";
     choose_photos: "사진 고르기…";
-    heic_and_raw: "RAW 파일은 인식하여 변환 방법을 안내합니다.";
+    heic_and_raw: "RAW 사진은 센서 값에서 직접 측정하며, 읽지 못하는 형식은 변환 방법과 함께 알려 드립니다.";
 
     // Photos and cameras
     photos: "사진";

@@ -430,7 +430,7 @@ pub fn choose_project(desk: Desk) {
 /// Opens the chooser for photos.
 pub fn choose_photos(desk: Desk) {
     file::choose(
-        ".jpg,.jpeg,.png,.tif,.tiff,.heic,.heif,.dng,.nef,.cr2,.cr3,.arw,.orf,.rw2,image/*",
+        ".jpg,.jpeg,.png,.tif,.tiff,.heic,.heif,.dng,.nef,.nrw,.cr2,.cr3,.arw,.orf,.rw2,.raf,.pef,.srw,image/*",
         true,
         move |files| {
             desk.take(files);
