@@ -1,10 +1,14 @@
 //! What detection reports: targets with their centres and sigmas, and what was rejected and why.
 
+mod apart;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
 use crate::ring_code::Family;
+
+pub use apart::{ColourApart, ColoursApart, Lateral, Shift};
 
 /// How a centre is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -397,6 +401,8 @@ pub struct Measured {
     pub read_noise: Option<f64>,
     /// Sites that shine by themselves and were left out of the search.
     pub hot_sites: Option<usize>,
+    /// Corrections of the lens that the file names, in its own words; none was made.
+    pub corrections: Vec<String>,
 }
 
 /// Result of the detection in one photo.

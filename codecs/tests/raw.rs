@@ -9,7 +9,7 @@ mod painter;
 use dng::Dng;
 use nalgebra::{DMatrix, DVector};
 use painter::{Canvas, Spot, Uniform};
-use sightline::detect::{detect, detect_shot, measure_in_shot};
+use sightline::detect::{colours_apart, detect, detect_shot, measure_in_shot};
 use sightline::detection::{Channel, Colour, DetectOptions, Detection, MeasuredOn, Target};
 use sightline::error::Error;
 use sightline::image::{Grey, Samples};
@@ -39,6 +39,11 @@ const FOURTEEN: Camera = Camera { bits: 14, black: 512.0, white: 16383.0, gain: 
 
 /// 200 circles of ten diameters from 6 to 40 pixels, bright on dark and dark on bright, as shares of the largest light.
 fn scene() -> (Canvas, Vec<Spot>) {
+    scene_of(1.0)
+}
+
+/// The same with a lens that images everything so much larger about the middle of the lit part.
+fn scene_of(scale: f64) -> (Canvas, Vec<Spot>) {
     const PITCH: f64 = 72.0;
     let (columns, rows) = (20, 10);
     let mut canvas =
@@ -56,6 +61,8 @@ fn scene() -> (Canvas, Vec<Spot>) {
             let (column, row) = (k % columns, k / columns);
             let (u, v) =
                 (place(column, MASKED[0]) + random.within(-2.0, 2.0), place(row, MASKED[1]) + random.within(-2.0, 2.0));
+            let middle = [(canvas.width + MASKED[0]) as f64 / 2.0, (canvas.height + MASKED[1]) as f64 / 2.0];
+            let (u, v) = (middle[0] + scale * (u - middle[0]), middle[1] + scale * (v - middle[1]));
             let a = radius(row);
             let contrast = if column < columns / 2 { 0.55 } else { -0.5 };
             Spot { u, v, a, b: a, angle: 0.0, contrast }
@@ -183,7 +190,7 @@ fn centres_reach_the_bound_of_the_green_sites_and_state_it() {
     let (canvas, spots) = scene();
     let (mut ratios, mut normals, mut count) = (0.0, 0.0, 0.0);
     for (k, pattern) in ORDERS.into_iter().enumerate() {
-        for (camera, lossless_jpeg) in [(TWELVE, k % 2 == 1), (FOURTEEN, k % 2 == 0)] {
+        for (camera, lossless_jpeg) in [(TWELVE, !k.is_multiple_of(2)), (FOURTEEN, k.is_multiple_of(2))] {
             let file = Dng { lossless_jpeg, ..exposed(&canvas, camera, pattern, 100 + k as u64) }.file();
             let found = detected(&file, Channel::Grey);
             let [hits, wrong, ratio, normal] = judged(&found, &spots, camera, pattern, 'G');
@@ -229,6 +236,32 @@ fn hits_are_as_on_grey_and_other_colours_may_be_chosen() {
         assert!(hits >= 180.0 && wrong == 0.0, "{hits} {wrong}");
         assert!(ratio < 1.25, "{ratio}");
         assert_eq!(found.measured.and_then(|measured| measured.colour), Some(colour));
+    }
+}
+
+#[test]
+fn colours_apart_show_the_lens() {
+    let scales = [1.0006, 1.0, 0.9995];
+    let files: Vec<Dng> =
+        scales.iter().zip(5..).map(|(scale, seed)| exposed(&scene_of(*scale).0, FOURTEEN, "RGGB", seed)).collect();
+    let mut file = files[1].clone();
+    let width = file.width;
+    for (i, sample) in file.samples.iter_mut().enumerate() {
+        let colour = [0, 1, 1, 2][(i / width) % 2 * 2 + i % width % 2];
+        *sample = files[colour].samples[i];
+    }
+    let shot = shot(&file.file());
+    let apart = colours_apart(|_| Ok(shot.clone()), &DetectOptions::default()).expect("colours");
+    assert_eq!(apart.colours.iter().map(|apart| apart.colour).collect::<Vec<_>>(), [Colour::Red, Colour::Blue]);
+    for (colour, scale) in apart.colours.iter().zip([1.0006, 0.9995]) {
+        let lateral = colour.lateral.expect("a lens");
+        let truth = (scale - 1.0) * apart.corner;
+        println!(
+            "{:?}: {:.4} of {truth:.4} px at the corner, sigma {:.4}, sigma0 {:.3}, {} targets",
+            colour.colour, lateral.at_corner, lateral.sigma_at_corner, lateral.sigma0, lateral.targets
+        );
+        assert!(lateral.targets > 150 && (lateral.at_corner - truth).abs() < 4.0 * lateral.sigma_at_corner);
+        assert!(lateral.sigma_at_corner < 0.02 && (0.8..1.25).contains(&lateral.sigma0), "{lateral:?}");
     }
 }
 
@@ -283,6 +316,7 @@ fn the_file_is_told_and_shown() {
     assert_eq!(header.info.date.as_deref(), Some("2026-02-03T04:05:06"));
     assert_eq!(header.corrections, ["WarpRectilinear"]);
     let Shot::Sensor(sensor) = shot(&file) else { panic!("a sensor") };
+    assert_eq!(sensor.corrections, ["WarpRectilinear"]);
     assert_eq!(sensor.samples, dng.samples);
     assert_eq!(sensor.mosaic.active_area[..2], [MASKED[0] as u32, MASKED[1] as u32]);
     let picture = sensor::picture(&Shot::Sensor(sensor), 300);

@@ -94,6 +94,8 @@ pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<
             }
         }
     }
+    detection.targets.iter_mut().for_each(|target| target.id = 0);
+    detection.number_targets();
     let size = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
     (detection.width, detection.height) = (size(sensor.width), size(sensor.height));
     detection.damaged_rows = sensor.damaged_rows.clone();
@@ -127,6 +129,26 @@ pub(super) fn measure_in_sensor(sensor: &Sensor, u: f64, v: f64, options: &Detec
     }
     let Some(target) = measure_in_photo(&photo, u - shift[0], v - shift[1], options)? else { return Ok(None) };
     Ok(sites.measured(&view, target, options, &mut Field::default()).ok())
+}
+
+/// Targets that are known, measured on the sites of another colour, without a search; none where that has no target.
+///
+/// # Errors
+/// As for [`detect_sensor`].
+pub(super) fn measured_again(
+    sensor: &Sensor,
+    targets: &[Target],
+    options: &DetectOptions,
+) -> Result<Vec<Option<Target>>> {
+    let sites = Sites::of(sensor, options);
+    let (photo, _) = searched(&sites)?;
+    let view = photo.grey.view()?;
+    let mut field = Field::default();
+    let again = |target: &Target| {
+        let (u, v) = (target.u - sites.lit[0] as f64, target.v - sites.lit[1] as f64);
+        sites.measured(&view, Target { u, v, ..target.clone() }, options, &mut field).ok()
+    };
+    Ok(targets.iter().map(again).collect())
 }
 
 /// The grey picture of the search, of the lit part; how many hot sites were left out of it.
@@ -194,7 +216,7 @@ impl Sites<'_> {
 
     /// What the detection says of what it was measured on.
     fn told(&self, method: Method, hot: usize) -> Measured {
-        let Sensor { format, bits, mosaic, .. } = self.sensor;
+        let Sensor { format, bits, mosaic, corrections, .. } = self.sensor;
         Measured {
             on: if method == Method::LeastSquares { MeasuredOn::Sites } else { MeasuredOn::InterpolatedSites },
             format: format.clone(),
@@ -206,6 +228,7 @@ impl Sites<'_> {
             gain: Some(self.noise.gain),
             read_noise: Some(self.noise.read.sqrt()),
             hot_sites: Some(hot),
+            corrections: corrections.clone(),
         }
     }
 }

@@ -88,7 +88,7 @@ impl Classes {
         let mut classes = Self { lights: vec![(0.0, 0); CLASSES], sizes: vec![Vec::new(); CLASSES] };
         let step = ((bottom - top) / ROWS).max(1);
         // an odd step, so that rows of every kind are among them
-        let step = step + usize::from(step > 1 && step % 2 == 0);
+        let step = step + usize::from(step > 1 && step.is_multiple_of(2));
         for y in (top + down..bottom.saturating_sub(down)).step_by(step) {
             if !sites.is_whole(y) {
                 continue;

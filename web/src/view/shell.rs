@@ -444,6 +444,8 @@ pub fn problem_sentence(reason: &crate::store::Reason) -> String {
     match reason {
         Reason::Engine(error) => errors::sentence(error),
         Reason::Duplicate { of } => text::duplicate_of(of),
+        Reason::Developed { of } => text::developed_of(of),
+        Reason::RawOf { of } => text::raw_of(of),
         Reason::Unreadable(detail) => text::unreadable(detail),
         Reason::Empty => text::is_empty().to_owned(),
         Reason::NoList => text::is_no_list().to_owned(),
