@@ -45,7 +45,7 @@ test('21 photos become a calibration', { skip: folder ? false : 'skipped, no dat
     assert.ok((await figure(page, 'rms-px')) <= 0.25);
     assert.equal(await figure(page, 'redundancy'), 2 * good - 422 + 0);
 
-    const exported = await downloads(page, 4, () => page.click('.hero-action .button'));
+    const exported = await downloads(page, 4, () => page.getByRole('button', { name: 'Export CSV' }).click());
     const points = Object.entries(exported).find(([name]) => name.includes('points'));
     assert.equal(rows(points[1]).length, 100);
 

@@ -30,7 +30,7 @@ test('8 photos become coordinates', { skip: folder ? false : 'skipped, no data',
     await idle(page);
     await adjust(page);
 
-    const exported = await downloads(page, 4, () => page.click('.hero-action .button'));
+    const exported = await downloads(page, 4, () => page.getByRole('button', { name: 'Export CSV' }).click());
     const points = rows(Object.entries(exported).find(([name]) => name.includes('points'))[1]);
     const coded = points.filter((p) => aicon.has(p.id) && Number(p.id) < 100);
     assert.ok(coded.length >= 70, `${coded.length} coded points`);
