@@ -139,9 +139,10 @@ pub fn make(plan: &Plan, options: &MakeOptions, progress: Progress) -> Result<Ma
         if !progress(chosen.len(), 2 * most) {
             return Err(Error::Cancelled);
         }
-        // Before there are two photos, there is nothing yet to be judged exactly.
-        let mut promising = search.promising(&chosen, if chosen.len() < 2 { 1 } else { ADDED });
-        if chosen.len() >= 2 && !is_determined(best) {
+        // A single photo is nothing yet to be judged exactly.
+        let alone = chosen.len() + search.taken.len() == 0;
+        let mut promising = search.promising(&chosen, if alone { 1 } else { ADDED });
+        if !alone && !is_determined(best) {
             // Photos that tie others together are not those that help single points most.
             let step = (search.pool.len() / ADDED).max(1);
             promising.extend((0..search.pool.len()).step_by(step).filter(|k| !chosen.contains(k)));
