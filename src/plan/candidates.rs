@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::project::PlanStation;
+use crate::project::{PlanStation, Point};
 
 use super::setup::{Setup, Shot, principal_distance_px};
 
@@ -18,6 +18,8 @@ const LEVELS: [(f64, usize); 4] = [(2.0, 12), (28.0, 12), (55.0, 8), (88.0, 1)];
 const ROOM: f64 = 1.04;
 /// Distances as shares of that at which the object fills the picture.
 const SHARES: [f64; 4] = [1.0, 0.72, 0.52, 1.4];
+/// How far behind the middle photos stand that look at the opposite wall, as shares of the object's radius.
+const INSIDE: [f64; 4] = [0.0, 0.25, 0.5, 0.7];
 /// Points that a photo has to see.
 const LEAST_SEEN: usize = 4;
 
@@ -27,6 +29,8 @@ pub struct Frame {
     pub radius: f64,
     /// The side it faces; none: all sides.
     pub faces: Option<Vector3<f64>>,
+    /// Whether its targets face its middle, as in a room or a tank.
+    pub inward: bool,
 }
 
 impl Frame {
@@ -42,7 +46,13 @@ impl Frame {
         } else {
             (mean.norm() > ONE_SIDED).then(|| mean.normalize())
         };
-        Self { centre, radius, faces }
+        let towards = |p: &Point| {
+            let from = centre - Vector3::from(p.xyz?);
+            Some(Vector3::from(p.normal?).normalize().dot(&from) / from.norm().max(1e-12))
+        };
+        let inwards: Vec<f64> = setup.plan.points.iter().filter_map(towards).collect();
+        let inward = faces.is_none() && inwards.iter().sum::<f64>() > 0.5 * inwards.len().max(1) as f64;
+        Self { centre, radius, faces, inward }
     }
 
     /// Without normals: the side of the present photos, else that of the plane a flat object lies in, up or towards -Y.
@@ -136,6 +146,9 @@ pub fn candidates(setup: &Setup<'_>, most: usize) -> Vec<Shot> {
     let distances = distances(setup, &frame);
     let fill = distances.iter().copied().fold(0.0, f64::max) / SHARES[3].max(1.0);
     let mut shots = Vec::new();
+    if frame.inward {
+        shots.extend(inside(setup, &frame));
+    }
     for direction in frame.directions() {
         for &distance in &distances {
             for aim in aims(setup, &frame, distance, fill) {
@@ -150,6 +163,23 @@ pub fn candidates(setup: &Setup<'_>, most: usize) -> Vec<Shot> {
         let step = shots.len() as f64 / most as f64;
         let places: Vec<usize> = (0..most).map(|k| (k as f64 * step) as usize).collect();
         shots = places.into_iter().map(|k| shots[k].clone()).collect();
+    }
+    shots
+}
+
+/// Photos inside what is seen from its middle: at the wall looked at from there, from behind it, and from the side.
+fn inside(setup: &Setup<'_>, frame: &Frame) -> Vec<Shot> {
+    let mut shots = Vec::new();
+    for direction in frame.directions() {
+        let side = direction.cross(&Vector3::z());
+        for back in INSIDE {
+            for aside in [0.0, -0.35, 0.35] {
+                let position = frame.centre + frame.radius * (aside * side - back * direction);
+                for &roll in rolls(setup) {
+                    shots.extend(allowed(setup, position, frame.centre + frame.radius * direction, roll));
+                }
+            }
+        }
     }
     shots
 }

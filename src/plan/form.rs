@@ -48,20 +48,19 @@ pub fn targets_on(form: &Form) -> (Vec<Point>, Vec<PlanFace>) {
                     made.point(xyz, normal, diameter);
                 }
             }
-            if !inside {
-                // Chords lie inside the circle, so that no target is behind its own.
-                let at = |k: usize| {
-                    let angle = TAU * k as f64 / FACETS as f64;
-                    [radius * angle.cos(), radius * angle.sin()]
-                };
-                for k in 0..FACETS {
-                    let (a, b) = (at(k), at(k + 1));
-                    made.faces.push(PlanFace {
-                        corner: [a[0], a[1], 0.0],
-                        along: [b[0] - a[0], b[1] - a[1], 0.0],
-                        across: [0.0, 0.0, height],
-                    });
-                }
+            // Chords lie inside the circle and tangents outside of it, so that no target is behind its own.
+            let reach = if inside { 1.001 * radius / (PI / FACETS as f64).cos() } else { radius };
+            let at = |k: usize| {
+                let angle = TAU * k as f64 / FACETS as f64;
+                [reach * angle.cos(), reach * angle.sin()]
+            };
+            for k in 0..FACETS {
+                let (a, b) = (at(k), at(k + 1));
+                made.faces.push(PlanFace {
+                    corner: [a[0], a[1], 0.0],
+                    along: [b[0] - a[0], b[1] - a[1], 0.0],
+                    across: [0.0, 0.0, height],
+                });
             }
         }
     }

@@ -56,6 +56,37 @@ fn forms_carry_their_targets() {
 }
 
 #[test]
+fn a_tank_is_photographed_from_inside() {
+    let form = Form::Cylinder {
+        radius: 3000.0,
+        height: 4000.0,
+        sweep: std::f64::consts::TAU,
+        columns: 16,
+        rows: 4,
+        inside: true,
+        diameter: 30.0,
+    };
+    let (points, faces) = targets_on(&form);
+    let mut plan = Plan { cameras: vec![camera()], form: Some(form), points, faces, ..Plan::default() };
+    plan.cameras[0].interior = Interior::brown(16.0);
+    plan.wanted = Wanted { precision: 1.5, probability: 0.95 };
+    // Nobody stands beside the tank and looks through its wall.
+    let outside = |x: f64| PlanStation {
+        id: "1".into(),
+        position: [x, -9000.0, 2000.0],
+        look_at: Some([0.0, 0.0, 2000.0]),
+        ..PlanStation::default()
+    };
+    plan.stations = vec![outside(0.0)];
+    let sight = predict(&plan).expect("a prediction").stations.swap_remove(0);
+    assert!(sight.points.is_empty() && sight.unseen.hidden > 10, "{:?}", sight.unseen);
+    plan.stations.clear();
+    let made = make(&plan, &MakeOptions::default(), &mut |_, _| true).expect("a plan");
+    assert!(made.prediction.reached, "{:?}", made.prediction.lacks);
+    assert!(made.stations.iter().all(|s| s.position[0].hypot(s.position[1]) < 3000.0));
+}
+
+#[test]
 fn what_is_not_seen_has_a_reason() {
     let unseen = |edit: &dyn Fn(&mut Plan)| {
         let mut plan = wall();
