@@ -78,14 +78,15 @@ impl Frame {
     /// Directions from the object to the camera.
     fn directions(&self) -> Vec<Vector3<f64>> {
         let Some(main) = self.faces else {
-            let level = |(elevation, count): (f64, usize)| {
+            // every second level is turned by half a step: a box needs photos of its edges, which tie its faces together
+            let level = |(at, (elevation, count)): (usize, (f64, usize))| {
                 let (s, c) = f64::to_radians(elevation).sin_cos();
                 (0..count).map(move |k| {
-                    let (sa, ca) = (TAU * k as f64 / count as f64).sin_cos();
+                    let (sa, ca) = (TAU * (k as f64 + 0.5 * (at % 2) as f64) / count as f64).sin_cos();
                     Vector3::new(c * ca, c * sa, s)
                 })
             };
-            return LEVELS.into_iter().flat_map(level).collect();
+            return LEVELS.into_iter().enumerate().flat_map(level).collect();
         };
         let up = if main.z.abs() < 0.9 { Vector3::z() } else { Vector3::y() };
         let across = up.cross(&main).normalize();
