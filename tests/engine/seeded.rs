@@ -122,6 +122,27 @@ fn a_pose_that_nothing_bears_out_is_withdrawn_and_said_to_be() {
     }
 }
 
+/// Five control points in four photos, one with wrong coordinates: four agree in each photo, and that is enough.
+#[test]
+fn a_wrong_control_point_takes_no_photo_along() {
+    for seed in 0..6 {
+        let (mut project, _) = single(seed, 5, false, 0.1);
+        for other in 1..4 {
+            let (next, pose) = single(100 * seed + other, 5, false, 0.1);
+            let photo = format!("g{other}");
+            project.photos.push(Photo { id: photo.clone(), ..next.photos[0].clone() });
+            for (point, seen) in project.points.iter().zip(next.observations) {
+                let xyz = Vector3::from(point.xyz.expect("control"));
+                let Some([u, v]) = pixel_from_camera_point(&project.cameras[0], pose.to_camera(&xyz)) else { continue };
+                project.observations.push(Observation { photo: photo.clone(), u, v, ..seen });
+            }
+        }
+        project.points[0].xyz = project.points[0].xyz.map(|[x, y, z]| [x + 0.4, y, z - 0.3]);
+        let oriented = orient(&project).expect("a valid project");
+        assert!(oriented.project.photos.iter().all(|p| p.position.is_some()), "seed {seed}: {:?}", oriented.notes);
+    }
+}
+
 /// 60 photos with 300 points, seen in six photos or in fifteen: whole and right.
 #[test]
 fn large_networks_are_oriented_whole() {
