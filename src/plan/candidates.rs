@@ -20,9 +20,11 @@ const ROOM: f64 = 1.04;
 const SHARES: [f64; 4] = [1.0, 0.72, 0.52, 1.4];
 /// How far behind the middle photos stand that look at the opposite wall, as shares of the object's radius.
 const INSIDE: [f64; 4] = [0.0, 0.25, 0.5, 0.7];
-/// Points that a photo has to see, and how far they spread across the direction in which they spread most, as a share of the picture's
-/// smaller half: a row of points does not orient a photo.
-const LEAST_SEEN: usize = 6;
+/// Points that a photo of a plan from nothing has to see; four known ones orient a photo more.
+pub const LEAST_SEEN: usize = 6;
+pub const LEAST_KNOWN: usize = 4;
+/// How far they spread across the direction in which they spread most, as a share of the picture's smaller half: a row of points does
+/// not orient a photo.
 const LEAST_SPREAD: f64 = 0.05;
 
 /// The object as photos are planned around it.
@@ -78,14 +80,15 @@ impl Frame {
     /// Directions from the object to the camera.
     fn directions(&self) -> Vec<Vector3<f64>> {
         let Some(main) = self.faces else {
-            let level = |(elevation, count): (f64, usize)| {
+            // Every second level is turned by half a step: a box needs photos of its edges, which tie its faces together.
+            let level = |(at, (elevation, count)): (usize, (f64, usize))| {
                 let (s, c) = f64::to_radians(elevation).sin_cos();
                 (0..count).map(move |k| {
-                    let (sa, ca) = (TAU * k as f64 / count as f64).sin_cos();
+                    let (sa, ca) = (TAU * (k as f64 + 0.5 * (at % 2) as f64) / count as f64).sin_cos();
                     Vector3::new(c * ca, c * sa, s)
                 })
             };
-            return LEVELS.into_iter().flat_map(level).collect();
+            return LEVELS.into_iter().enumerate().flat_map(level).collect();
         };
         let up = if main.z.abs() < 0.9 { Vector3::z() } else { Vector3::y() };
         let across = up.cross(&main).normalize();
@@ -99,6 +102,41 @@ impl Frame {
         };
         FANS.into_iter().flat_map(fan).collect()
     }
+}
+
+/// Normals within this angle, radians, are those of one face.
+const ONE_FACE: f64 = 0.4;
+/// Faces up to which their edges are looked at one by one; an object of more is round.
+const MOST_FACES: usize = 12;
+/// How much less than the largest incidence the middle of a photo has, radians: targets beside the middle are seen at more.
+const BESIDE: f64 = 0.08;
+
+/// Directions from which two or three faces are seen at once, equally steep: their photos tie those of the faces together.
+fn edges(setup: &Setup<'_>) -> Vec<Vector3<f64>> {
+    let mut faces: Vec<Vector3<f64>> = Vec::new();
+    for normal in setup.plan.points.iter().filter_map(|p| p.normal.map(|n| Vector3::from(n).normalize())) {
+        if !faces.iter().any(|face| face.dot(&normal) > ONE_FACE.cos()) {
+            faces.push(normal);
+        }
+        if faces.len() > MOST_FACES {
+            return Vec::new();
+        }
+    }
+    let least = (setup.plan.max_incidence - BESIDE).cos();
+    let mut found = Vec::new();
+    let mut look = |some: &[Vector3<f64>]| {
+        let sum: Vector3<f64> = some.iter().sum();
+        if sum.norm() > 1e-6 && some.iter().all(|face| face.dot(&sum) > least * sum.norm()) {
+            found.push(sum.normalize());
+        }
+    };
+    for (c, third) in faces.iter().enumerate() {
+        for (b, second) in faces[..c].iter().enumerate() {
+            look(&[*second, *third]);
+            faces[..b].iter().for_each(|first| look(&[*first, *second, *third]));
+        }
+    }
+    found
 }
 
 /// Distances that are tried: at which the object fills the picture, nearer for parts of it, farther; as far as targets are large enough.
@@ -142,35 +180,51 @@ pub fn rolls(setup: &Setup<'_>) -> &'static [f64] {
     if calibrates { &[0.0, FRAC_PI_2] } else { &[0.0] }
 }
 
-/// Photos that could be taken, at most so many, spread over all that there are.
-pub fn candidates(setup: &Setup<'_>, most: usize) -> Vec<Shot> {
+/// Photos that could be taken and see so many points, at most so many, spread over all that there are.
+pub fn candidates(setup: &Setup<'_>, most: usize, sees: usize) -> Vec<Shot> {
     let frame = Frame::of(setup);
     let distances = distances(setup, &frame);
     let fill = distances.iter().copied().fold(0.0, f64::max) / SHARES[3].max(1.0);
+    // What ties faces together is never left out.
+    let mut tying = Vec::new();
+    for direction in if frame.inward { Vec::new() } else { edges(setup) } {
+        for &distance in &distances {
+            for &roll in rolls(setup) {
+                tying.extend(allowed(setup, frame.centre + distance * direction, frame.centre, roll, sees));
+            }
+        }
+    }
+    let mut tying = spread(tying, most / 2);
     let mut shots = Vec::new();
     if frame.inward {
-        shots.extend(inside(setup, &frame));
+        shots.extend(inside(setup, &frame, sees));
     }
     for direction in frame.directions() {
         for &distance in &distances {
             for aim in aims(setup, &frame, distance, fill) {
                 for &roll in rolls(setup) {
                     let position = aim + distance * direction;
-                    shots.extend(allowed(setup, position, aim, roll));
+                    shots.extend(allowed(setup, position, aim, roll, sees));
                 }
             }
         }
     }
-    if shots.len() > most {
-        let step = shots.len() as f64 / most as f64;
-        let places: Vec<usize> = (0..most).map(|k| (k as f64 * step) as usize).collect();
-        shots = places.into_iter().map(|k| shots[k].clone()).collect();
+    let left = most - tying.len();
+    tying.extend(spread(shots, left));
+    tying
+}
+
+/// At most so many of them, evenly taken.
+fn spread(shots: Vec<Shot>, most: usize) -> Vec<Shot> {
+    if shots.len() <= most {
+        return shots;
     }
-    shots
+    let step = shots.len() as f64 / most as f64;
+    (0..most).map(|k| shots[(k as f64 * step) as usize].clone()).collect()
 }
 
 /// Photos inside what is seen from its middle: at the wall looked at from there, from behind it, and from the side.
-fn inside(setup: &Setup<'_>, frame: &Frame) -> Vec<Shot> {
+fn inside(setup: &Setup<'_>, frame: &Frame, sees: usize) -> Vec<Shot> {
     let mut shots = Vec::new();
     for direction in frame.directions() {
         let side = direction.cross(&Vector3::z());
@@ -178,7 +232,7 @@ fn inside(setup: &Setup<'_>, frame: &Frame) -> Vec<Shot> {
             for aside in [0.0, -0.35, 0.35] {
                 let position = frame.centre + frame.radius * (aside * side - back * direction);
                 for &roll in rolls(setup) {
-                    shots.extend(allowed(setup, position, frame.centre + frame.radius * direction, roll));
+                    shots.extend(allowed(setup, position, frame.centre + frame.radius * direction, roll, sees));
                 }
             }
         }
@@ -187,10 +241,10 @@ fn inside(setup: &Setup<'_>, frame: &Frame) -> Vec<Shot> {
 }
 
 /// The photo from a place where one can stand and which sees enough.
-pub fn allowed(setup: &Setup<'_>, position: Vector3<f64>, aim: Vector3<f64>, roll: f64) -> Option<Shot> {
+pub fn allowed(setup: &Setup<'_>, position: Vector3<f64>, aim: Vector3<f64>, roll: f64, sees: usize) -> Option<Shot> {
     let station = PlanStation { position: position.into(), look_at: Some(aim.into()), roll, ..PlanStation::default() };
     let shot = setup.shot(&station).ok()?;
-    (!shot.forbidden && shot.seen.len() >= LEAST_SEEN.min(setup.places.len()) && spreads(setup, &shot)).then_some(shot)
+    (!shot.forbidden && shot.seen.len() >= sees.min(setup.places.len()) && spreads(setup, &shot)).then_some(shot)
 }
 
 /// Whether what a photo sees is more than a row of points.

@@ -147,13 +147,19 @@ fn axes(setup: &Setup<'_>, network: &Network) -> Vec<Option<f64>> {
 
 /// What a point that is not determined counts for; and a network that is not.
 const UNDETERMINED: f64 = 1e12;
+/// A point with one ray from a photo of the network lacks less than one that none sees: without that, nothing leads a search around the
+/// corner of a box, where the first photo that sees another face determines none of its points.
+const HALF_SEEN: f64 = 0.6;
 
 /// The value of a criterion, the smaller the better. What is not determined counts before everything else.
 pub fn value(setup: &Setup<'_>, shots: &[&Shot], criterion: &Criterion) -> f64 {
     let network = network(setup, shots);
     let axes = axes(setup, &network);
     let judged = |k: &usize| !setup.given[*k];
-    let missing = (0..axes.len()).filter(judged).filter(|k| axes[*k].is_none()).count();
+    let mut seen = vec![false; axes.len()];
+    network.used.iter().flat_map(|k| &shots[*k].seen).for_each(|(k, _)| seen[*k] = true);
+    let lacks = |k: usize| if seen[k] { HALF_SEEN } else { 1.0 };
+    let missing: f64 = (0..axes.len()).filter(judged).filter(|k| axes[*k].is_none()).map(lacks).sum();
     let Ok(adjustment) = &network.adjustment else {
         let loose = network.takes_part.iter().filter(|part| !**part).count();
         return UNDETERMINED * (1.0 + (axes.len() + loose) as f64);
@@ -168,7 +174,7 @@ pub fn value(setup: &Setup<'_>, shots: &[&Shot], criterion: &Criterion) -> f64 {
         }
         Criterion::Parameter { parameter } => parameter_sigma(adjustment, *parameter).unwrap_or(UNDETERMINED),
     };
-    own + UNDETERMINED * missing as f64
+    own + UNDETERMINED * missing
 }
 
 fn parameter_sigma(adjustment: &Adjustment, parameter: Parameter) -> Option<f64> {
@@ -177,7 +183,7 @@ fn parameter_sigma(adjustment: &Adjustment, parameter: Parameter) -> Option<f64>
 
 /// Whether a value says that something is not determined.
 pub fn is_determined(value: f64) -> bool {
-    value < UNDETERMINED
+    value < HALF_SEEN * UNDETERMINED
 }
 
 /// From standard errors to a probability along one axis.

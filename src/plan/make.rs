@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::candidates::{Held, candidates};
+use super::candidates::{Held, LEAST_SEEN, candidates};
 use super::judgement::{factor, is_determined, value};
 use super::setup::{Setup, Shot};
 use super::{Criterion, Prediction, Progress, judged};
@@ -18,6 +18,8 @@ const POOL: usize = 240;
 /// Of them, those that are judged exactly when one is added or exchanged.
 const ADDED: usize = 24;
 const EXCHANGED: usize = 8;
+/// Points that a photo shares with the others at least, so that one hangs together with the next.
+const SHARED: usize = 5;
 /// Rounds of exchange with one number of photos.
 const ROUNDS: usize = 4;
 /// Work that may be spent, in rays times photos judged: about eight seconds in a worker.
@@ -84,10 +86,26 @@ impl Search<'_> {
     /// The photos of the pool that help most with held orientations.
     fn promising(&self, chosen: &[usize], count: usize) -> Vec<usize> {
         let held = Held::new(self.setup, &self.shots(chosen));
-        let free = (0..self.pool.len()).filter(|k| !chosen.contains(k));
-        let mut ranked: Vec<(f64, usize)> = free.map(|k| (held.with(self.setup, &self.pool[k]), k)).collect();
+        let free = self.tied(chosen);
+        let mut ranked: Vec<(f64, usize)> =
+            free.into_iter().map(|k| (held.with(self.setup, &self.pool[k]), k)).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         ranked.into_iter().take(count).map(|(_, k)| k).collect()
+    }
+
+    /// The photos of the pool that share enough points with those chosen to be oriented with them; all where control points tie them,
+    /// and where none does.
+    fn tied(&self, chosen: &[usize]) -> Vec<usize> {
+        let shots = self.shots(chosen);
+        let free: Vec<usize> = (0..self.pool.len()).filter(|k| !chosen.contains(k)).collect();
+        if shots.is_empty() || self.setup.given.iter().filter(|given| **given).count() >= 3 {
+            return free;
+        }
+        let mut known = vec![false; self.setup.places.len()];
+        shots.iter().flat_map(|shot| &shot.seen).for_each(|(k, _)| known[*k] = true);
+        let shares = |k: &usize| self.pool[*k].seen.iter().filter(|(point, _)| known[*point]).count() >= SHARED;
+        let tied: Vec<usize> = free.iter().copied().filter(shares).collect();
+        if tied.is_empty() { free } else { tied }
     }
 
     /// Exchanges single photos until the goal is reached or nothing gets better.
@@ -124,7 +142,7 @@ impl Search<'_> {
 /// As [`super::predict`]; [`Error::Invalid`] where no photo sees four points; [`Error::Cancelled`].
 pub fn make(plan: &Plan, options: &MakeOptions, progress: Progress) -> Result<Made> {
     let setup = Setup::new(plan)?;
-    let pool = candidates(&setup, POOL);
+    let pool = candidates(&setup, POOL, LEAST_SEEN);
     if pool.is_empty() {
         return Err(Error::Invalid { reason: Reason::PlanNothingSeen, at: Place::field("cameras") });
     }
@@ -145,7 +163,7 @@ pub fn make(plan: &Plan, options: &MakeOptions, progress: Progress) -> Result<Ma
         if !alone && !is_determined(best) {
             // Photos that tie others together are not those that help single points most.
             let step = (search.pool.len() / ADDED).max(1);
-            promising.extend((0..search.pool.len()).step_by(step).filter(|k| !chosen.contains(k)));
+            promising.extend(search.tied(&chosen).into_iter().step_by(step));
         }
         let mut added: Option<(f64, usize)> = None;
         for other in promising {

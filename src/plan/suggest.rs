@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::candidates::{Frame, Held, allowed, candidates, rolls};
+use super::candidates::{Frame, Held, LEAST_KNOWN, allowed, candidates, rolls};
 use super::judgement::value;
 use super::setup::{Setup, Shot};
 use super::{Criterion, Progress};
@@ -44,7 +44,7 @@ pub fn suggest(plan: &Plan, criterion: &Criterion, progress: Progress) -> Result
     let setup = Setup::new(plan)?;
     let present = plan.stations.iter().map(|station| setup.shot(station)).collect::<Result<Vec<_>>>()?;
     let now: Vec<&Shot> = present.iter().collect();
-    let mut tried = candidates(&setup, MOST);
+    let mut tried = candidates(&setup, MOST, LEAST_KNOWN);
     let rays: usize = now.iter().map(|shot| shot.seen.len()).sum();
     if rays > LARGE && tried.len() > JUDGED_OF_LARGE {
         let held = Held::new(&setup, &now);
@@ -158,5 +158,5 @@ fn neighbours(setup: &Setup<'_>, frame: &Frame, shot: &Shot, angle: f64, share: 
         places.push((aim + out * (1.0 + sign * share), aim, roll));
     }
     places.extend(rolls(setup).iter().filter(|r| (**r - roll).abs() > 0.1).map(|r| (shot.pose.centre, aim, *r)));
-    places.into_iter().filter_map(|(position, aim, roll)| allowed(setup, position, aim, roll)).collect()
+    places.into_iter().filter_map(|(position, aim, roll)| allowed(setup, position, aim, roll, LEAST_KNOWN)).collect()
 }

@@ -56,6 +56,17 @@ fn forms_carry_their_targets() {
 }
 
 #[test]
+fn a_box_is_photographed_all_around_by_photos_that_hang_together() {
+    let form = Form::Box { size: [1000.0, 800.0, 600.0], columns: 3, rows: 2, diameter: 10.0 };
+    let (points, faces) = targets_on(&form);
+    let mut plan = Plan { cameras: vec![camera()], form: Some(form), points, faces, ..Plan::default() };
+    plan.cameras[0].interior = Interior::brown(28.0);
+    let made = make(&plan, &MakeOptions::default(), &mut |_, _| true).expect("a plan");
+    assert!(made.prediction.reached, "{} photos: {:?}", made.stations.len(), made.prediction.lacks);
+    assert!(made.stations.len() <= 16, "{}", made.stations.len());
+}
+
+#[test]
 fn a_tank_is_photographed_from_inside() {
     let form = Form::Cylinder {
         radius: 3000.0,

@@ -28,6 +28,7 @@ mod orientation;
 mod painter;
 mod panel;
 mod photos;
+mod plan_search;
 mod planning;
 mod published;
 mod report;
