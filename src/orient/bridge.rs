@@ -130,7 +130,7 @@ fn over_points(block: &Block, model: &Block) -> Option<(usize, Similarity)> {
 }
 
 /// Triples of image points by the area they span, largest first.
-fn wide_triples(seen: &[(Vector3<f64>, [f64; 2])]) -> Vec<[usize; 3]> {
+pub(super) fn wide_triples(seen: &[(Vector3<f64>, [f64; 2])]) -> Vec<[usize; 3]> {
     let n = seen.len();
     let area = |[i, j, k]: [usize; 3]| {
         let [a, b, c] = [i, j, k].map(|m| seen[m].1);

@@ -2,15 +2,18 @@
 //!
 //! The relative orientation to a neighbour leaves one number open, the length of the base. Every determined point in the
 //! photo gives a value of it, and so does the line to a second neighbour; the value that most measurements agree with is
-//! taken. Measurements of points that are not determined yet vote by the distance from their epipolar lines.
+//! taken. Measurements of points that are not determined yet vote by the distance from their epipolar lines. Where no neighbour has
+//! enough in common, three determined points give up to four poses, and the same votes decide.
 
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
 use super::block::Block;
+use super::bridge::wide_triples;
 use crate::initial::Pose;
 use crate::initial::intersection::{Ray, intersect};
+use crate::initial::p3p::p3p;
 use crate::initial::relative::{Relative, relative_orientation};
 
 /// Fewest common points with a neighbour, and neighbours that are tried.
@@ -109,6 +112,10 @@ fn best_pose(block: &Block, photo: usize, pairs: &mut Pairs) -> Option<(usize, P
             let centre = bearing.from + bearing.direction * base;
             poses.push(Pose { object_to_camera: bearing.attitude, centre });
         }
+    }
+    let seen: Vec<(Vector3<f64>, [f64; 2])> = object.into_iter().zip(image).collect();
+    for [i, j, k] in wide_triples(&seen) {
+        poses.extend(p3p(&[seen[i].0, seen[j].0, seen[k].0], &[seen[i].1, seen[j].1, seen[k].1]));
     }
     let judged = poses.into_iter().map(|pose| (votes(block, photo, &pose), pose));
     let ((agreeing, compared), pose) = judged.max_by(|a, b| a.0.0.cmp(&b.0.0))?;
