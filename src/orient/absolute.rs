@@ -111,14 +111,21 @@ fn agreement(block: &Block, moved: &Block, common: &[usize]) -> (usize, usize) {
     (agreeing.count(), common.len())
 }
 
-/// The block with what it lacks taken from a model in the same system.
+/// The block with what it lacks taken from a model in the same system, and with it which measurements agree there. All are compared once
+/// more: a few that one model takes and the other contradicts carry the next adjustment away.
 pub(super) fn merged(mut block: Block, model: Block) -> Block {
+    for (sight, other) in block.sights.iter_mut().zip(&model.sights) {
+        if block.views[sight.photo].pose.is_none() && model.views[sight.photo].pose.is_some() {
+            sight.taken = other.taken;
+        }
+    }
     for (view, other) in block.views.iter_mut().zip(model.views) {
         view.pose = view.pose.or(other.pose);
     }
     for (mark, other) in block.marks.iter_mut().zip(model.marks) {
         mark.xyz = mark.xyz.or(other.xyz);
     }
+    block.review();
     block
 }
 

@@ -34,6 +34,8 @@ const MOST_ITERATIONS: usize = 30;
 const NEGLIGIBLE: f64 = 0.3;
 /// While photos are still to come, a model is settled when no more than one in so many measurements changes sides.
 const FEW: usize = 100;
+/// Of the measurements that agreed before, one in so many agrees at least after an adjustment that has not run away.
+const KEPT: usize = 3;
 /// Largest factor a principal distance may change by in one refinement.
 const LARGEST_CHANGE: f64 = 2.0;
 
@@ -119,6 +121,11 @@ fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
     }
     next.refresh_rays();
     next.review();
+    // What ends with the object behind the cameras, or with hardly a measurement that agrees, has run away.
+    let stands = next.noise_px.is_some_and(f64::is_finite) && KEPT * next.agreeing() >= block.agreeing();
+    if !stands {
+        return None;
+    }
     // Points may have been carried behind a camera by what turned out to disagree: they start again.
     for point in 0..next.marks.len() {
         let lost = next.marks[point].sights.iter().filter(|&&s| next.misfit_px(s) == Some(f64::INFINITY)).count();

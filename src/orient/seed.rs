@@ -13,6 +13,11 @@ use crate::initial::relative::{Relative, relative_orientation};
 /// Pairs that are oriented relative to each other, and starts that are grown at most.
 const MOST_PAIRS: usize = 16;
 const MOST_STARTS: usize = 8;
+/// The same where no pair shares as many points as make a start by themselves: five to eight points fit more than one relative
+/// orientation, and only what grows from each tells which is true.
+const MANY: usize = 9;
+const MOST_PAIRS_OF_FEW: usize = 64;
+const MOST_STARTS_OF_FEW: usize = 64;
 /// Angle, 20°, beyond which a pair gains nothing by a wider base.
 const WIDE: f64 = 0.35;
 
@@ -76,7 +81,8 @@ pub(super) struct Cores<'a> {
 impl<'a> Cores<'a> {
     pub fn new(block: &'a Block, used: &[bool], fine_px: f64) -> Self {
         let mut starts = starts(block, used);
-        starts.truncate(MOST_STARTS);
+        let few = starts.iter().all(|start| start.relative.inliers.len() < MANY);
+        starts.truncate(if few { MOST_STARTS_OF_FEW } else { MOST_STARTS });
         Self { block, starts: starts.into_iter(), fine_px }
     }
 }
@@ -147,8 +153,9 @@ fn starts(block: &Block, used: &[bool]) -> Vec<Start> {
     // Pairs with nearly as many points as the best, spread over the list so that wide bases are among them.
     let most = pairs.first().map_or(0, |p| p.0);
     let rich = pairs.iter().take_while(|p| 10 * p.0 >= 6 * most).count();
-    let chosen = rich.min(MOST_PAIRS);
-    let spread = (0..chosen).map(|k| k * rich / chosen.max(1)).chain(rich..pairs.len()).take(MOST_PAIRS);
+    let limit = if most < MANY { MOST_PAIRS_OF_FEW } else { MOST_PAIRS };
+    let chosen = rich.min(limit);
+    let spread = (0..chosen).map(|k| k * rich / chosen.max(1)).chain(rich..pairs.len()).take(limit);
     for k in spread {
         let (_, photos) = pairs[k];
         let [first, second] = photos;
