@@ -48,24 +48,40 @@ export async function open({ width = 1440, height = 900, cores, address, ...opti
   return { page, context, errors, url, profile, close };
 }
 
-/** Kills what draws the pages of a browser, as the system does when memory runs out: nothing in the page gets another word. */
-export function killRenderers(profile) {
-  const processes = new Map();
+/** The page in a private window: all that it keeps is gone when it is closed. */
+export async function openPrivately({ width = 1440, height = 900 } = {}) {
+  const { SIGHTLINE_URL: url, CHROMIUM: program } = process.env;
+  const browser = await chromium.launch({ executablePath: program.includes('/') ? program : which(program), headless: true, args: FLAGS });
+  const page = await (await browser.newContext({ viewport: { width, height }, acceptDownloads: true })).newPage();
+  const errors = [];
+  page.on('pageerror', (error) => errors.push(String(error)));
+  await page.goto(url);
+  return { page, errors, close: () => browser.close() };
+}
+
+/** The processes of the browser with a profile: their numbers and command lines. */
+export function processes(profile) {
+  const all = new Map();
   for (const pid of readdirSync('/proc').filter((name) => /^\d+$/.test(name))) {
     try {
       const parent = Number(/^\d+ \(.*\) \S (\d+)/s.exec(readFileSync(`/proc/${pid}/stat`, 'utf8'))[1]);
-      processes.set(Number(pid), { parent, command: readFileSync(`/proc/${pid}/cmdline`, 'utf8') });
+      all.set(Number(pid), { parent, command: readFileSync(`/proc/${pid}/cmdline`, 'utf8') });
     } catch {
       // It has ended meanwhile.
     }
   }
   const ours = (pid) => {
-    for (let at = processes.get(pid); at; at = processes.get(at.parent)) if (at.command.includes(profile)) return true;
+    for (let at = all.get(pid); at; at = all.get(at.parent)) if (at.command.includes(profile)) return true;
     return false;
   };
-  const killed = [...processes].filter(([pid, { command }]) => command.includes('--type=renderer') && ours(pid)).map(([pid]) => pid);
-  for (const pid of killed) process.kill(pid, 'SIGKILL');
-  return killed.length;
+  return [...all].filter(([pid]) => ours(pid)).map(([pid, { command }]) => ({ pid, command }));
+}
+
+/** Kills what draws the pages of a browser, as the system does when memory runs out: nothing in the page gets another word. */
+export function killRenderers(profile) {
+  const renderers = processes(profile).filter(({ command }) => command.includes('--type=renderer'));
+  for (const { pid } of renderers) process.kill(pid, 'SIGKILL');
+  return renderers.length;
 }
 
 /** Where a program lies on the path. */
