@@ -27,7 +27,7 @@ pub enum Termination {
     Converged,
     /// The largest number of iterations was reached.
     IterationLimit,
-    /// No step lowered the weighted squares and the gradient is not zero.
+    /// No step lowered the weighted squares, or a hundred of them hardly did, and the gradient is not zero.
     Diverged,
     /// The caller stopped it.
     Stopped,

@@ -177,7 +177,7 @@ pub(crate) fn document(bytes: &[u8]) -> Result<Project> {
     let text = encoding::text(bytes)?;
     check_parsed(text.as_bytes())?;
     let head: Head = serde_json::from_str(&text).map_err(|error| Error::Invalid {
-        reason: Reason::NotJson { message: error.to_string() },
+        reason: Reason::NotJson { message: shortened(&error.to_string()) },
         at: Place { line: Some(error.line()), ..Place::default() },
     })?;
     check_head(head.format.as_ref(), head.version.as_ref())?;

@@ -79,3 +79,48 @@ fn damaged_json_gives_a_result_or_an_error() {
     }
     assert!(results > 150 && errors > 100 && refused > 100, "{results} results, {errors} errors, {refused} refused");
 }
+
+/// Networks that hang by a thread: everything free, few rays, starting far from the truth. Many never converge.
+#[test]
+fn an_adjustment_that_no_longer_gains_ends_however_many_iterations_are_allowed() {
+    let mut random = Uniform(77);
+    let (mut longest, mut ended) = (0, std::collections::BTreeMap::new());
+    for round in 0..300_u64 {
+        let free = [Parameter::C, Parameter::X0, Parameter::K1, Parameter::K2, Parameter::P1, Parameter::B1];
+        let cameras = vec![brown(&free[..1 + round as usize % 6])];
+        let (photos, points) = (2 + round as usize % 4, 5 + round as usize % 9);
+        let wanted = Wanted { photos, points, cameras, ..Wanted::default() };
+        let mut project = noisy(&exact(&wanted, round), &mut Noise::new(round, 0));
+        let far = 10f64.powf(random.between(-1.0, 2.5));
+        for point in &mut project.points {
+            point.xyz = point.xyz.map(|xyz| xyz.map(|x| x + far * random.between(-1.0, 1.0)));
+        }
+        for photo in &mut project.photos {
+            photo.position = photo.position.map(|xyz| xyz.map(|x| x + far * random.between(-1.0, 1.0)));
+        }
+        for observation in project.observations.iter_mut().filter(|_| round % 3 == 0) {
+            if random.between(0.0, 1.0) < 0.2 {
+                observation.u += random.between(-300.0, 300.0);
+            }
+        }
+        let options = AdjustOptions {
+            max_iterations: 1_000_000_000,
+            robust: [None, Some(Robust::Huber), Some(Robust::Tukey)][round as usize / 2 % 3],
+            ..AdjustOptions::default()
+        };
+        let mut iterations = 0;
+        // A search for gross errors adjusts again and again, each of them bounded.
+        let outcome = adjust(&project, &options, &mut |_| {
+            iterations += 1;
+            assert!(iterations < 100_000, "round {round} does not end");
+            true
+        });
+        longest = longest.max(iterations);
+        let kind = outcome.map_or("refused".to_owned(), |adjustment| format!("{:?}", adjustment.termination));
+        *ended.entry(kind).or_insert(0) += 1;
+    }
+    println!("longest {longest} iterations; {ended:?}");
+    assert!(!ended.contains_key("IterationLimit"), "{ended:?}");
+    assert!(ended.get("Converged").is_some_and(|n| *n > 50), "{ended:?}");
+    assert!(ended.get("Diverged").is_some_and(|n| *n > 5), "{ended:?}");
+}

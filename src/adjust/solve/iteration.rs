@@ -2,7 +2,8 @@
 //!
 //! A step is taken when it lowers vᵀPv by a fair part of what the linear model predicts; else the damping λ rises. The
 //! iteration ends when the undamped step is negligible against the standard errors, δᵀNδ ≤ ε² vᵀPv / r, or against the
-//! rounding of the observations, so that exact observations (sigma0 of 0) converge like any others.
+//! rounding of the observations, so that exact observations (sigma0 of 0) converge like any others. It ends too where a hundred
+//! steps no longer gain anything, however many are allowed.
 //! D. Marquardt, J. SIAM 11 (1963); K. Madsen, H. B. Nielsen, O. Tingleff 2004.
 
 use crate::adjust::equations::context::Context;
@@ -25,6 +26,9 @@ const FIRST_DAMPING: f64 = 1e-4;
 /// minimum alternates between steps that fail and steps that do not; and the least that is asked for.
 const PATIENCE: f64 = 0.1;
 const LEAST_DAMPING: f64 = 1e-8;
+/// Steps that crawl: where so many iterations lower the squares by less than this part, none of those that follow will end.
+const LOOK_BACK: usize = 100;
+const LEAST_GAIN: f64 = 1e-4;
 /// Damping beyond which no step is left to try.
 const LARGEST_DAMPING: f64 = 1e12;
 
@@ -83,11 +87,18 @@ pub fn iterate(setting: &Setting<'_>, normal: &mut Normal, log: &mut dyn FnMut(I
     if ready == Ready::No {
         return outcome(state, Termination::Diverged, singular);
     }
-    for _ in 0..max_iterations {
+    let mut looked = f64::INFINITY;
+    for count in 0..max_iterations {
         if ready == Ready::No && !normal.build(context.at(&state), lambda, pins) {
             return outcome(state, Termination::Diverged, singular);
         }
         let before = normal.cost;
+        if count.is_multiple_of(LOOK_BACK) {
+            if before > (1.0 - LEAST_GAIN) * looked {
+                return outcome(state, Termination::Diverged, singular);
+            }
+            looked = before;
+        }
         let kept = ready == Ready::Renewed;
         let lost = if kept { Vec::new() } else { normal.factor() };
         ready = Ready::No;
