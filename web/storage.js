@@ -2,7 +2,8 @@
 //
 // A project is a journal of frames, each with its length and checksum, whose first frame is a whole snapshot; a kill at any moment leaves
 // a prefix of whole frames, which is the state before or after an edit. What is in a frame: parts (texts by number, later ones as what
-// changed of an earlier one) and a note, which only the page understands. Photos are kept once, by what is in them.
+// changed of an earlier one) and a note, which only the page understands. A journal that has grown is condensed: the page says what is
+// still needed, and a new journal with that takes the place of the old one. Photos are kept once, by what is in them.
 //
 // Where the origin has a private file system its files are used, else IndexedDB, else nothing, and the page is told.
 
@@ -128,9 +129,18 @@ async function fileSystem() {
       for (const generation of await generations(folder)) {
         const content = await bytes(folder, `journal-${generation}`);
         const { items, end } = unframed(content);
-        if (end > 0) return { generation, items, end, torn: content.length - end };
+        if (end > 0) return { generation, items, end, size: end };
       }
       throw fault('NotFoundError', 'no journal');
+    },
+    /** What was appended since a journal was read to its end. */
+    async since(id, generation, end) {
+      const found = await file(await projects.getDirectoryHandle(id), `journal-${generation}`);
+      return unframed(new Uint8Array(await found.slice(end).arrayBuffer())).items;
+    },
+    /** Whether a journal is there still: a browser that makes room takes it away under a page that is open. */
+    async has(id, generation) {
+      return (await (await projects.getDirectoryHandle(id)).getFileHandle(`journal-${generation}`)) !== null;
     },
     async writer(id, generation, end) {
       const handle = await open(await projects.getDirectoryHandle(id), `journal-${generation}`);
@@ -150,11 +160,12 @@ async function fileSystem() {
         size: () => end,
       };
     },
-    /** A new journal that begins with a snapshot; those before it go when it is whole. */
+    /** A new journal that begins with a snapshot, and where it ends; those before it go when it is whole. */
     async begin(id, generation, frame) {
       const folder = await projects.getDirectoryHandle(id, { create: true });
       await write(folder, `journal-${generation}`, frame);
       for (const old of await generations(folder)) if (old < generation) await drop(folder, `journal-${old}`);
+      return frame.length;
     },
     async card(id) {
       const folder = await projects.getDirectoryHandle(id);
@@ -203,6 +214,8 @@ async function database() {
     for (const name of ['frames', 'cards', 'photos', 'small']) opening.result.createObjectStore(name);
   };
   const base = await settled(opening);
+  // Another visit's version of it must not wait for this one.
+  base.onversionchange = () => base.close();
   const run = (stores, work) =>
     new Promise((done, failed) => {
       const transaction = base.transaction(stores, 'readwrite', { durability: 'strict' });
@@ -223,16 +236,22 @@ async function database() {
       const frames = await run('frames', (store) => settled(store.getAll(range(id, generation))));
       const items = [];
       let whole = 0;
+      let size = 0;
       for (const frame of frames) {
         const read = unframed(frame);
         if (read.end === 0) break;
-        items.push(...read.items);
+        for (const item of read.items) items.push(item);
+        size += frame.length;
         whole++;
       }
-      return { generation, items, end: whole, torn: frames.length - whole };
+      return { generation, items, end: whole, size };
     },
-    async writer(id, generation, end) {
-      let size = 0;
+    async since(id, generation, end) {
+      const later = IDBKeyRange.bound([id, generation, end], [id, generation, []]);
+      return (await run('frames', (frames) => settled(frames.getAll(later)))).flatMap((frame) => unframed(frame).items);
+    },
+    has: async (id, generation) => (await run('frames', (frames) => settled(frames.getKey([id, generation, 0])))) !== undefined,
+    async writer(id, generation, end, size) {
       return {
         async append(frame) {
           await run('frames', (frames) => settled(frames.put(frame, [id, generation, end])));
@@ -247,6 +266,7 @@ async function database() {
       run('frames', async (frames) => {
         await settled(frames.delete(range(id)));
         await settled(frames.put(frame, [id, generation, 0]));
+        return 1;
       }),
     card: (id) => run('cards', (cards) => settled(cards.get(id))),
     setCard: (id, card) => run('cards', (cards) => settled(cards.put(card, id))),
@@ -279,7 +299,7 @@ let project = null;
 let tell = () => {};
 const windows = self.BroadcastChannel ? new BroadcastChannel('sightline') : null;
 
-async function start() {
+async function reach() {
   for (const candidate of [fileSystem, database]) {
     try {
       backend = await candidate();
@@ -288,6 +308,10 @@ async function start() {
       // The next one, or none.
     }
   }
+}
+
+async function start() {
+  await reach();
   if (!backend) return { kind: 'none' };
   // Deleted in an earlier visit, when it could still be undone.
   for (const id of await backend.projects()) if ((await cardOf(id))?.deleted) await purge({ id });
@@ -370,9 +394,9 @@ function text(parts, id) {
 async function open({ id }, _, taken) {
   await close();
   const release = taken ?? (await hold(id).catch(() => null));
-  const { generation, items, end } = await backend.journal(id);
+  const { generation, items, end, size } = await backend.journal(id);
   const { parts, last, notes } = gathered(items);
-  const writer = release ? await backend.writer(id, generation, end) : null;
+  const writer = release ? await backend.writer(id, generation, end, size) : null;
   project = { id, generation, parts, writer, release, last: new Map() };
   for (const [kind, part] of last) project.last.set(kind, { id: part.id, words: text(parts, part.id), chain: CHAIN });
   return { reply: { notes, following: !writer, nextPart: Math.max(0, ...parts.keys()) + 1 } };
@@ -395,9 +419,9 @@ async function take({ id }) {
 }
 
 /** A part, as what changed since the last of its kind where that is shorter. */
-function partOf(id, kind, words) {
-  const before = project.last.get(kind);
-  const remember = (chain, inserted) => project.last.set(kind, { id, words, chain, inserted });
+function partOf(id, kind, words, last) {
+  const before = last.get(kind);
+  const remember = (chain, inserted) => last.set(kind, { id, words, chain, inserted });
   if (before && before.chain < CHAIN) {
     const most = Math.min(before.words.length, words.length);
     let from = 0;
@@ -425,16 +449,24 @@ async function append({ id, note, parts, card, snapshot }, texts) {
   }
   if (project?.id !== id) throw fault('InvalidStateError', 'not open');
   if (!project.writer && !snapshot) throw fault('InvalidStateError', 'following');
+  if (!snapshot && !(await backend.has(id, project.generation).catch(() => false))) {
+    // What is written to a file that was taken away is nowhere: the page has everything, and begins anew. Closing such a file would
+    // wait for ever in Chromium.
+    project.release?.();
+    project = null;
+    await reach();
+    throw fault('GoneError', 'cleared');
+  }
   const before = new Map(project.last);
   try {
-    const items = parts.map(([number, kind], i) => partOf(number, kind, texts[i]));
+    const items = parts.map(([number, kind], i) => partOf(number, kind, texts[i], project.last));
     items.push({ note });
     await backend.setCard(id, { ...(await cardOf(id)), ...card });
     if (snapshot) {
       const frame = framed([{ version: VERSION }, ...items]);
-      await backend.begin(id, 1, frame);
+      const end = await backend.begin(id, 1, frame);
       project.generation = 1;
-      project.writer = await backend.writer(id, 1, backend.kind === 'files' ? frame.length : 1);
+      project.writer = await backend.writer(id, 1, end, frame.length);
     } else {
       await project.writer.append(framed(items));
     }
@@ -445,6 +477,68 @@ async function append({ id, note, parts, card, snapshot }, texts) {
   }
   windows?.postMessage({ id, word: 'changed' });
   return { size: project.writer.size() };
+}
+
+/** A journal as it was read to be condensed, until that is done. */
+let surveyed = null;
+
+/** What the journal of the open project has: its notes, and of each part its number, its kind and how many characters it takes. */
+async function survey({ id }) {
+  if (project?.id !== id || !project.writer) throw fault('InvalidStateError', 'not open');
+  const { generation, items, end } = await backend.journal(id);
+  const { parts, last, notes } = gathered(items);
+  surveyed = { id, generation, end, parts, last };
+  const sizes = [...parts.values()].map((part) => [part.id, part.kind, part.words.length]);
+  return { reply: { notes, parts: sizes } };
+}
+
+const surveyedTexts = ({ ids }) => ({ reply: {}, extras: ids.map((id) => text(surveyed.parts, id)) });
+
+const leave = () => {
+  surveyed = null;
+};
+
+/**
+ * Puts a journal with some of the parts and one note in the place of the one that was surveyed. What was appended meanwhile follows, in the
+ * same frame: a kill leaves the one journal or the other. The last part of each kind stays, for what follows says what changed of it.
+ */
+async function condense({ id, note, ids }) {
+  const { generation, end, parts, last } = surveyed;
+  surveyed = null;
+  const wanted = new Set(ids);
+  for (const part of last.values()) wanted.add(part.id);
+  const items = [{ version: VERSION }];
+  const read = new Map();
+  const written = new Map();
+  for (const part of parts.values()) {
+    // In their order, so that each is told from the one before without going back to the first.
+    const before = read.get(part.kind);
+    const words = part.base !== undefined && before?.id === part.base ? before.words.slice(0, part.from) + part.words + before.words.slice(part.to) : text(parts, part.id);
+    read.set(part.kind, { id: part.id, words });
+    if (wanted.has(part.id)) items.push(partOf(part.id, part.kind, words, written));
+  }
+  items.push({ note });
+  const size = queue.then(async () => {
+    if (project?.id !== id || project.generation !== generation || !project.writer) throw fault('InvalidStateError', 'not open');
+    for (const item of await backend.since(id, generation, end)) items.push(item);
+    const frame = framed(items);
+    project.writer.close();
+    project.writer = null;
+    try {
+      const whole = await backend.begin(id, generation + 1, frame);
+      project.generation = generation + 1;
+      project.writer = await backend.writer(id, generation + 1, whole, frame.length);
+    } catch (error) {
+      // The old one is whole still.
+      const { end: whole, size: before } = await backend.journal(id);
+      project.writer = await backend.writer(id, generation, whole, before);
+      throw error;
+    }
+    windows?.postMessage({ id, word: 'changed' });
+    return project.writer.size();
+  });
+  queue = size.catch(() => {});
+  return { size: await size };
 }
 
 /** Texts of parts, of the project as it was opened. */
@@ -511,8 +605,8 @@ async function rename({ id, name }) {
   const release = await hold(id);
   if (!release) throw fault('InvalidStateError', 'held');
   try {
-    const { generation, end } = await backend.journal(id);
-    const writer = await backend.writer(id, generation, end);
+    const { generation, end, size } = await backend.journal(id);
+    const writer = await backend.writer(id, generation, end, size);
     await writer.append(framed([{ note: JSON.stringify({ name }) }]));
     writer.close();
     await backend.setCard(id, { ...(await cardOf(id)), name });
@@ -548,9 +642,9 @@ async function purge({ id }) {
   for (const key of card.keys ?? []) if (!used.has(key)) await backend.removePhoto(key);
 }
 
-const CALLS = { start, open, take, append, parts, keep, photos, list, rename, duplicate, remove, purge, close };
-/** Copying photos lasts: edits do not wait for it. */
-const ALONGSIDE = new Set(['keep', 'photos', 'list']);
+const CALLS = { start, open, take, append, survey, surveyed: surveyedTexts, leave, condense, parts, keep, photos, list, rename, duplicate, remove, purge, close };
+/** Copying photos lasts, and so does condensing: edits do not wait for them. */
+const ALONGSIDE = new Set(['keep', 'photos', 'list', 'survey', 'surveyed', 'leave', 'condense']);
 let queue = Promise.resolve();
 
 /** Answers calls of a page that sends and hears by way of a port. */

@@ -95,6 +95,7 @@ reasons! {
     NameWithFolders => "a photo's file name holds no folders";
     Entries { entries: usize, limit: usize } => "the archive has {entries} entries; a project file has up to {limit}";
     SharedBytes => "entries of the archive share their bytes: it is no project file";
+    EntryName => "the name of an entry of the archive is damaged";
     EntrySize => "this part of the project file is damaged: it has not the size it claims";
     TakesTooMuch { megabytes: u64 } => "the document would take more than {megabytes} MB of memory";
     CannotCarry { name: String } => "the identifier \"{name}\" cannot be written in this format: it would be read as another one; rename it";

@@ -3,8 +3,11 @@
 //! Reading trusts nothing: a foreign or damaged archive, names that point elsewhere and archives that unpack to more than
 //! the limits are errors. A bare `project.json` is taken for a project file too.
 
+use std::borrow::Cow;
+use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap, HashSet};
-use std::io::{Cursor, Read, Write};
+use std::io::{BufRead, BufReader, Cursor, Read, Seek, SeekFrom, Write};
+use std::rc::Rc;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -12,11 +15,14 @@ use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
+use self::around::{Around, Mode};
 use crate::adjustment::Adjustment;
 use crate::detection::Detection;
 use crate::error::{Error, Place, Reason, Result, shortened};
 use crate::limits;
 use crate::project::Project;
+
+mod around;
 
 /// Content of a project file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,31 +39,59 @@ pub struct Package {
     pub damaged: Vec<Error>,
 }
 
+/// A photo of a project file that was read without its photos.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Held {
+    /// Its bytes stand in the file as they are: where they begin, and how many.
+    At(u64, u64),
+    /// They were packed.
+    Unpacked(Vec<u8>),
+}
+
 /// Writes a project file. Photos are stored as they are: they are compressed already.
 ///
 /// # Errors
 /// [`Error::Invalid`] for a photo whose file name is a path.
 pub fn write(package: &Package) -> Result<Vec<u8>> {
-    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    let mut add = |name: &str, bytes: &[u8], method| {
-        let options = SimpleFileOptions::default().compression_method(method);
+    let mut photos = package.photos.iter().map(|(name, bytes)| (name.as_str(), &bytes[..])).collect::<Vec<_>>();
+    let pieces = write_around(package, &mut photos)?;
+    let between = package.photos.values().map(Vec::as_slice).chain([&[][..]]);
+    Ok(pieces.iter().zip(between).flat_map(|(piece, photo)| [piece.as_slice(), photo]).flatten().copied().collect())
+}
+
+/// Writes what stands before, between and after the photos of a project file: with the bytes of the photos in their order between the
+/// pieces it is the file. Photos are read once, in pieces, and never held. Those of `package` itself are left out.
+///
+/// # Errors
+/// [`Error::Invalid`] for a photo whose file name is a path, or that cannot be read; it is named.
+pub fn write_around(package: &Package, photos: &mut [(&str, impl Read)]) -> Result<Vec<Vec<u8>>> {
+    let mode = Rc::new(Cell::new(Mode::Keep));
+    let mut archive = ZipWriter::new(Around::new(mode.clone()));
+    let mut add = |name: &str, bytes: &[u8]| {
+        let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
         archive.start_file(name, options).map_err(cannot_write)?;
         archive.write_all(bytes).map_err(|error| cannot_write(error.into()))
     };
-    add("project.json", &json(&package.project)?, CompressionMethod::Deflated)?;
+    add("project.json", &json(&package.project)?)?;
     if !package.targets.is_empty() {
-        add("targets.json", &json(&package.targets)?, CompressionMethod::Deflated)?;
+        add("targets.json", &json(&package.targets)?)?;
     }
     if let Some(adjustment) = &package.adjustment {
-        add("adjustment.json", &json(adjustment)?, CompressionMethod::Deflated)?;
+        add("adjustment.json", &json(adjustment)?)?;
     }
-    for (name, bytes) in &package.photos {
+    for (name, bytes) in photos {
         if !plain(name) {
-            return Err(Error::Invalid { reason: Reason::NameWithFolders, at: Place::default().with_file(name) });
+            return Err(Error::Invalid { reason: Reason::NameWithFolders, at: Place::default().with_file(*name) });
         }
-        add(&format!("photos/{name}"), bytes, CompressionMethod::Stored)?;
+        let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
+        let started = archive.start_file(format!("photos/{name}"), options);
+        started.map_err(|error| cannot_write(error).in_file(name))?;
+        mode.set(Mode::Pass);
+        let copied = std::io::copy(&mut BufReader::with_capacity(PIECE, bytes), &mut archive);
+        copied.map_err(|error| cannot_write(error.into()).in_file(name))?;
+        mode.set(Mode::Cut);
     }
-    archive.finish().map(Cursor::into_inner).map_err(cannot_write)
+    Ok(archive.finish().map_err(cannot_write)?.into_pieces())
 }
 
 /// Files in an archive, compressed: tables that belong together and are handed over as one.
@@ -74,29 +108,64 @@ pub fn archive(files: &super::Files) -> Result<Vec<u8>> {
     archive.finish().map(Cursor::into_inner).map_err(cannot_write)
 }
 
-/// Reads a project file. The checksum of every entry is checked: a damaged result costs the result, damaged targets the targets,
-/// a damaged photo the photo, and each is named in `damaged`; a damaged document is an error.
+/// Reads a project file, photos and all, as [`read_from`] does.
+///
+/// # Errors
+/// Those of [`read_from`].
+pub fn read(bytes: &[u8]) -> Result<Package> {
+    let (package, photos) = read_from(Cursor::new(bytes))?;
+    let content = |held| match held {
+        // It was read there.
+        Held::At(start, size) => bytes[start as usize..][..size as usize].to_vec(),
+        Held::Unpacked(content) => content,
+    };
+    Ok(Package { photos: photos.into_iter().map(|(name, held)| (name, content(held))).collect(), ..package })
+}
+
+/// Reads a project file without holding its photos: their bytes go by once, for their checksums. The checksum of every entry is checked:
+/// a damaged result costs the result, damaged targets the targets, a damaged photo the photo, and each is named in `damaged`;
+/// a damaged document is an error.
 ///
 /// # Errors
 /// [`Error::Invalid`] for what is no project file, is damaged or too large by its headers, before memory is taken for it.
-pub fn read(bytes: &[u8]) -> Result<Package> {
-    if bytes.trim_ascii_start().first() == Some(&b'{') {
-        return Ok(Package { project: super::document(bytes)?, ..Package::default() });
+pub fn read_from(mut source: impl Read + Seek) -> Result<(Package, BTreeMap<String, Held>)> {
+    let unreadable = |error: std::io::Error| damaged(&error.into());
+    let length = source.seek(SeekFrom::End(0)).map_err(unreadable)?;
+    let mut source = BufReader::with_capacity(PIECE, source);
+    source.rewind().map_err(unreadable)?;
+    if source.fill_buf().map_err(unreadable)?.trim_ascii_start().first() == Some(&b'{') {
+        let content = unpack(&mut source, length, limits::DOCUMENT)?;
+        return Ok((Package { project: super::document(&content)?, ..Package::default() }, BTreeMap::new()));
     }
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
+    let mut archive = ZipArchive::new(source).map_err(|error| damaged(&error))?;
     if archive.len() > limits::ENTRIES {
         return Err(invalid(Reason::Entries { entries: archive.len(), limit: limits::ENTRIES }));
     }
-    if archive.has_overlapping_files().map_err(|error| damaged(&error))? {
+    if share_bytes(&mut archive) {
         return Err(invalid(Reason::SharedBytes));
     }
-    let mut package = Package::default();
-    let (mut found, mut room) = (false, photos_room(bytes.len() as u64));
+    let (mut package, mut photos) = (Package::default(), BTreeMap::new());
+    let (mut found, mut room) = (false, photos_room(length));
     for index in 0..archive.len() {
-        let mut entry = archive.by_index(index).map_err(|error| damaged(&error))?;
-        let name = entry.name().map_err(|error| damaged(&error))?.into_owned();
+        let Some(Ok(name)) = archive.name_for_index(index).map(|name| name.map(Cow::into_owned)) else {
+            package.damaged.push(invalid(Reason::EntryName));
+            continue;
+        };
+        let mut entry = match archive.by_index(index) {
+            Ok(entry) => entry,
+            // What stands at its place is not what the directory says: that concerns this entry alone.
+            Err(error) if known(&name) => {
+                let error = invalid(Reason::DamagedEntry { message: shortened(&error.to_string()) }).in_file(&name);
+                if name == DOCUMENT {
+                    return Err(error);
+                }
+                package.damaged.push(error);
+                continue;
+            }
+            Err(_) => continue,
+        };
         let claimed = entry.size();
-        if name == "project.json" {
+        if name == DOCUMENT {
             let content = unpack(&mut entry, claimed, limits::DOCUMENT).map_err(|error| error.in_file(&name))?;
             package.project = super::document(&content).map_err(|error| error.in_file(&name))?;
             found = true;
@@ -106,17 +175,63 @@ pub fn read(bytes: &[u8]) -> Result<Package> {
         } else if name == "adjustment.json" {
             let adjustment = unpack(&mut entry, claimed, limits::DOCUMENT).and_then(|content| parse(&content));
             package.keep(&name, adjustment, |package, adjustment| package.adjustment = Some(adjustment));
-        } else if let Some(file) = name.strip_prefix("photos/").filter(|file| plain(file)) {
-            if claimed > room {
-                return Err(too_large(room).in_file(&name));
-            }
-            let content = unpack(&mut entry, claimed, room);
-            room -= claimed;
-            package.keep(&name, content, |package, content| _ = package.photos.insert(file.to_owned(), content));
+        } else if let Some(file) = name.strip_prefix(PHOTOS).filter(|file| plain(file)) {
+            let held = match entry.data_start() {
+                Some(start) if entry.compression() == CompressionMethod::Stored && !entry.encrypted() => {
+                    passed(&mut entry, claimed).map(|()| Held::At(start, claimed))
+                }
+                _ => {
+                    if claimed > room {
+                        return Err(too_large(room).in_file(&name));
+                    }
+                    room -= claimed;
+                    unpack(&mut entry, claimed, claimed).map(Held::Unpacked)
+                }
+            };
+            package.keep(&name, held, |_, held| _ = photos.insert(file.to_owned(), held));
         }
     }
     package.number_targets();
-    if found { Ok(package) } else { Err(invalid(Reason::NoProjectInside)) }
+    if found { Ok((package, photos)) } else { Err(invalid(Reason::NoProjectInside)) }
+}
+
+/// The entry of the document, and the folder of the photos.
+const DOCUMENT: &str = "project.json";
+const PHOTOS: &str = "photos/";
+
+/// Bytes that are read at a time.
+const PIECE: usize = 1 << 20;
+
+/// Whether an entry is part of a project.
+fn known(name: &str) -> bool {
+    [DOCUMENT, "targets.json", "adjustment.json"].contains(&name) || name.strip_prefix(PHOTOS).is_some_and(plain)
+}
+
+/// Whether bytes belong to several entries: so a small file claims to be a large one. Entries that are not where the directory has
+/// them are not read, so they share nothing.
+fn share_bytes<R: Read + Seek>(archive: &mut ZipArchive<R>) -> bool {
+    let mut ranges = Vec::new();
+    for index in 0..archive.len() {
+        let Ok(entry) = archive.by_index_raw(index) else { continue };
+        let size = entry.compressed_size();
+        ranges.extend(entry.data_start().filter(|_| size > 0).map(|start| (start, start.saturating_add(size))));
+    }
+    ranges.sort_unstable();
+    ranges.windows(2).any(|pair| pair[0].1 > pair[1].0)
+}
+
+/// Reads an entry that claims a size to its end and checks it, without holding it.
+fn passed(entry: &mut impl Read, claimed: u64) -> Result<()> {
+    let damaged = |error: std::io::Error| Reason::DamagedEntry { message: shortened(&error.to_string()) };
+    let mut buffer = vec![0; PIECE];
+    let mut left = claimed;
+    loop {
+        match entry.read(&mut buffer).map_err(|error| invalid(damaged(error)))? {
+            0 if left == 0 => return Ok(()),
+            read if read > 0 && read as u64 <= left => left -= read as u64,
+            _ => return Err(invalid(Reason::EntrySize)),
+        }
+    }
 }
 
 impl Package {
@@ -200,174 +315,4 @@ fn invalid(reason: Reason) -> Error {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::project::{Observation, Photo, Sigma};
-    #[cfg(target_arch = "wasm32")]
-    use wasm_bindgen_test::wasm_bindgen_test as test;
-
-    fn package() -> Package {
-        let project = Project {
-            name: "Zweibrücken".into(),
-            photos: vec![Photo {
-                id: "1".into(),
-                camera: "c".into(),
-                position: Some([0.1, 1.0 / 3.0, 1e-300]),
-                enabled: true,
-                ..Photo::default()
-            }],
-            ..Project::default()
-        };
-        let targets =
-            BTreeMap::from([("1".to_owned(), Detection { width: 3, height: 2, bits: 8, ..Detection::default() })]);
-        Package { project, targets, photos: [("사진 1.jpg".to_owned(), vec![1, 2, 3])].into(), ..Package::default() }
-    }
-
-    fn archive(entries: &[(&str, &[u8])]) -> Vec<u8> {
-        let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-        for (name, bytes) in entries {
-            archive.start_file(*name, SimpleFileOptions::default()).unwrap();
-            archive.write_all(bytes).unwrap();
-        }
-        archive.finish().unwrap().into_inner()
-    }
-
-    #[test]
-    fn what_is_written_is_read_again_bit_for_bit() {
-        let bytes = write(&package()).unwrap();
-        assert_eq!(read(&bytes).unwrap(), package());
-        assert_eq!(write(&read(&bytes).unwrap()).unwrap(), bytes);
-        assert_eq!(read(&json(&package().project).unwrap()).unwrap().project, package().project);
-    }
-
-    #[test]
-    fn targets_without_numbers_get_them_and_their_observations_too() {
-        let mut old = package();
-        let detection = old.targets.get_mut("1").unwrap();
-        detection.targets = [3.25, 7.5, 9.0].map(|u| crate::matching::target(u, 1.0 / 3.0, None)).into();
-        let at = |point: &str, u: f64, target| Observation {
-            photo: "1".into(),
-            point: point.into(),
-            u,
-            v: 1.0 / 3.0,
-            sigma: Sigma::One(0.1),
-            enabled: true,
-            target,
-        };
-        old.project.observations = vec![at("a", 7.5, None), at("by hand", 7.500001, None), at("lost", 1.0, Some(9))];
-        let new = read(&write(&old).unwrap()).unwrap();
-        assert_eq!(new.targets["1"].targets.iter().map(|t| t.id).collect::<Vec<_>>(), [1, 2, 3]);
-        let numbers: Vec<_> = new.project.observations.iter().map(|o| o.target).collect();
-        assert_eq!(numbers, [Some(2), None, None]);
-        assert_eq!(read(&write(&new).unwrap()).unwrap(), new);
-    }
-
-    #[test]
-    fn damage_anywhere_is_an_error_or_harmless() {
-        let bytes = write(&package()).unwrap();
-        for cut in 0..bytes.len() {
-            assert!(read(&bytes[..cut]).is_err(), "cut at {cut}");
-        }
-        for place in 0..bytes.len() {
-            let mut bad = bytes.clone();
-            bad[place] ^= 0x5a;
-            // A changed time stamp is not noticed, a changed document is.
-            if let Ok(read) = read(&bad) {
-                assert_eq!(read.project, package().project, "byte {place}");
-            }
-        }
-    }
-
-    #[test]
-    fn foreign_archives_and_bombs_are_refused() {
-        assert!(read(b"").is_err());
-        assert!(read(b"GIF89a").is_err());
-        let detail = |bytes: &[u8]| read(bytes).unwrap_err().to_string();
-        assert!(detail(&archive(&[("word/document.xml", b"<x/>")])).contains("no project.json"));
-        assert!(
-            detail(&archive(&[("project.json", b"{\"format\": \"other\"}")])).contains("not a document of Sightline")
-        );
-        assert!(
-            detail(&archive(&[("project.json", b"{\"format\": \"sightline\", \"version\": 2}")])).contains("version 2")
-        );
-        let document = json(&package().project).unwrap();
-        let odd = archive(&[
-            ("project.json", &document),
-            ("photos/../../etc/passwd", b"x"),
-            ("photos/a/b.jpg", b"x"),
-            ("/photos/c.jpg", b"x"),
-        ]);
-        assert!(read(&odd).unwrap().photos.is_empty());
-        let path = Package { photos: [("../a.jpg".to_owned(), vec![])].into(), ..package() };
-        assert!(write(&path).is_err());
-    }
-
-    #[test]
-    fn a_damaged_part_costs_that_part() {
-        let all = Package { adjustment: Some(Adjustment::default()), ..package() };
-        let bytes = write(&all).unwrap();
-        assert_eq!(read(&bytes).unwrap(), all);
-        for (name, cost) in [
-            ("adjustment.json", Package { adjustment: None, ..all.clone() }),
-            ("targets.json", Package { targets: BTreeMap::new(), ..all.clone() }),
-            ("photos/사진 1.jpg", Package { photos: BTreeMap::new(), ..all.clone() }),
-        ] {
-            let mut bad = bytes.clone();
-            let header = bytes.windows(name.len()).position(|w| w == name.as_bytes()).expect("the entry");
-            bad[header + name.len() + 1] ^= 0x11;
-            let read = read(&bad).unwrap_or_else(|error| panic!("{name}: {error}"));
-            assert_eq!(read.damaged.len(), 1, "{name}");
-            assert_eq!(read.damaged[0].place().file.as_deref(), Some(name));
-            assert_eq!(Package { damaged: Vec::new(), ..read }, cost);
-        }
-        let document = json(&all.project).unwrap();
-        let wrong = archive(&[("project.json", &document), ("adjustment.json", b"{\"termination\": 3}")]);
-        assert_eq!(read(&wrong).unwrap().damaged[0].place().file.as_deref(), Some("adjustment.json"));
-    }
-
-    /// Sets the size that entries claim in both of their headers.
-    fn claim(bytes: &mut [u8], name: &str, size: u32) {
-        for (mark, size_at, name_at) in [(b"PK\x03\x04", 22, 30), (b"PK\x01\x02", 24, 46)] {
-            for at in 0..bytes.len() - name_at {
-                if bytes[at..].starts_with(mark) && bytes[at + name_at..].starts_with(name.as_bytes()) {
-                    bytes[at + size_at..at + size_at + 4].copy_from_slice(&size.to_le_bytes());
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn memory_is_bounded_by_what_the_headers_claim() {
-        let document = json(&package().project).unwrap();
-        let zeros = vec![0; 80 << 20];
-        let bomb = archive(&[("project.json", &document), ("photos/a.jpg", &zeros)]);
-        assert!(bomb.len() < 1 << 20);
-        let error = read(&bomb).unwrap_err();
-        assert!(error.to_string().contains("unpacks to more than"), "{error}");
-        assert_eq!(error.place().file.as_deref(), Some("photos/a.jpg"));
-        // it claims less than it is
-        let mut liar = archive(&[("project.json", &document), ("photos/a.jpg", &zeros[..1 << 20])]);
-        claim(&mut liar, "photos/a.jpg", 1000);
-        let read_back = read(&liar).unwrap();
-        assert!(read_back.photos.is_empty() && read_back.damaged.len() == 1);
-        let mut large = archive(&[("project.json", &document)]);
-        claim(&mut large, "project.json", 600 << 20);
-        assert!(read(&large).unwrap_err().to_string().contains("512 MB"));
-        let lists = format!("{{\"format\": \"sightline\", \"version\": 1, \"points\": [{}]}}", "[],".repeat(4 << 20));
-        assert!(read(lists.as_bytes()).unwrap_err().to_string().contains("would take more than"));
-    }
-
-    #[test]
-    fn entries_that_share_bytes_are_refused() {
-        let document = json(&package().project).unwrap();
-        let mut bytes =
-            archive(&[("project.json", &document), ("photos/a.jpg", &document), ("photos/b.jpg", &document)]);
-        // the last entry of the directory points to the one before
-        let headers = |bytes: &[u8], mark: &[u8; 4]| {
-            (0..bytes.len() - 4).filter(|at| bytes[*at..].starts_with(mark)).collect::<Vec<_>>()
-        };
-        let (local, central) = (headers(&bytes, b"PK\x03\x04"), headers(&bytes, b"PK\x01\x02"));
-        bytes[central[2] + 42..central[2] + 46].copy_from_slice(&(local[1] as u32).to_le_bytes());
-        assert!(read(&bytes).is_err());
-    }
-}
+mod tests;

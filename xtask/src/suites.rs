@@ -119,12 +119,14 @@ fn browser(products: &Products) -> Outcome<Count> {
     node_tests("e2e", &[("SIGHTLINE_URL", &address), ("CHROMIUM", &chromium), ("SIGHTLINE_EXAMPLES", &examples)])
 }
 
-/// The page killed 200 times, for `cargo xtask bench field`; the page's tests do it a few times.
+/// What lasts, for `cargo xtask bench field`: a hundred large photos in one sitting, and the page killed 200 times, which the tests do a
+/// few times.
 pub fn field() -> Outcome {
     install::packages()?;
     let chromium = install::chromium()?;
     build::all()?;
     let address = serve::background(root().join("dist"))?;
+    run(program("node", &["benches/field.mjs", "dist"]).env("CHROMIUM", &chromium))?;
     let mut command = program("node", &["--test", "--test-reporter=spec", "e2e/kills.test.mjs"]);
     command.envs([("SIGHTLINE_URL", address.as_str()), ("CHROMIUM", &chromium), ("SIGHTLINE_KILLS", "200")]);
     run(&mut command)

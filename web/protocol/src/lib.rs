@@ -2,6 +2,7 @@
 //! type; pictures and files travel beside these as bytes.
 
 use std::collections::BTreeMap;
+use std::io::{Read, Seek};
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -49,16 +50,28 @@ pub enum Nothing {}
 pub type Progress<'a, P> = &'a mut dyn FnMut(P);
 /// Sends a word on a task, with the bytes that belong to it.
 pub type Say<'a> = &'a mut dyn FnMut(String, Vec<Vec<u8>>);
+/// A file that came with a task.
+pub enum Given {
+    /// Its bytes.
+    Whole(Vec<u8>),
+    /// Read where it is, in pieces: it may be larger than all memory.
+    Stream(Box<dyn Stream>),
+}
+
+/// A file that is read in pieces.
+pub trait Stream: Read + Seek {}
+impl<S: Read + Seek> Stream for S {}
+
 /// The answer to a task, with the bytes that belong to it.
 pub type Served<A> = Result<(A, Vec<Vec<u8>>)>;
 
-/// Who does a task, with the bytes of the files that came along.
+/// Who does a task, with the files that came along.
 pub trait Service<T: Task> {
     /// Does it.
     ///
     /// # Errors
     /// Those of the engine.
-    fn serve(&self, task: T, files: Vec<Vec<u8>>, progress: Progress<T::Progress>) -> Served<T::Answer>;
+    fn serve(&self, task: T, files: Vec<Given>, progress: Progress<T::Progress>) -> Served<T::Answer>;
 }
 
 /// The tasks with their types, the request that carries any of them, and its way to the task's own service.
@@ -90,13 +103,18 @@ macro_rules! tasks {
 
         impl Request {
             /// Has the task done; `say` gets each word on it as text, with the bytes that belong to it.
-            pub fn serve<S>(self, by: &S, files: Vec<Vec<u8>>, say: Say)
+            pub fn serve<S>(self, by: &S, files: Vec<Given>, say: Say)
             where
                 $(S: Service<$task>,)*
             {
                 match self {
                     $(Self::$task(task) => serve(by, *task, files, say),)*
                 }
+            }
+
+            /// Whether its files may be too large to be held: they are read in pieces.
+            pub fn streams(&self) -> bool {
+                matches!(self, Self::Pack(_) | Self::Unpack(_))
             }
 
             /// Says that a file of the task could not be read.
@@ -107,7 +125,7 @@ macro_rules! tasks {
     };
 }
 
-fn serve<T: Task>(by: &impl Service<T>, task: T, files: Vec<Vec<u8>>, say: Say) {
+fn serve<T: Task>(by: &impl Service<T>, task: T, files: Vec<Given>, say: Say) {
     let outcome =
         by.serve(task, files, &mut |progress| say(to_text::<SaidTo<T>>(&Said::Progress(progress)), Vec::new()));
     match outcome {
@@ -174,9 +192,9 @@ tasks! {
         /** First row. */ pub top: u32,
         /** Columns and rows. */ pub side: u32,
     } => Nothing, Shown;
-    /// Write a project file with the photos that come along; its bytes come back.
+    /// Write a project file with the photos that come along: what stands before, between and after them comes back.
     Pack { /** All but photos. */ pub content: Content, /** Of the photos. */ pub names: Vec<String> } => Nothing, ();
-    /// Read a project file; the photos' bytes come along.
+    /// Read a project file; the bytes of photos that were packed come along.
     Unpack {} => Nothing, Unpacked;
     /// Write a foreign format; the files' bytes come along, in the order of their names.
     Export {
@@ -373,6 +391,8 @@ pub struct Unpacked {
     pub content: Content,
     /// Of the photos.
     pub names: Vec<String>,
+    /// Where the bytes of each photo begin in the file, and how many they are; nothing for one that was packed.
+    pub places: Vec<Option<(u64, u64)>>,
     /// What was damaged and is left out.
     pub damaged: Vec<Error>,
 }

@@ -9,7 +9,11 @@ use super::worker::{Bytes, describe};
 
 /// A file's content, on the disk or in the browser's memory, read only when it is needed.
 #[derive(Clone)]
-pub struct Blob(web_sys::Blob);
+pub struct Blob {
+    inner: web_sys::Blob,
+    /// Whether it is a person's file, or part of one.
+    own: bool,
+}
 
 /// A file with its name.
 #[derive(Clone)]
@@ -20,32 +24,47 @@ pub struct NamedFile {
 
 impl Blob {
     pub fn from_bytes(bytes: &Bytes) -> Result<Self, String> {
-        web_sys::Blob::new_with_u8_array_sequence(&Array::of1(&bytes.0)).map(Self).map_err(|e| describe(&e))
+        web_sys::Blob::new_with_u8_array_sequence(&Array::of1(&bytes.0)).map(Self::of).map_err(|e| describe(&e))
+    }
+
+    /// Some of its bytes: they stay where they are.
+    pub fn part(&self, start: f64, size: f64) -> Result<Self, String> {
+        let inner = self.inner.slice_with_f64_and_f64(start, start + size).map_err(|e| describe(&e))?;
+        Ok(Self { inner, own: self.own })
     }
 
     pub async fn read(&self) -> Result<Vec<u8>, String> {
-        let buffer = JsFuture::from(self.0.array_buffer()).await.map_err(|e| describe(&e))?;
+        let buffer = JsFuture::from(self.inner.array_buffer()).await.map_err(|e| describe(&e))?;
         Ok(Uint8Array::new(&buffer).to_vec())
     }
 
     pub fn is_empty(&self) -> bool {
-        self.0.size() == 0.0
+        self.inner.size() == 0.0
     }
 
     pub fn size(&self) -> f64 {
-        self.0.size()
+        self.inner.size()
     }
 
-    pub(super) fn of(blob: web_sys::Blob) -> Self {
-        Self(blob)
+    /// Whether its bytes are in a person's own file: keeping it at hand takes no room.
+    pub fn is_own_file(&self) -> bool {
+        self.own
+    }
+
+    pub(super) fn of(inner: web_sys::Blob) -> Self {
+        Self { inner, own: false }
+    }
+
+    fn own(file: web_sys::File) -> Self {
+        Self { inner: file.into(), own: true }
     }
 
     pub(super) fn inner(&self) -> &web_sys::Blob {
-        &self.0
+        &self.inner
     }
 
     pub(super) fn as_js(&self) -> JsValue {
-        self.0.clone().into()
+        self.inner.clone().into()
     }
 }
 
@@ -53,7 +72,7 @@ fn listed(files: Option<FileList>) -> Vec<NamedFile> {
     let Some(files) = files else { return Vec::new() };
     let mut all: Vec<_> = (0..files.length())
         .filter_map(|i| files.get(i))
-        .map(|f| NamedFile { name: f.name(), content: Blob(f.into()) })
+        .map(|f| NamedFile { name: f.name(), content: Blob::own(f) })
         .collect();
     all.sort_by(|a, b| a.name.cmp(&b.name));
     all
@@ -63,7 +82,7 @@ fn listed(files: Option<FileList>) -> Vec<NamedFile> {
 pub(super) fn of_array(files: &JsValue) -> Vec<NamedFile> {
     let Some(files) = files.dyn_ref::<Array>() else { return Vec::new() };
     let files = files.iter().filter_map(|file| file.dyn_into::<web_sys::File>().ok());
-    files.map(|file| NamedFile { name: file.name(), content: Blob(file.into()) }).collect()
+    files.map(|file| NamedFile { name: file.name(), content: Blob::own(file) }).collect()
 }
 
 /// The files dropped or pasted with an event, in the order of their names.
@@ -96,9 +115,20 @@ pub fn choose(accept: &str, multiple: bool, on_files: impl FnOnce(Vec<NamedFile>
 
 /// Hands a file to the person, in the browser's own way.
 pub fn download(name: &str, kind: &str, bytes: &[u8]) -> Result<(), String> {
+    download_around(name, kind, &[Bytes(Uint8Array::from(bytes))], &[])
+}
+
+/// The same of a file that is made of pieces with other files between them, which nobody has to hold.
+pub fn download_around(name: &str, kind: &str, pieces: &[Bytes], between: &[Blob]) -> Result<(), String> {
     let options = BlobPropertyBag::new();
     options.set_type(kind);
-    let content = Array::of1(&Uint8Array::from(bytes));
+    let content = Array::new();
+    for (i, piece) in pieces.iter().enumerate() {
+        content.push(&piece.0);
+        if let Some(blob) = between.get(i) {
+            content.push(&blob.inner);
+        }
+    }
     let blob = web_sys::Blob::new_with_u8_array_sequence_and_options(&content, &options).map_err(|e| describe(&e))?;
     download_blob(name, &blob)
 }

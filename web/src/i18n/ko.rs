@@ -304,6 +304,8 @@ translate! { Korean desk {
     kept_unreadable(detail): "보관된 내용을 읽지 못했습니다({detail}). 삭제된 것은 없습니다.";
     kept_by_newer(version): "더 새로운 Sightline에서 보관한 프로젝트입니다(형식 {version}). 페이지를 새로 고쳐 그 버전을 받으십시오.";
     storage_cleared(n): "브라우저가 저장소를 비웠습니다. 프로젝트 {n}개가 목록에서 사라졌습니다. 저장한 파일에서 여십시오.";
+    cleared_under_page: "페이지가 열려 있는 동안 브라우저가 저장소를 비웠습니다. 프로젝트는 사진까지 지금 상태로 다시 보관했지만 안심할 수 없습니다. 지금 파일로 저장하십시오.";
+    cleared_with_photos(n): "페이지가 열려 있는 동안 브라우저가 저장소를 비웠습니다. 프로젝트는 지금 상태로 다시 보관했습니다. 사라진 사진 {n}장은 다시 끌어다 놓고 프로젝트를 지금 파일로 저장하십시오.";
     space_used(used, all): "{all} 중 {used} 사용";
     lasts: "공간이 부족해도 보관됨";
     may_be_cleared: "공간이 부족하면 브라우저가 비울 수 있음";

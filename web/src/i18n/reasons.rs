@@ -155,6 +155,7 @@ pub fn reason(reason: &Reason) -> String {
         }
         R::NoProjectInside => "프로젝트 파일이 아닙니다. 압축 안에 project.json이 없습니다",
         R::SharedBytes => "압축 파일의 항목들이 같은 바이트를 나눠 씁니다. 프로젝트 파일이 아닙니다",
+        R::EntryName => "압축에 든 항목 하나의 이름이 손상되었습니다",
         R::EntrySize => "프로젝트 파일의 이 부분이 손상되었습니다. 적힌 크기와 다릅니다",
         R::TakesTooMuch { megabytes } => return format!("문서가 메모리를 {megabytes} MB보다 많이 차지합니다"),
         R::CannotCarry { name } => {

@@ -182,6 +182,7 @@ async fn look_into(file: NamedFile, outcome: Outcome<Open>) -> Result<PhotoFile,
             Ok(PhotoFile {
                 name,
                 content,
+                original: None,
                 size: opened.size,
                 info: opened.info,
                 small,

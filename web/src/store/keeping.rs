@@ -45,14 +45,19 @@ pub enum Kept {
 pub struct Keeper {
     storage: Option<Storage>,
     /// Of the project that is open.
-    id: Option<String>,
-    book: Rc<RefCell<Book>>,
+    pub(super) id: Option<String>,
+    pub(super) book: Rc<RefCell<Book>>,
     /// What is not written yet, in its order.
-    backlog: VecDeque<Append>,
+    pub(super) backlog: VecDeque<Append>,
     sending: bool,
     /// Photos that are kept, or that could not be.
     photos: HashSet<String>,
     copying: bool,
+    /// Notes written, ever.
+    pub(super) written: usize,
+    /// Whether the journal is to be condensed soon; its size after the last time.
+    pub(super) condensing: bool,
+    pub(super) condensed: f64,
     /// States of the history that are still in the storage, by their serials.
     stored: HashMap<u64, State>,
     reading: bool,
@@ -81,7 +86,7 @@ pub enum CardOutcome {
 }
 
 #[derive(Serialize)]
-struct Append {
+pub(super) struct Append {
     id: String,
     snapshot: bool,
     note: String,
@@ -114,6 +119,12 @@ struct Copied {
 }
 
 #[derive(Deserialize)]
+struct Appended {
+    /// Of the journal.
+    size: f64,
+}
+
+#[derive(Deserialize)]
 struct Started {
     kind: String,
 }
@@ -123,8 +134,8 @@ struct Started {
 pub(super) struct Plain {}
 
 #[derive(Serialize)]
-struct Ids<'a> {
-    ids: &'a [u64],
+pub(super) struct Ids<'a> {
+    pub ids: &'a [u64],
 }
 
 #[derive(Serialize)]
@@ -255,6 +266,7 @@ impl Desk {
             let order = document.project.photos.iter();
             let keys = order.filter_map(|photo| files.get(&photo.id)).map(|file| file.key.clone()).collect();
             let card = KeptCard { card: card(&document, step), keys };
+            keeper.condensed = if snapshot { 0.0 } else { keeper.condensed };
             keeper.backlog.push_back(Append { id, snapshot, note: to_text(&note), parts: numbers, card, texts });
         });
         self.send_backlog();
@@ -273,10 +285,16 @@ impl Desk {
             let mut outcome = Ok(());
             while let Some(next) = self.keeper.try_update_value(|keeper| keeper.backlog.pop_front()).flatten() {
                 let extras = next.texts.iter().cloned().map(Extra::Text).collect();
-                if let Err(fault) = storage.call::<IgnoredAny>("append", &next, extras).await {
-                    self.keeper.update_value(|keeper| keeper.backlog.push_front(next));
-                    outcome = Err(fault);
-                    break;
+                match storage.call::<Appended>("append", &next, extras).await {
+                    Ok((Appended { size }, _)) => {
+                        self.keeper.update_value(|keeper| keeper.written += 1);
+                        self.watch_size(size);
+                    }
+                    Err(fault) => {
+                        self.keeper.update_value(|keeper| keeper.backlog.push_front(next));
+                        outcome = Err(fault);
+                        break;
+                    }
                 }
             }
             self.keeper.update_value(|keeper| keeper.sending = false);
@@ -287,9 +305,42 @@ impl Desk {
                     self.kept.set(Kept::At(page::clock()));
                     self.measure_space();
                 }
+                Err(Fault { name, .. }) if name == "GoneError" => self.keep_anew().await,
                 Err(Fault { name, detail }) => self.tell_unkept(name, detail),
             }
         });
+    }
+
+    /// The browser has cleared its storage under this page: what is here is written again, photos from where they came.
+    async fn keep_anew(self) {
+        let mut files = self.files.get_untracked();
+        let mut lost = Vec::new();
+        for (id, file) in &mut files {
+            if let Some(original) = file.original.take() {
+                file.content = original;
+            }
+            let readable = match file.content.part(0.0, 1.0) {
+                Ok(start) => start.read().await.is_ok(),
+                Err(_) => false,
+            };
+            if !readable {
+                lost.push(id.clone());
+            }
+        }
+        files.retain(|id, _| !lost.contains(id));
+        self.keeper.update_value(|keeper| {
+            keeper.book = Rc::default();
+            keeper.backlog.clear();
+            keeper.stored.clear();
+            keeper.photos.clear();
+        });
+        self.files.set(files);
+        let lost = lost.len();
+        self.say(true, Until::NextWork, move || match lost {
+            0 => text::cleared_under_page().to_owned(),
+            _ => text::cleared_with_photos(lost),
+        });
+        self.keep_now();
     }
 
     /// What could not be written stays here, is tried again, and the person is told the way out.
@@ -350,7 +401,8 @@ impl Desk {
                 self.files.update(|files| {
                     for file in files.values_mut() {
                         if let Some(copy) = copies.get(&file.key()) {
-                            file.content = copy.clone();
+                            let before = std::mem::replace(&mut file.content, copy.clone());
+                            file.original = Some(before).filter(Blob::is_own_file).or(file.original.take());
                         }
                     }
                 });
@@ -467,7 +519,10 @@ impl Desk {
             match file {
                 (file, Some(content), Some(small)) => {
                     let KeptFile { name, size, info, digest, .. } = file;
-                    here.insert(photo, PhotoFile { name, content, size, info, small, digest, sha256: String::new() });
+                    here.insert(
+                        photo,
+                        PhotoFile { name, content, original: None, size, info, small, digest, sha256: String::new() },
+                    );
                 }
                 (file, Some(content), None) => without_picture.push(NamedFile { name: file.name, content }),
                 (_, None, _) => {}
@@ -480,6 +535,7 @@ impl Desk {
         let stored = entries.zip(states).collect();
         self.keeper.update_value(|keeper| {
             keeper.id = Some(id.to_owned());
+            keeper.condensed = 0.0;
             keeper.book = book;
             keeper.stored = stored;
             keeper.backlog.clear();

@@ -1,7 +1,7 @@
 //! How a project is kept: its parts (texts by number, each written once) and a note of what has changed of its history and
 //! its present state. Notes, read in their order, give the history and the state back.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::{Arc, Weak};
 
 use serde::{Deserialize, Serialize};
@@ -27,10 +27,17 @@ pub struct State {
     pub sigmas_of_held: Vec<(String, Parameter, f64)>,
 }
 
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
 /// How much of a stack stays, and what is put on it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stack {
     pub keep: usize,
+    /// At the bottom, before what is added: they count, and are not stored any more.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub forgotten: usize,
     pub add: Vec<(Change, State)>,
 }
 
@@ -69,6 +76,43 @@ struct KeptResult {
     input: u64,
     oriented: u64,
     adjustment: Adjustment,
+}
+
+/// The parts that one part names: those of photos in a part of detections, the projects in that of a result.
+pub fn named_in(kind: &str, text: &str) -> Result<Vec<u64>, String> {
+    /// As [`KeptResult`], without reading what is computed.
+    #[derive(Deserialize)]
+    struct Of {
+        input: u64,
+        oriented: u64,
+    }
+    Ok(match kind {
+        DETECTIONS => from_text::<BTreeMap<String, u64>>(text)?.into_values().collect(),
+        RESULT => {
+            let Of { input, oriented } = from_text(text)?;
+            vec![input, oriented]
+        }
+        _ => Vec::new(),
+    })
+}
+
+/// Kinds of parts that name others.
+pub const DETECTIONS: &str = "detections";
+pub const RESULT: &str = "result";
+
+/// Which of the parts that were written the journal has still.
+#[derive(Default)]
+pub struct InJournal {
+    /// Numbers from here on were given since.
+    from: u64,
+    /// Of those before.
+    kept: HashSet<u64>,
+}
+
+impl InJournal {
+    fn has(&self, number: u64) -> bool {
+        number >= self.from || self.kept.contains(&number)
+    }
 }
 
 /// A part that is new.
@@ -114,6 +158,9 @@ impl<T> Known<T> {
 #[derive(Default)]
 pub struct Book {
     next: u64,
+    in_journal: InJournal,
+    /// Entries at the bottom of both stacks that the journal had forgotten when it was read.
+    forgotten: [usize; 2],
     projects: Known<Project>,
     detections: Known<Detection>,
     maps: Known<BTreeMap<String, Arc<Detection>>>,
@@ -126,8 +173,8 @@ pub struct Book {
     new: Vec<Part>,
 }
 
-fn number<T>(known: &mut Known<T>, next: &mut u64, part: &Arc<T>) -> (u64, bool) {
-    if let Some(number) = known.number(part) {
+fn number<T>(known: &mut Known<T>, next: &mut u64, journal: &InJournal, part: &Arc<T>) -> (u64, bool) {
+    if let Some(number) = known.number(part).filter(|number| journal.has(*number)) {
         return (number, false);
     }
     let number = *next;
@@ -143,7 +190,7 @@ impl Book {
     }
 
     fn project(&mut self, part: &Arc<Project>, kind: &str) -> u64 {
-        let (number, new) = number(&mut self.projects, &mut self.next, part);
+        let (number, new) = number(&mut self.projects, &mut self.next, &self.in_journal, part);
         if new {
             self.new.push(Part { number, kind: kind.to_owned(), text: to_plain_text(&**part) });
         }
@@ -152,20 +199,20 @@ impl Book {
 
     fn state(&mut self, document: &Document) -> State {
         let project = self.project(&document.project, "project");
-        let (detections, new) = number(&mut self.maps, &mut self.next, &document.detections);
+        let (detections, new) = number(&mut self.maps, &mut self.next, &self.in_journal, &document.detections);
         if new {
             let mut numbers = BTreeMap::new();
             for (photo, found) in &*document.detections {
-                let (number, new) = number(&mut self.detections, &mut self.next, found);
+                let (number, new) = number(&mut self.detections, &mut self.next, &self.in_journal, found);
                 if new {
                     let (kind, text) = (format!("targets {photo}"), to_plain_text(&**found));
                     self.new.push(Part { number, kind, text });
                 }
                 numbers.insert(photo, number);
             }
-            self.new.push(Part { number: detections, kind: "detections".into(), text: to_text(&numbers) });
+            self.new.push(Part { number: detections, kind: DETECTIONS.into(), text: to_text(&numbers) });
         }
-        let (doubtful, new) = number(&mut self.doubtful, &mut self.next, &document.doubtful);
+        let (doubtful, new) = number(&mut self.doubtful, &mut self.next, &self.in_journal, &document.doubtful);
         if new {
             self.new.push(Part { number: doubtful, kind: "doubtful".into(), text: to_text(&*document.doubtful) });
         }
@@ -176,12 +223,12 @@ impl Book {
     }
 
     fn result(&mut self, result: &Arc<Outcome>) -> u64 {
-        let (number, new) = number(&mut self.results, &mut self.next, result);
+        let (number, new) = number(&mut self.results, &mut self.next, &self.in_journal, result);
         if new {
             let input = self.project(&result.input, "project");
             let oriented = self.project(&result.oriented, "oriented");
             let text = to_text(&KeptResult { input, oriented, adjustment: result.adjustment.clone() });
-            self.new.push(Part { number, kind: "result".into(), text });
+            self.new.push(Part { number, kind: RESULT.into(), text });
         }
         number
     }
@@ -192,15 +239,23 @@ impl Book {
         if keep == before.len() && keep == entries.len() {
             return None;
         }
-        // Of an entry that is still stored nothing is new, so all that is added is here.
+        // What was never read again is at the bottom, and only a journal that begins anew lacks it.
+        let unread = entries[keep..].iter().take_while(|entry| entry.state.is_none()).count();
         let add = entries[keep..].iter().filter_map(|entry| {
             let state = self.state(entry.state.as_ref()?);
             Some((entry.change.clone(), state))
         });
-        let stack = Stack { keep, add: add.collect() };
+        let add = add.collect();
+        let below = self.forgotten[usize::from(!past)];
+        let stack = Stack { keep: keep + below, forgotten: if keep + below == 0 { unread } else { 0 }, add };
         let serials = entries.iter().map(|entry| entry.serial).collect();
         *(if past { &mut self.past } else { &mut self.future }) = serials;
         Some(stack)
+    }
+
+    /// From now on the journal has no parts but these and those that follow.
+    pub fn condensed(&mut self, kept: HashSet<u64>) {
+        self.in_journal = InJournal { from: self.next, kept };
     }
 
     /// What has to be added to the journal; nothing where nothing has changed.
@@ -239,6 +294,8 @@ pub struct Replayed {
     pub files: Option<u64>,
     /// A name that was given from outside since.
     pub name: Option<String>,
+    /// Entries at the bottom of past and future that are not stored any more.
+    pub forgotten: [usize; 2],
 }
 
 /// Reads notes in their order.
@@ -246,9 +303,11 @@ pub fn replay(notes: &[String]) -> Result<Replayed, String> {
     let mut all = Replayed::default();
     for note in notes {
         let note = from_text::<Note>(note)?;
-        for (stack, change) in [(&mut all.past, note.past), (&mut all.future, note.future)] {
-            if let Some(Stack { keep, add }) = change {
-                stack.truncate(keep);
+        let [past, future] = &mut all.forgotten;
+        for (stack, below, change) in [(&mut all.past, past, note.past), (&mut all.future, future, note.future)] {
+            if let Some(Stack { keep, forgotten, add }) = change {
+                stack.truncate(keep.saturating_sub(*below));
+                *below = keep.min(*below) + forgotten;
                 stack.extend(add);
             }
         }
@@ -272,6 +331,7 @@ impl Book {
             past: serials(&history.past),
             future: serials(&history.future),
             present: replayed.present.clone(),
+            forgotten: replayed.forgotten,
             ..Self::default()
         }
     }
@@ -362,24 +422,26 @@ fn read<T>(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
     /// A journal as the storage has it.
     #[derive(Default)]
-    struct Journal {
-        notes: Vec<String>,
-        texts: HashMap<u64, String>,
+    pub struct Journal {
+        pub notes: Vec<String>,
+        pub texts: HashMap<u64, String>,
+        pub kinds: HashMap<u64, String>,
     }
 
     impl Journal {
-        fn add(&mut self, added: Option<(Note, Vec<Part>)>) {
+        pub fn add(&mut self, added: Option<(Note, Vec<Part>)>) {
             let Some((note, parts)) = added else { return };
             self.notes.push(to_text(&note));
+            self.kinds.extend(parts.iter().map(|part| (part.number, part.kind.clone())));
             self.texts.extend(parts.into_iter().map(|part| (part.number, part.text)));
         }
 
-        fn read(&self) -> (Document, History, Book) {
+        pub fn read(&self) -> (Document, History, Book) {
             let replayed = replay(&self.notes).unwrap();
             let changes = |stack: &[(Change, State)]| stack.iter().map(|(change, _)| change.clone()).collect();
             let mut history = History::stored(changes(&replayed.past), changes(&replayed.future));
@@ -395,7 +457,7 @@ mod tests {
         }
     }
 
-    fn renamed(document: &Document, name: &str) -> Document {
+    pub fn renamed(document: &Document, name: &str) -> Document {
         let mut document = document.clone();
         document.project_mut().name = name.into();
         document

@@ -2,6 +2,7 @@
 
 pub mod adjusting;
 pub mod cameras;
+pub mod condensing;
 pub mod control;
 pub mod detection;
 pub mod document;
@@ -178,6 +179,8 @@ pub enum JobKind {
 pub struct PhotoFile {
     pub name: String,
     pub content: Blob,
+    /// The person's own file, where `content` is the copy that the browser keeps.
+    pub original: Option<Blob>,
     /// Width and height in pixels.
     pub size: [u32; 2],
     pub info: PhotoInfo,

@@ -115,6 +115,7 @@ async fn photo_file(name: String, opened: Opened, bytes: Vec<Bytes>) -> Option<P
     Some(PhotoFile {
         name,
         content,
+        original: None,
         size: opened.size,
         info: opened.info,
         small,

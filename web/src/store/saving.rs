@@ -1,11 +1,12 @@
 //! Project files: saving, opening, exporting, and the sample project.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::detection::Detection;
+use sightline::project::Project;
 use sightline_protocol::{Content, Export, Pack, Unpack, Unpacked};
 
 use super::document::{self, Document};
@@ -41,9 +42,11 @@ impl Desk {
         let document = self.document.get_untracked();
         let mut names = Vec::new();
         let mut files = Vec::new();
+        let mut content = content(&document);
         if with_photos {
+            name_apart(&mut content.project);
             self.files.with_untracked(|all| {
-                for photo in &document.project.photos {
+                for photo in &content.project.photos {
                     if let Some(file) = all.get(&photo.id) {
                         names.push(photo.file.clone());
                         files.push(file.content.clone());
@@ -51,15 +54,15 @@ impl Desk {
                 }
             });
         }
-        let task = Pack { content: content(&document), names };
+        let task = Pack { content, names };
+        let photos = files.clone();
         let batch = self.start_job(JobKind::Saving, 1, || {});
         let on_outcome = move |outcome: Outcome<Pack>| {
             self.end_job();
             match outcome {
                 Outcome::Done((), bytes) => {
                     let name = format!("{}.{EXTENSION}", file_stem(&document.project.name));
-                    let packed = bytes.first().map(Bytes::to_vec).unwrap_or_default();
-                    match file::download(&name, "application/zip", &packed) {
+                    match file::download_around(&name, "application/zip", &bytes, &photos) {
                         Ok(()) => {
                             self.saved.set(Some((page::clock(), document.clone())));
                             then();
@@ -111,13 +114,22 @@ impl Desk {
 
     fn unpack(self, file: NamedFile) {
         let batch = self.start_job(JobKind::OpeningProject, 1, || {});
-        let name = file.name.clone();
+        let (name, packed) = (file.name.clone(), file.content.clone());
         let on_outcome = move |outcome: Outcome<Unpack>| {
             self.end_job();
             match outcome {
-                Outcome::Done(Unpacked { content, names, damaged }, bytes) => {
+                Outcome::Done(Unpacked { content, names, places, damaged }, bytes) => {
                     let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_owned();
-                    self.take_content(content, &stem, &names, &bytes);
+                    // Photos stay in the file until they are copied.
+                    let mut unpacked = bytes.iter();
+                    let photo = |place: Option<(u64, u64)>| match place {
+                        Some((start, size)) => packed.part(start as f64, size as f64).ok(),
+                        None => unpacked.next().and_then(|bytes| Blob::from_bytes(bytes).ok()),
+                    };
+                    let photos = places.into_iter().map(photo).collect::<Vec<_>>();
+                    let named = names.into_iter().zip(photos);
+                    let named = named.filter_map(|(name, content)| Some(NamedFile { name, content: content? }));
+                    self.take_content(content, &stem, named.collect());
                     let document = self.document.get_untracked();
                     self.saved.set(Some((page::clock(), document)));
                     if !damaged.is_empty() {
@@ -134,7 +146,7 @@ impl Desk {
     }
 
     /// Puts a document on the desk, with the photos that came with it.
-    fn take_content(self, content: Content, stem: &str, names: &[String], photos: &[Bytes]) {
+    fn take_content(self, content: Content, stem: &str, photos: Vec<NamedFile>) {
         let mut project = content.project;
         if project.name.is_empty() {
             project.name = stem.to_owned();
@@ -156,14 +168,9 @@ impl Desk {
         self.forget_waiting();
         self.files.set(BTreeMap::new());
         self.selection.set(super::Selection { photo: first, ..Default::default() });
-        let files = names
-            .iter()
-            .zip(photos)
-            .filter_map(|(name, bytes)| Some(NamedFile { name: name.clone(), content: Blob::from_bytes(bytes).ok()? }));
-        let files = files.collect::<Vec<_>>();
         self.go(if adjusted { Step::Results } else { Step::Photos });
-        if !files.is_empty() {
-            self.take(files);
+        if !photos.is_empty() {
+            self.take(photos);
         }
     }
 
@@ -200,7 +207,7 @@ impl Desk {
 
     /// Gives a file to the browser to save.
     pub(super) fn hand_over(self, name: &str, kind: &str, bytes: &Bytes) {
-        if let Err(detail) = file::download(name, kind, &bytes.to_vec()) {
+        if let Err(detail) = file::download_around(name, kind, std::slice::from_ref(bytes), &[]) {
             self.say(true, Until::NextWork, move || text::cannot_save(&detail));
         }
     }
@@ -254,6 +261,22 @@ fn content(document: &Document) -> Content {
     }
 }
 
+/// Gives photos file names of their own: two cameras both have an IMG_0001.JPG, and a project file has one folder for all.
+fn name_apart(project: &mut Project) {
+    let mut taken = HashSet::new();
+    for photo in &mut project.photos {
+        let plain = photo.file.replace(['/', '\\', ':', '\0'], "_");
+        let (stem, ending) = plain.rfind('.').map_or((plain.as_str(), ""), |dot| plain.split_at(dot));
+        let mut name = plain.clone();
+        let mut count = 1;
+        while !taken.insert(name.clone()) {
+            count += 1;
+            name = format!("{stem} ({count}){ending}");
+        }
+        photo.file = name;
+    }
+}
+
 /// A project's name as a file name.
 pub(super) fn file_stem(name: &str) -> String {
     let safe = |c: char| if c.is_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '-' };
@@ -263,7 +286,19 @@ pub(super) fn file_stem(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use sightline::project::Photo;
+
     use super::*;
+
+    #[test]
+    fn photos_of_one_name_are_saved_under_names_of_their_own() {
+        let named = |file: &str| Photo { file: file.into(), ..Photo::default() };
+        let files = ["a.jpg", "b.jpg", "a.jpg", "a (2).jpg", "a.jpg", "c:d/e", "c_d_e"];
+        let mut project = Project { photos: files.map(named).into(), ..Project::default() };
+        name_apart(&mut project);
+        let names = project.photos.iter().map(|photo| photo.file.as_str()).collect::<Vec<_>>();
+        assert_eq!(names, ["a.jpg", "b.jpg", "a (2).jpg", "a (2) (2).jpg", "a (3).jpg", "c_d_e", "c_d_e (2)"]);
+    }
 
     #[test]
     fn project_names_become_file_names() {

@@ -1,14 +1,15 @@
 //! The worker's own scope: requests come in as text with files beside them, answers go out as text with bytes.
 
 use std::cell::RefCell;
+use std::io::{self, Read, Seek, SeekFrom};
 
 use js_sys::{Array, Function, Object, Promise, Reflect, Uint8Array, Uint16Array};
 use sightline::decode;
 use sightline::image::Samples;
-use sightline_protocol::{Request, from_text};
+use sightline_protocol::{Given, Request, from_text};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
-use web_sys::{Blob, DedicatedWorkerGlobalScope, MessageEvent};
+use web_sys::{Blob, DedicatedWorkerGlobalScope, FileReaderSync, MessageEvent};
 
 use crate::tasks::Engine;
 
@@ -34,12 +35,13 @@ async fn serve(message: &JsValue) {
     };
     let mut files = Vec::new();
     for file in Array::from(&field("files")).iter() {
-        match read(&file).await {
-            Ok(bytes) => files.push(bytes),
+        let given = if request.streams() { stream(&file) } else { read(&file).await.map(Given::Whole) };
+        match given {
+            Ok(given) => files.push(given),
             Err(detail) => return say(request.unreadable(detail), Vec::new()),
         }
     }
-    if files.iter().any(|file| decode::packed(file).is_some()) {
+    if files.iter().any(|file| matches!(file, Given::Whole(bytes) if decode::packed(bytes).is_some())) {
         load_codecs().await;
     }
     request.serve(&Engine, files, &mut say);
@@ -121,6 +123,46 @@ async fn read(file: &JsValue) -> Result<Vec<u8>, String> {
     let blob = file.dyn_ref::<Blob>().ok_or("no file")?;
     let buffer = JsFuture::from(blob.array_buffer()).await.map_err(|error| words(&error))?;
     Ok(Uint8Array::new(&buffer).to_vec())
+}
+
+fn stream(file: &JsValue) -> Result<Given, String> {
+    let blob = file.dyn_ref::<Blob>().ok_or("no file")?;
+    Ok(Given::Stream(Box::new(BlobStream { blob: blob.clone(), at: 0.0 })))
+}
+
+/// A file of which each part is read when it is asked for; only workers may wait for one.
+struct BlobStream {
+    blob: Blob,
+    at: f64,
+}
+
+impl Read for BlobStream {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let read = || -> Result<Uint8Array, JsValue> {
+            let part = self.blob.slice_with_f64_and_f64(self.at, self.at + into.len() as f64)?;
+            Ok(Uint8Array::new(&FileReaderSync::new()?.read_as_array_buffer(&part)?.into()))
+        };
+        let part = read().map_err(|error| io::Error::other(words(&error)))?;
+        let length = part.length() as usize;
+        part.copy_to(&mut into[..length]);
+        self.at += length as f64;
+        Ok(length)
+    }
+}
+
+impl Seek for BlobStream {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let at = match to {
+            SeekFrom::Start(at) => at as f64,
+            SeekFrom::Current(by) => self.at + by as f64,
+            SeekFrom::End(by) => self.blob.size() + by as f64,
+        };
+        if at < 0.0 {
+            return Err(io::ErrorKind::InvalidInput.into());
+        }
+        self.at = at;
+        Ok(at as u64)
+    }
 }
 
 fn say(body: String, bytes: Vec<Vec<u8>>) {

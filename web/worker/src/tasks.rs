@@ -1,13 +1,14 @@
 //! How the engine does each task: every one is a call into it.
 
 use std::collections::HashSet;
+use std::io::Cursor;
 
 use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
 use sightline::detection::{Channel, Codes, DetectOptions, Detection, Target};
 use sightline::error::{Error, Place, Thing};
 use sightline::exchange::export;
-use sightline::exchange::package::{self, Package};
+use sightline::exchange::package::{self, Held, Package};
 use sightline::experiments::{self, Experiment};
 use sightline::matching::{MatchOptions, Matching, Prediction, match_uncoded, predict};
 use sightline::orient::{Note, orient};
@@ -19,16 +20,16 @@ use sightline::sensor::{self, Shot};
 use sightline::sheets::{self, Kind};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
-    Adjust, Adjusted, Adjusting, BeginPlan, Content, Detect, DrawSheets, Drawn, Export, ExportExperiment, MakePlan,
-    MakePlots, MakeReport, Match, Measure, MeasureFeatures, Nothing, Open, Opened, Pack, PlanOf, Predict, PredictPlan,
-    Progress, ReportMade, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto,
-    Shown, Situate, Situated, SuggestPhoto, Unpack, Unpacked, WriteSheets,
+    Adjust, Adjusted, Adjusting, BeginPlan, Content, Detect, DrawSheets, Drawn, Export, ExportExperiment, Given,
+    MakePlan, MakePlots, MakeReport, Match, Measure, MeasureFeatures, Nothing, Open, Opened, Pack, PlanOf, Predict,
+    PredictPlan, Progress, ReportMade, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart,
+    ShowPhoto, Shown, Situate, Situated, Stream, SuggestPhoto, Unpack, Unpacked, WriteSheets,
 };
 
 use crate::codecs::unpack;
 use crate::kept::{self, digest, with_photo};
 
-type Files = Vec<Vec<u8>>;
+type Files = Vec<Given>;
 
 /// Does every task of the page.
 pub struct Engine;
@@ -129,16 +130,36 @@ impl Service<ShowPart> for Engine {
 impl Service<Pack> for Engine {
     fn serve(&self, task: Pack, files: Files, _: Progress<Nothing>) -> Served<()> {
         let Content { project, targets, adjustment } = task.content;
-        let photos = task.names.into_iter().zip(files).collect();
-        Ok(((), vec![package::write(&Package { project, targets, adjustment, photos, ..Package::default() })?]))
+        let files = files.into_iter().map(|file| match file {
+            Given::Whole(bytes) => Box::new(Cursor::new(bytes)) as Box<dyn Stream>,
+            Given::Stream(stream) => stream,
+        });
+        let mut photos = task.names.iter().map(String::as_str).zip(files).collect::<Vec<_>>();
+        let package = Package { project, targets, adjustment, ..Package::default() };
+        Ok(((), package::write_around(&package, &mut photos)?))
     }
 }
 
 impl Service<Unpack> for Engine {
     fn serve(&self, _: Unpack, files: Files, _: Progress<Nothing>) -> Served<Unpacked> {
-        let Package { project, targets, adjustment, photos, damaged } = package::read(first(&files))?;
-        let (names, bytes) = photos.into_iter().unzip();
-        Ok((Unpacked { content: Content { project, targets, adjustment }, names, damaged }, bytes))
+        let (package, photos) = match files.into_iter().next() {
+            Some(Given::Stream(stream)) => package::read_from(stream)?,
+            Some(Given::Whole(bytes)) => package::read_from(Cursor::new(bytes))?,
+            None => package::read_from(Cursor::new([]))?,
+        };
+        let Package { project, targets, adjustment, damaged, .. } = package;
+        let (mut names, mut places, mut unpacked) = (Vec::new(), Vec::new(), Vec::new());
+        for (name, held) in photos {
+            names.push(name);
+            places.push(match held {
+                Held::At(start, size) => Some((start, size)),
+                Held::Unpacked(bytes) => {
+                    unpacked.push(bytes);
+                    None
+                }
+            });
+        }
+        Ok((Unpacked { content: Content { project, targets, adjustment }, names, places, damaged }, unpacked))
     }
 }
 
@@ -284,8 +305,9 @@ impl Service<SamplePhoto> for Engine {
     }
 }
 
-fn first(files: &[Vec<u8>]) -> &[u8] {
-    files.first().map(Vec::as_slice).unwrap_or_default()
+/// The bytes of the only file.
+fn first(files: &[Given]) -> &[u8] {
+    if let Some(Given::Whole(bytes)) = files.first() { bytes } else { &[] }
 }
 
 /// Size, EXIF, small picture, from one decoding; the photo is kept for what comes next.

@@ -1,0 +1,256 @@
+// Storage as browsers have it: without a private file system, full, cleared under the page, in a private window; a long session.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { killRenderers, open, openPrivately } from './browser.mjs';
+import { downloads, drop, go, idle, notice, sample, scratch, unzipped } from './desk.mjs';
+
+const written = (page) => page.waitForFunction(() => /^saved \d/.test(document.querySelector('.project span')?.textContent), undefined, { timeout: 60_000 });
+const figure = (page, step) => page.textContent(`[data-step=${step}] .figure`).then((text) => text.trim());
+const named = (name) => JSON.stringify({ format: 'sightline', version: 1, name });
+const storageLine = (page, words) => page.waitForFunction((wanted) => new RegExp(wanted).test(document.querySelector('.foot .storage')?.textContent), words, { timeout: 60_000 });
+
+async function goOn(page) {
+  await page.click('[data-project] .do .button');
+  await page.waitForSelector('.project-name');
+}
+
+async function rename(page, name) {
+  await page.fill('.project-name', name);
+  await page.press('.project-name', 'Enter');
+}
+
+/** The page with something put before the worker that keeps projects. */
+async function openWith(prelude) {
+  const opened = await open({ width: 1366, height: 768, serviceWorkers: 'block' });
+  await opened.context.route('**/storage.js', async (route) => {
+    const answer = await route.fetch();
+    await route.fulfill({ response: answer, body: `${prelude}\n${await answer.text()}` });
+  });
+  await opened.page.reload();
+  return opened;
+}
+
+/** What the storage holds of journals, by the page's own means: bytes and generations. */
+const journals = (page) =>
+  page.evaluate(async () => {
+    const top = await (await navigator.storage.getDirectory()).getDirectoryHandle('sightline');
+    const all = [];
+    for await (const folder of (await top.getDirectoryHandle('projects')).values()) {
+      for await (const file of folder.values()) if (file.name.startsWith('journal-')) all.push({ name: file.name, bytes: (await file.getFile()).size });
+    }
+    return all;
+  });
+
+test('without a private file system the database keeps everything, also when the page is killed', { timeout: 600_000 }, async () => {
+  const { page: first, context, url, profile, errors, close } = await openWith('delete StorageManager.prototype.getDirectory;');
+  try {
+    let page = first;
+    await sample(page);
+    await written(page);
+    const [targets, results] = [await figure(page, 'targets'), await figure(page, 'results')];
+    await go(page, 'control');
+    for (let kill = 0; kill < 4; kill++) {
+      for (let edit = 0; edit < 5; edit++) await rename(page, `${kill} ${edit}`);
+      const role = page.locator('.preview select').first();
+      const chosen = (await role.inputValue()) === 'check' ? 'control' : 'check';
+      await role.selectOption(chosen);
+      await page.waitForTimeout(1000);
+      const crashed = page.waitForEvent('crash');
+      assert.ok(killRenderers(profile) > 0);
+      await crashed;
+      const dead = page;
+      page = await context.newPage();
+      await dead.close().catch(() => {});
+      await page.goto(url);
+      await goOn(page);
+      assert.equal(await page.inputValue('.project-name'), `${kill} 4`);
+      await go(page, 'control');
+      assert.equal(await page.locator('.preview select').first().inputValue(), chosen);
+    }
+    assert.equal(await figure(page, 'photos'), '8');
+    assert.equal(await figure(page, 'targets'), targets);
+    // The roles are as they were, and four changes of them can be undone: then the result is that of the beginning.
+    for (let undo = 0; undo < 4; undo++) {
+      await page.waitForFunction(() => document.querySelector('.tools .icon-button')?.disabled === false);
+      await page.click('.tools .icon-button');
+    }
+    assert.equal(await figure(page, 'results'), results);
+    const files = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+    assert.equal(Object.keys(unzipped(Object.values(files)[0])).filter((name) => name.startsWith('photos/')).length, 8);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('a full disk is told, the file is the way out, and what waited is written when there is room', { timeout: 600_000 }, async () => {
+  const { page, context, url, close } = await open({ width: 1366, height: 768 });
+  try {
+    await sample(page);
+    await written(page);
+    const session = await context.newCDPSession(page);
+    const { origin } = new URL(url);
+    const { usage } = await session.send('Storage.getUsageAndQuota', { origin });
+    await session.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: usage + 50_000 });
+    await go(page, 'control');
+    let told = false;
+    for (let edit = 0; edit < 400 && !told; edit++) {
+      await rename(page, `Full ${edit} ${'x'.repeat(2000)}`);
+      told = await page.evaluate(() => /storage of this computer is full/.test(document.querySelector('.notices')?.textContent ?? ''));
+    }
+    assert.ok(told, 'the full storage was not told');
+    await storageLine(page, 'full.*Save the project');
+    await rename(page, 'The last name');
+    // Everything is in the file.
+    const files = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+    const inside = unzipped(Object.values(files)[0]);
+    assert.equal(JSON.parse(inside['project.json']).name, 'The last name');
+    assert.equal(Object.keys(inside).filter((name) => name.startsWith('photos/')).length, 8);
+    // Someone makes room: nothing has to be done for what waited.
+    await session.send('Storage.overrideQuotaForOrigin', { origin });
+    await written(page);
+    await page.reload();
+    await goOn(page);
+    assert.equal(await page.inputValue('.project-name'), 'The last name');
+    assert.equal(await figure(page, 'photos'), '8');
+  } finally {
+    await close();
+  }
+});
+
+test('photos that do not fit are told, and stay in use', { timeout: 600_000 }, async () => {
+  const { page, context, url, close } = await open({ width: 1366, height: 768 });
+  try {
+    await page.waitForSelector('.desk');
+    const session = await context.newCDPSession(page);
+    const { origin } = new URL(url);
+    const { usage } = await session.send('Storage.getUsageAndQuota', { origin });
+    await session.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: usage + 8_000_000 });
+    await sample(page);
+    await page.waitForFunction(() => /\d photos? (is|are) not copied .*saved with photos/.test(document.querySelector('.notices')?.textContent ?? ''));
+    await go(page, 'targets');
+    const targets = await figure(page, 'targets');
+    await page.click('[data-action=detect]');
+    await idle(page);
+    assert.equal(await figure(page, 'targets'), targets);
+  } finally {
+    await close();
+  }
+});
+
+for (const [kind, prelude] of [['files', ''], ['database', 'delete StorageManager.prototype.getDirectory;']]) {
+  test(`storage that is cleared under the page (${kind}) is told, and nothing is lost`, { timeout: 600_000 }, async () => {
+    const { page, context, url, close } = await openWith(prelude);
+    try {
+      // Photos of one's own: their files are at hand still.
+      await sample(page);
+      const files = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+      await page.click('.mark');
+      await drop(page, [scratch('own.sightline', Object.values(files)[0])]);
+      await page.waitForFunction(() => location.hash === '#results');
+      await idle(page);
+      await rename(page, 'Before');
+      await written(page);
+      // The copies are made, and in use.
+      await page.waitForTimeout(2000);
+      const session = await context.newCDPSession(page);
+      await session.send('Storage.clearDataForOrigin', { origin: new URL(url).origin, storageTypes: 'all' });
+      await rename(page, 'After');
+      await page.waitForFunction(() => /cleared its storage/.test(document.querySelector('.notices')?.textContent ?? ''), undefined, { timeout: 30_000 });
+      assert.match(await notice(page), /photos and all/);
+      await written(page);
+      // The way out: everything is in the file, photos from where they came.
+      const saved = unzipped(Object.values(await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click()))[0]);
+      assert.equal(JSON.parse(saved['project.json']).name, 'After');
+      assert.equal(Object.keys(saved).filter((name) => name.startsWith('photos/')).length, 8);
+      // Chromium takes away what is written to its file system after that, too, as soon as the page is left: only the database is sure.
+      if (kind === 'files') return;
+      await page.waitForTimeout(2000);
+      await page.reload();
+      await goOn(page);
+      assert.equal(await page.inputValue('.project-name'), 'After');
+      assert.equal(await figure(page, 'photos'), '8');
+      await go(page, 'targets');
+      const targets = await figure(page, 'targets');
+      await page.click('[data-action=detect]');
+      await idle(page);
+      assert.equal(await figure(page, 'targets'), targets);
+    } finally {
+      await close();
+    }
+  });
+}
+
+test('storage that was cleared since the last visit is told', { timeout: 300_000 }, async () => {
+  const { page, context, url, close } = await open({ width: 1366, height: 768 });
+  try {
+    await drop(page, [scratch('one.json', named('One'))]);
+    await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'One');
+    await written(page);
+    await page.click('.mark');
+    await page.waitForSelector('[data-project]');
+    const session = await context.newCDPSession(page);
+    await session.send('Storage.clearDataForOrigin', { origin: new URL(url).origin, storageTypes: 'file_systems,indexeddb' });
+    await page.reload();
+    await page.waitForFunction(() => /cleared its storage: 1 project/.test(document.querySelector('.notices')?.textContent ?? ''), undefined, { timeout: 30_000 });
+  } finally {
+    await close();
+  }
+});
+
+test('a private window keeps what it can, and says that it may go', { timeout: 600_000 }, async () => {
+  const { page, errors, close } = await openPrivately({ width: 1366, height: 768 });
+  try {
+    await sample(page);
+    await written(page);
+    await storageLine(page, 'may clear it|keeps nothing');
+    await rename(page, 'Private');
+    await written(page);
+    await page.reload();
+    await goOn(page);
+    assert.equal(await page.inputValue('.project-name'), 'Private');
+    const files = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+    assert.equal(JSON.parse(unzipped(Object.values(files)[0])['project.json']).name, 'Private');
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('the journal of a long session is condensed, and nothing of it is lost', { timeout: 900_000 }, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    // A large document, so that every whole part counts.
+    const points = Array.from({ length: 9000 }, (_, k) => ({ id: `p${k}`, role: 'control', xyz: [k / 7, k / 11, k / 13], sigma: [0.1, 0.1, 0.1] }));
+    await drop(page, [scratch('large.json', JSON.stringify({ format: 'sightline', version: 1, name: 'Large', unit: 'mm', points }))]);
+    await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Large');
+    await written(page);
+    const [{ bytes: whole }] = await journals(page);
+    let most = 0;
+    let generation = 1;
+    for (let round = 0; round < 8; round++) {
+      for (let edit = 0; edit < 70; edit++) await rename(page, `Large ${round} ${edit}`);
+      await written(page);
+      await page.waitForTimeout(4000);
+      const all = await journals(page);
+      assert.equal(all.length, 1, JSON.stringify(all));
+      most = Math.max(most, all[0].bytes);
+      generation = Number(all[0].name.slice(8));
+    }
+    assert.ok(generation > 1, `never condensed: ${most} bytes after 560 edits of a document of ${whole}`);
+    assert.ok(most < 12e6, `${most} bytes`);
+    await page.reload();
+    await goOn(page);
+    assert.equal(await page.inputValue('.project-name'), 'Large 7 69');
+    // What was done after condensing is kept as well.
+    await rename(page, 'The end');
+    await written(page);
+    await page.reload();
+    await goOn(page);
+    assert.equal(await page.inputValue('.project-name'), 'The end');
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
