@@ -1,17 +1,17 @@
 // Formats whose decoders are a file of their own: it is fetched when the first such photo comes, and kept.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync } from 'node:fs';
+import { copyFileSync, mkdtempSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
 
 import { open } from './browser.mjs';
-import { detect, photos, sample } from './desk.mjs';
+import { detect, drop, idle, photos, sample } from './desk.mjs';
 
 const count = (text) => Number(text.replace(/\D/g, ''));
 
-test('a HEIC is opened and measured, and without one no decoder is fetched', { timeout: 180_000 }, async () => {
+test('HEIC and RAW are opened and measured, and without one no decoder is fetched', { timeout: 180_000 }, async () => {
   const folder = mkdtempSync(join(tmpdir(), 'sightline-written-'));
   execFileSync(join(process.env.SIGHTLINE_EXAMPLES, 'written'), [folder]);
   const { page, context, errors, close } = await open({ width: 1366, height: 768 });
@@ -28,9 +28,21 @@ test('a HEIC is opened and measured, and without one no decoder is fetched', { t
     assert.equal(await page.locator('.tile').count(), 1);
     assert.equal(await page.locator('.problems li').count(), 0);
     assert.ok(decoders().some((url) => url.endsWith('_bg.wasm')));
+    // A RAW of the same name is the same shot: it is named, not measured as a second one.
+    await drop(page, [join(folder, 'photo.dng')]);
+    await page.waitForSelector('.problems li');
+    assert.match(await page.textContent('.problems li'), /photo\.dng.*same shot as photo\.heic/);
+    assert.equal(await page.locator('.tile').count(), 1);
+    // The picture of a RAW that has no preview comes from its samples.
+    copyFileSync(join(folder, 'photo.dng'), join(folder, 'other.dng'));
+    await drop(page, [join(folder, 'other.dng')]);
+    await page.waitForFunction(() => document.querySelectorAll('.tile').length === 2);
+    await idle(page);
     await detect(page, {});
     const found = count(await page.textContent('[data-step=targets] .figure'));
-    assert.ok(found > 40, `${found} targets`);
+    assert.ok(found > 80, `${found} targets`);
+    await page.locator('.strip [data-photo]').nth(1).click();
+    await page.waitForFunction(() => /green sites \(RGGB\)/.test(document.querySelector('[data-result=picture]')?.textContent ?? ''));
     // What was asked for once is there without a network from then on.
     const kept = () => page.evaluate(async () => {
       const all = await Promise.all((await caches.keys()).map(async (key) => (await (await caches.open(key)).keys()).map(({ url }) => url)));

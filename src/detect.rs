@@ -5,12 +5,14 @@
 //! confirms them: sub-pixel edges, a robust ellipse through them ([`ellipse`] is the shape itself), the grey levels around.
 //! [`rendered`] measures the centre by the fit of a rendered ellipse, or [`centroid`] by a classical operator; [`measure`] leads
 //! from one to the next. Rings around a target are read as codes ([`code`]). In ordinary photos [`alike`] finds more by what the targets
-//! found have in common. A room uses those before it, never the reverse. [`whole`] goes around what a damaged file does not give.
+//! found have in common. A room uses those before it, never the reverse. [`whole`] goes around what a damaged file does not give,
+//! [`sites`] measures on a sensor's own samples, [`colours`] red and blue beside green.
 
 mod alike;
 mod centroid;
 mod click;
 mod code;
+mod colours;
 mod covered;
 mod edges;
 mod ellipse;
@@ -21,6 +23,7 @@ mod picture;
 mod rendered;
 mod search;
 mod shot;
+mod sites;
 mod whole;
 
 pub(crate) use ellipse::{conic, outline};
@@ -29,6 +32,7 @@ use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, Pi
 use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
 use code::outline_of;
+pub use colours::colours_apart;
 use covered::Covered;
 use measure::Measure;
 use normal::BLUR;

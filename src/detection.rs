@@ -1,10 +1,14 @@
 //! What detection reports: targets with their centres and sigmas, and what was rejected and why.
 
+mod apart;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
 use crate::ring_code::Family;
+
+pub use apart::{ColourApart, ColoursApart, Lateral, Shift};
 
 /// How a centre is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -340,6 +344,67 @@ pub struct PictureReport {
     pub softened: bool,
 }
 
+/// Colour of a site's filter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Colour {
+    /// Red.
+    Red,
+    /// Green.
+    Green,
+    /// Blue.
+    Blue,
+    /// Cyan.
+    Cyan,
+    /// Magenta.
+    Magenta,
+    /// Yellow.
+    Yellow,
+    /// No filter.
+    White,
+    /// Between green and blue, on a few old sensors.
+    Emerald,
+}
+
+/// Which samples were measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MeasuredOn {
+    /// The sites of one colour of a sensor, each by itself.
+    #[default]
+    Sites,
+    /// A picture interpolated between these sites, which methods other than the fit need.
+    InterpolatedSites,
+}
+
+/// What was measured on, where it is a sensor's own samples. Levels and noise are in its samples.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Measured {
+    /// Which samples.
+    pub on: MeasuredOn,
+    /// Name of the file's format.
+    pub format: String,
+    /// Colour of the sites.
+    pub colour: Option<Colour>,
+    /// Filters of the sensor, one letter a site, row by row.
+    pub pattern: Option<String>,
+    /// Bits of a sample.
+    pub bits: u32,
+    /// The part of the grid that light reaches: left, top, width, height.
+    pub active_area: Option<[u32; 4]>,
+    /// Sample from which one is clipped.
+    pub white: Option<f64>,
+    /// Growth of a sample's variance with the light in it.
+    pub gain: Option<f64>,
+    /// Standard deviation of a sample without light, where something dark tells.
+    pub read_noise: Option<f64>,
+    /// Sites that shine by themselves and were left out of the search.
+    pub hot_sites: Option<usize>,
+    /// Corrections of the lens that the file names, in its own words; none was made.
+    pub corrections: Vec<String>,
+}
+
 /// Result of the detection in one photo.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Detection {
@@ -355,6 +420,9 @@ pub struct Detection {
     /// What the picture shows of how it was taken and processed.
     #[serde(default)]
     pub picture: PictureReport,
+    /// What was measured on, where it is a sensor's own samples.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured: Option<Measured>,
     /// The targets, from top to bottom.
     pub targets: Vec<Target>,
     /// How many blobs were rejected, by reason.

@@ -10,12 +10,12 @@ mod part;
 use serde::{Deserialize, Serialize};
 
 use crate::decode::{Photo, Picture};
-use crate::detection::Channel;
+use crate::detection::{Channel, Colour};
 use crate::error::{Damage, Error, Place, Result};
 use crate::exif::PhotoInfo;
 use crate::image::{Grey, Samples};
 use crate::limits;
-pub use mosaic::{Black, Colour, Mosaic, Pattern};
+pub use mosaic::{Black, BlackRow, Mosaic, Pattern};
 pub use part::part;
 
 /// What is said of the samples.
@@ -79,6 +79,8 @@ pub struct Sensor {
     pub samples: Vec<u16>,
     /// Rows that could not be decoded.
     pub damaged_rows: Vec<[u32; 2]>,
+    /// Corrections of the lens that the file names, in its own words.
+    pub corrections: Vec<String>,
 }
 
 impl Shot {
@@ -141,8 +143,9 @@ impl Unpacked {
         match (header.mosaic, samples) {
             (Some(mosaic), Samples::U16(samples)) => {
                 let mosaic = mosaic.checked([header.width, header.height]).ok_or_else(|| broken(Damage::Header))?;
-                let Header { format, bits, .. } = header;
-                Ok(Shot::Sensor(Sensor { format, width, height, bits, mosaic, samples, damaged_rows }))
+                let Header { format, bits, corrections, .. } = header;
+                let sensor = Sensor { format, width, height, bits, mosaic, samples, damaged_rows, corrections };
+                Ok(Shot::Sensor(sensor))
             }
             (Some(_), Samples::U8(_)) => Err(broken(Damage::Header)),
             (None, samples) => Ok(Shot::Photo(Photo { grey: Grey { width, height, samples }, damaged_rows })),

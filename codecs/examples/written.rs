@@ -1,7 +1,11 @@
-//! Writes photos of the sample project in the formats of this module: `written FOLDER` leaves `photo.heic` there.
+//! Writes a photo of the sample project in the formats of this module: `written FOLDER` leaves `photo.heic` and `photo.dng` there.
+
+#[path = "../tests/support/dng.rs"]
+mod dng;
 
 use sightline::detection::Channel;
 use sightline::image::Samples;
+use sightline::noise::Noise;
 use sightline::{decode, sample};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -13,5 +17,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let options = heifer::EncodeOptions { quality: 90, ..heifer::EncodeOptions::default() };
     let heic = heifer::encode_rgb8(grey.width as u32, grey.height as u32, &rgb, &options)?;
     std::fs::write(format!("{folder}/photo.heic"), heic)?;
+    let mut noise = Noise::new(1, 0);
+    let mut light = |level: &u8| (512.0 + 50.0 * f64::from(*level) + 4.0 * noise.normal()).round() as u16;
+    let dng = dng::Dng {
+        width: grey.width,
+        height: grey.height,
+        bits: 14,
+        pattern: "RGGB",
+        black: 512,
+        white: 16383,
+        active_area: [0, 0, grey.height as u32, grey.width as u32],
+        samples: samples.iter().map(&mut light).collect(),
+        lossless_jpeg: true,
+        opcodes: Vec::new(),
+        orientation: 1,
+        preview: Vec::new(),
+    };
+    std::fs::write(format!("{folder}/photo.dng"), dng.file())?;
     Ok(())
 }

@@ -7,6 +7,7 @@ mod damage;
 mod heic;
 #[cfg(target_arch = "wasm32")]
 mod module;
+mod raw;
 mod small;
 
 use sightline::decode::packed;
@@ -40,7 +41,7 @@ impl Wanted {
 pub fn unpack(bytes: &[u8], wanted: Wanted) -> Result<Unpacked> {
     match packed(bytes) {
         Some(name) if name.starts_with("HEI") => heic::unpack(bytes, wanted),
-        Some(name) => Err(damage::unread(name.to_owned())),
+        Some(name) => raw::unpack(bytes, name, wanted),
         None => Err(Error::UnknownImageFormat { recognised: None, at: Place::default() }),
     }
 }

@@ -179,7 +179,7 @@ fn damage_is_told_and_nothing_else_happens() {
         }
     }
     let mut random = Uniform(3);
-    for _ in 0..600 {
+    for _ in 0..300 {
         let mut bytes = whole.clone();
         for _ in 0..4 {
             let at = (random.next() * bytes.len() as f64) as usize;

@@ -124,6 +124,20 @@ fn measured_at(
     found().map(|target| value::write(&target)).map_err(|error| thrown(&error))
 }
 
+/// Measures the targets of a photo in green, red and blue: the lateral chromatic aberration of its lens.
+#[wasm_bindgen(js_name = coloursApart, unchecked_return_type = "ColoursApart")]
+pub fn colours_apart(
+    #[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer")] bytes: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
+) -> Thrown {
+    let found = || {
+        let options: DetectOptions = value::options(&options, &[])?;
+        let bytes = plain::bytes(&bytes, "bytes")?;
+        detect::colours_apart(|channel| codecs::shot(&bytes, channel), &options)
+    };
+    found().map(|apart| value::write(&apart)).map_err(|error| thrown(&error))
+}
+
 /// What the file says of a photo and its camera: the size of the stored grid, and EXIF. Hints for initial values.
 #[wasm_bindgen(js_name = photoInfo, unchecked_return_type = "PhotoInfo")]
 pub fn photo_info(#[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer")] bytes: JsValue) -> Thrown {

@@ -638,6 +638,67 @@ export interface PictureReport {
   softened: boolean;
 }
 
+/** Colour of a filter of a sensor. */
+export type Colour = "red" | "green" | "blue" | "cyan" | "magenta" | "yellow" | "white" | "emerald";
+
+/** A sensor's own samples that were measured on; levels and noise in these samples. */
+export interface MeasuredSamples {
+  /** "sites": each site by itself; "interpolated_sites": a picture between them, for methods other than "least_squares". */
+  on: "sites" | "interpolated_sites";
+  format: string;
+  colour: Colour | null;
+  /** Filters, one letter a site, row by row. */
+  pattern: string | null;
+  bits: number;
+  /** The part of the grid that light reaches: left, top, width, height. Coordinates are on the whole grid. */
+  active_area: [number, number, number, number] | null;
+  /** Sample from which one is clipped. */
+  white: number | null;
+  /** Growth of a sample's variance with the light in it. */
+  gain: number | null;
+  /** Standard deviation of a sample without light; null where nothing dark tells. */
+  read_noise: number | null;
+  /** Sites that shine by themselves. */
+  hot_sites: number | null;
+  /** Corrections of the lens that the file names, in its own words; none was made. */
+  corrections: string[];
+}
+
+/** Lateral chromatic aberration of a colour against green. */
+export interface Lateral {
+  /** Shift of the whole picture, in pixels. */
+  shift_u: number;
+  shift_v: number;
+  /** Parts that grow with the radius and with its third power, in pixels at the corner; positive outwards. */
+  linear: number;
+  cubic: number;
+  /** Both together, and its standard error. */
+  at_corner: number;
+  sigma_at_corner: number;
+  /** What is left of a difference: in pixels, and in units of its standard errors. */
+  rms: number;
+  sigma0: number;
+  /** Targets that it is from. */
+  targets: number;
+}
+
+/** Targets in red or blue, less the same in green. */
+export interface ColourApart {
+  colour: Colour;
+  /** Centre in green, difference, its standard errors: in pixels. */
+  shifts: { u: number; v: number; du: number; dv: number; sigma_u: number; sigma_v: number }[];
+  /** Null where there are too few targets. */
+  lateral: Lateral | null;
+}
+
+export interface ColoursApart {
+  /** Middle of the lit part, from which radii count, and the radius of its corners. */
+  centre: [number, number];
+  corner: number;
+  /** Red and blue; empty for a sensor without filters. */
+  colours: ColourApart[];
+}
+
 export interface Detection {
   width: number;
   height: number;
@@ -645,6 +706,8 @@ export interface Detection {
   /** Rows that could not be decoded and were not measured: first row and the row after the last. Empty for a sound file. */
   damaged_rows: [number, number][];
   picture: PictureReport;
+  /** What was measured on, where it is a sensor's own samples (RAW). */
+  measured?: MeasuredSamples;
   targets: Target[];
   rejected: Partial<Record<RejectionReason, number>>;
   /** Made when they are first read. */

@@ -1,8 +1,8 @@
 //! Targets of a photo, whoever has decoded it.
 
-use super::{detect_photo, measure_in_photo};
+use super::{detect_photo, measure_in_photo, sites};
 use crate::detection::{DetectOptions, Detection, Target};
-use crate::error::{Error, Place, Result};
+use crate::error::Result;
 use crate::sensor::Shot;
 
 /// Finds and measures the targets of a photo.
@@ -12,7 +12,7 @@ use crate::sensor::Shot;
 pub fn detect_shot(shot: &Shot, options: &DetectOptions) -> Result<Detection> {
     match shot {
         Shot::Photo(photo) => detect_photo(photo, options),
-        Shot::Sensor(sensor) => Err(unread(&sensor.format)),
+        Shot::Sensor(sensor) => sites::detect_sensor(sensor, options),
     }
 }
 
@@ -23,10 +23,6 @@ pub fn detect_shot(shot: &Shot, options: &DetectOptions) -> Result<Detection> {
 pub fn measure_in_shot(shot: &Shot, u: f64, v: f64, options: &DetectOptions) -> Result<Option<Target>> {
     match shot {
         Shot::Photo(photo) => measure_in_photo(photo, u, v, options),
-        Shot::Sensor(sensor) => Err(unread(&sensor.format)),
+        Shot::Sensor(sensor) => sites::measure_in_sensor(sensor, u, v, options),
     }
-}
-
-fn unread(format: &str) -> Error {
-    Error::UnknownImageFormat { recognised: Some(format!("RAW ({format})")), at: Place::default() }
 }

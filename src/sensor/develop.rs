@@ -1,7 +1,8 @@
 //! Pictures for showing of what is measured. They are for the eye: means over squares of sites, the brightest part as white.
 
-use super::{Colour, Sensor};
+use super::Sensor;
 use crate::decode::Picture;
+use crate::detection::Colour;
 use crate::image::{Grey, Samples};
 
 /// Share of the pixels that may be whiter than white.

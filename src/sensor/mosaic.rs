@@ -2,27 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Colour of a site's filter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Colour {
-    /// Red.
-    Red,
-    /// Green.
-    Green,
-    /// Blue.
-    Blue,
-    /// Cyan.
-    Cyan,
-    /// Magenta.
-    Magenta,
-    /// Yellow.
-    Yellow,
-    /// No filter.
-    White,
-    /// Between green and blue, on a few old sensors.
-    Emerald,
-}
+use crate::detection::Colour;
 
 const LETTERS: [(char, Colour); 8] = [
     ('R', Colour::Red),
@@ -131,6 +111,14 @@ impl Black {
         level + of(&self.rows, y) + of(&self.columns, x)
     }
 
+    /// Of the sites of one row.
+    pub fn of_row(&self, y: usize) -> BlackRow<'_> {
+        let height = self.levels.len() / self.width.max(1);
+        let first = if height == 0 { 0 } else { y % height * self.width };
+        let levels = self.levels.get(first..first + self.width).unwrap_or_default();
+        BlackRow { levels, row: self.rows.get(y).copied().unwrap_or(0.0), columns: &self.columns }
+    }
+
     /// The largest that occurs.
     pub fn largest(&self) -> f64 {
         let of = |list: &[f64]| list.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -142,6 +130,27 @@ impl Black {
         let finite = |list: &[f64]| list.iter().all(|level| level.is_finite());
         let whole = self.levels.is_empty() || self.width > 0 && self.levels.len().is_multiple_of(self.width);
         whole && finite(&self.levels) && finite(&self.rows) && finite(&self.columns)
+    }
+}
+
+/// The black of one row.
+#[derive(Clone, Copy, Debug)]
+pub struct BlackRow<'a> {
+    levels: &'a [f64],
+    row: f64,
+    columns: &'a [f64],
+}
+
+impl BlackRow<'_> {
+    /// At a column of the whole grid.
+    #[inline]
+    pub fn at(&self, x: usize) -> f64 {
+        let level = match self.levels {
+            [] => 0.0,
+            [only] => *only,
+            levels => levels[x % levels.len()],
+        };
+        level + self.row + if self.columns.is_empty() { 0.0 } else { self.columns.get(x).copied().unwrap_or(0.0) }
     }
 }
 
@@ -191,5 +200,7 @@ mod tests {
         let black = Black { width: 2, levels: vec![1.0, 2.0, 3.0, 4.0], rows: vec![0.0, 10.0], columns: vec![] };
         assert_eq!([black.at(0, 0), black.at(3, 1), black.at(2, 3), black.largest()], [1.0, 14.0, 3.0, 14.0]);
         assert_eq!(Black::default().at(5, 5), 0.0);
+        let same = |black: &Black| (0..4).all(|y| (0..4).all(|x| black.of_row(y).at(x) == black.at(x, y)));
+        assert!(same(&black) && same(&Black::default()) && same(&Black::uniform(3.0)));
     }
 }

@@ -81,8 +81,9 @@ mod tests {
             black: Black::uniform(64.0),
             white: 4095.0,
         };
-        let (format, damaged_rows) = ("DNG".into(), Vec::new());
-        let shot = Shot::Sensor(Sensor { format, width: 8, height: 6, bits: 12, mosaic, samples, damaged_rows });
+        let (format, damaged_rows, corrections) = ("DNG".into(), Vec::new(), Vec::new());
+        let sensor = Sensor { format, width: 8, height: 6, bits: 12, mosaic, samples, damaged_rows, corrections };
+        let shot = Shot::Sensor(sensor);
         let shown = part(&shot, [1, 1], 4);
         assert_eq!((shown.width, shown.rgba.len()), (4, 64));
         assert!(shown.rgba.chunks(4).all(|pixel| pixel == [255; 4]));

@@ -7,7 +7,7 @@ use std::io::{Read, Seek};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sightline::adjustment::{AdjustOptions, AdjustedPhoto, Adjustment, Iteration, Measured};
-use sightline::detection::{DetectOptions, Detection, Target};
+use sightline::detection::{ColoursApart, DetectOptions, Detection, Target};
 use sightline::exif::PhotoInfo;
 use sightline::experiments::{Experiment, ExperimentOptions};
 use sightline::matching::{Matching, PhotoTargets, PredictOptions, Prediction};
@@ -160,6 +160,8 @@ tasks! {
     ShowPhoto {} => Nothing, Shown;
     /// Find the targets of a photo.
     Detect { /** How. */ pub options: DetectOptions } => Nothing, Detection;
+    /// Measure the targets of a photo in every colour.
+    MeasureColours { /** How. */ pub options: DetectOptions } => Nothing, ColoursApart;
     /// Measure at one place of a photo; by the file's digest a worker knows the photos that it decoded last.
     Measure {
         /** Of the file. */ pub digest: u64,

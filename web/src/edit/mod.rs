@@ -6,6 +6,7 @@ pub mod cells;
 pub mod control;
 pub mod features;
 pub mod many;
+pub mod pairs;
 pub mod plan;
 pub mod points;
 pub mod questions;

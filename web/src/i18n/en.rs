@@ -40,9 +40,9 @@ declare! { desk {
 
     // Start
     drop_here: "Drop photos or a project anywhere on this page";
-    formats: "JPEG, HEIC, PNG, TIFF and BMP, 8 or 16 bit. They stay on this computer.";
+    formats: "JPEG, HEIC, RAW, PNG, TIFF and BMP, 8 or 16 bit. They stay on this computer.";
     choose_photos: "Choose photos…";
-    heic_and_raw: "RAW files are recognised; the message says how to convert them.";
+    heic_and_raw: "RAW photos are measured on the sensor's own samples; a kind that is not read is named, with how to convert it.";
 
     // Photos and cameras
     photos: "Photos";
@@ -59,6 +59,10 @@ declare! { desk {
     photo_file_missing(file): "The file {file} is not here. Drop it on this page to see it.";
     not_taken: "Not taken";
     duplicate_of(file): "the same content as {file}, which is here already";
+    developed_of(file):
+        "the same shot as {file}, which is measured instead, on the sensor's own samples: to measure this one, remove {file} and drop it again";
+    raw_of(file):
+        "the same shot as {file}, which is here already: to measure the sensor's own samples, remove {file} and drop this again";
     unreadable(detail): "the browser could not read the file: {detail}";
     cameras: "Cameras";
     camera: "Camera";
@@ -224,6 +228,32 @@ declare! { desk {
     picture_shared(what, factor):
         "This photo: {what}. Neighbouring pixels share their noise; the standard errors are {factor} times as large for it.";
     picture_plain(what): "This photo: {what}. The standard errors are those of this noise.";
+    measured_on_sites(format, colour, pattern, bits):
+        "{format}, {bits} bits: measured on the sensor's own {colour} sites ({pattern}), each by itself.";
+    measured_between_sites(format, colour, pattern, bits):
+        "{format}, {bits} bits: measured in a picture between the {colour} sites ({pattern}), as this method needs one.";
+    measured_noise(read, gain): "Noise estimated from the photo: {read} without light, its variance growing by {gain} per unit of light.";
+    measured_light_noise(gain): "Noise estimated from the photo: its variance grows by {gain} per unit of light; without light it cannot be seen here.";
+    measured_read_noise(read): "Noise estimated from the photo: {read} in every light.";
+    measured_hot(count): "{count} hot sites left out.";
+    measured_corrections(names):
+        "The file names corrections of its lens ({names}). None was made here: a camera calibrated in corrected pictures is another camera.";
+    site_red: "red";
+    site_green: "green";
+    site_blue: "blue";
+    site_cyan: "cyan";
+    site_magenta: "magenta";
+    site_yellow: "yellow";
+    site_white: "unfiltered";
+    site_emerald: "emerald";
+    colours_apart: "Colours apart";
+    colours_apart_hint: "A lens images red and blue a little larger or smaller than green. Measured in all three, the targets show how much.";
+    measure_colours: "Measure red and blue";
+    measuring_colours: "Measuring red and blue…";
+    apart_at_corner(colour, pixels, sigma, count): "{colour}: {pixels} px against green at the corner (standard error {sigma} px), from {count} targets";
+    apart_too_few(colour, count): "{colour}: {count} targets in both colours are too few to tell";
+    apart_outwards: "px outwards";
+    apart_radius(pixels): "radius up to {pixels} px";
     rejected_here: "Rejected in this photo";
     reason_too_small: "too small";
     reason_too_large: "too large";

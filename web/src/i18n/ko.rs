@@ -36,9 +36,9 @@ translate! { Korean desk {
 
     // Start
     drop_here: "사진이나 프로젝트를 이 페이지 아무 곳에나 놓으십시오";
-    formats: "JPEG, HEIC, PNG, TIFF, BMP, 8·16비트. 파일은 이 컴퓨터를 떠나지 않습니다.";
+    formats: "JPEG, HEIC, RAW, PNG, TIFF, BMP, 8·16비트. 파일은 이 컴퓨터를 떠나지 않습니다.";
     choose_photos: "사진 고르기…";
-    heic_and_raw: "RAW 파일은 인식하여 변환 방법을 안내합니다.";
+    heic_and_raw: "RAW 사진은 센서 값에서 직접 측정하며, 읽지 못하는 형식은 변환 방법과 함께 알려 드립니다.";
 
     // Photos and cameras
     photos: "사진";
@@ -54,6 +54,10 @@ translate! { Korean desk {
     photo_file_missing(file): "{file} 파일이 없습니다. 보려면 이 페이지에 놓으십시오.";
     not_taken: "받지 않은 파일";
     duplicate_of(file): "이미 있는 {file} 파일과 내용이 같습니다";
+    developed_of(file):
+        "{file} 파일과 같은 촬영이므로 센서 값을 담은 {file} 파일에서 측정합니다. 이 파일을 측정하려면 {file} 파일을 빼고 다시 놓으십시오";
+    raw_of(file):
+        "이미 있는 {file} 파일과 같은 촬영입니다. 센서 값에서 측정하려면 {file} 파일을 빼고 이 파일을 다시 놓으십시오";
     unreadable(detail): "브라우저가 파일을 읽지 못했습니다: {detail}";
     cameras: "카메라";
     camera: "카메라";
@@ -217,6 +221,32 @@ translate! { Korean desk {
     picture_noise(noise): "잡음 {noise} 계조";
     picture_shared(what, factor): "이 사진: {what}. 이웃 화소의 잡음이 서로 상관되어 표준오차가 {factor}배로 커집니다.";
     picture_plain(what): "이 사진: {what}. 표준오차는 이 잡음에 따른 값입니다.";
+    measured_on_sites(format, colour, pattern, bits):
+        "{format}, {bits}비트: 센서의 {colour} 화소({pattern})만을 보간 없이 하나하나 써서 측정했습니다.";
+    measured_between_sites(format, colour, pattern, bits):
+        "{format}, {bits}비트: 이 방법에는 영상이 필요하므로 {colour} 화소({pattern}) 사이를 보간한 영상에서 측정했습니다.";
+    measured_noise(read, gain): "사진에서 추정한 잡음: 빛이 없을 때 {read}, 분산은 빛 한 단위마다 {gain}씩 커집니다.";
+    measured_light_noise(gain): "사진에서 추정한 잡음: 분산은 빛 한 단위마다 {gain}씩 커집니다. 빛이 없을 때의 잡음은 이 사진에서 알 수 없습니다.";
+    measured_read_noise(read): "사진에서 추정한 잡음: 밝기와 무관하게 {read}.";
+    measured_hot(count): "핫픽셀 {count}개는 제외했습니다.";
+    measured_corrections(names):
+        "파일에 렌즈 보정({names})이 적혀 있으나 여기서는 적용하지 않았습니다. 보정된 영상에서 검정한 카메라는 이와 다른 카메라입니다.";
+    site_red: "적색";
+    site_green: "녹색";
+    site_blue: "청색";
+    site_cyan: "시안";
+    site_magenta: "마젠타";
+    site_yellow: "황색";
+    site_white: "무필터";
+    site_emerald: "에메랄드";
+    colours_apart: "색별 측정";
+    colours_apart_hint: "렌즈는 적색과 청색을 녹색보다 조금 크거나 작게 맺습니다. 표적을 세 색에서 모두 측정하면 그 차이(배율 색수차)를 알 수 있습니다.";
+    measure_colours: "적색과 청색 측정";
+    measuring_colours: "적색과 청색 측정 중…";
+    apart_at_corner(colour, pixels, sigma, count): "{colour}: 모서리에서 녹색 대비 {pixels} px(표준오차 {sigma} px), 표적 {count}개";
+    apart_too_few(colour, count): "{colour}: 두 색에서 함께 측정된 표적이 {count}개뿐이라 알 수 없습니다";
+    apart_outwards: "바깥쪽 px";
+    apart_radius(pixels): "반경 {pixels} px까지";
     rejected_here: "이 사진에서 기각";
     reason_too_small: "너무 작음";
     reason_too_large: "너무 큼";

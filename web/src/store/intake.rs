@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use leptos::prelude::*;
 use leptos::task::spawn_local;
+use sightline::exif::PhotoInfo;
 use sightline::project::{Photo, Project};
 use sightline_protocol::Open;
 
@@ -15,7 +16,7 @@ use super::{Desk, JobKind, PhotoFile, Problem, Reason, Step, Until};
 use crate::browser::file::NamedFile;
 use crate::browser::picture::Picture;
 use crate::edit::cameras::{self, Signature};
-use crate::edit::natural;
+use crate::edit::{natural, pairs};
 use crate::i18n::text;
 
 /// Longest side of the small pictures, sharp on twice as dense screens.
@@ -97,6 +98,12 @@ impl Desk {
         let mut project = self.document.with_untracked(|d| (*d.project).clone());
         let mut added = 0;
         let mut problems = self.problems.get_untracked();
+        let raws: Vec<(String, PhotoInfo)> = all
+            .iter()
+            .filter_map(|(_, result)| result.as_ref().ok())
+            .filter(|file| pairs::is_raw(&file.name))
+            .map(|file| (file.name.clone(), file.info.clone()))
+            .collect();
         for (_, result) in all {
             let file = match result {
                 Ok(file) => file,
@@ -119,6 +126,10 @@ impl Desk {
             let id = match self.waiting_for(&project, &file) {
                 Some(id) => id,
                 None => {
+                    if let Some(reason) = self.other_of_the_shot(&project, &file, &raws) {
+                        problems.push(Problem { file: file.name, reason });
+                        continue;
+                    }
                     added += 1;
                     self.add_photo(&mut project, &file)
                 }
@@ -152,6 +163,23 @@ impl Desk {
             let waits = |p: &&Photo| p.file == file.name && !files.contains_key(&p.id);
             project.photos.iter().find(waits).map(|p| p.id.clone())
         })
+    }
+
+    /// What else there is of the file's shot: a photo of the project, or for a developed one its RAW among those that come with it.
+    fn other_of_the_shot(self, project: &Project, file: &PhotoFile, raws: &[(String, PhotoInfo)]) -> Option<Reason> {
+        let raw = pairs::is_raw(&file.name);
+        let same = |name: &str, info: &PhotoInfo| pairs::same_shot((&file.name, &file.info), (name, info));
+        let known = self.files.with_untracked(|files| {
+            let info = |photo: &Photo| files.get(&photo.id).map(|file| file.info.clone()).unwrap_or_default();
+            project.photos.iter().find(|photo| same(&photo.file, &info(photo))).map(|photo| photo.file.clone())
+        });
+        let coming = || raws.iter().find(|(name, info)| same(name, info)).map(|(name, _)| name.clone());
+        match (known, raw) {
+            (Some(of), true) => Some(Reason::RawOf { of }),
+            (Some(of), false) => Some(Reason::Developed { of }),
+            (None, true) => None,
+            (None, false) => coming().map(|of| Reason::Developed { of }),
+        }
     }
 
     fn add_photo(self, project: &mut Project, file: &PhotoFile) -> String {

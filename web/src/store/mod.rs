@@ -1,6 +1,7 @@
 //! What the desk knows and does, apart from how it looks. Components read its signals and call its verbs.
 
 pub mod adjusting;
+mod apart;
 pub mod cameras;
 pub mod condensing;
 pub mod control;
@@ -204,6 +205,10 @@ pub enum Reason {
     Engine(Error),
     /// The same content as another photo.
     Duplicate { of: String },
+    /// A developed photo whose RAW is taken.
+    Developed { of: String },
+    /// A RAW whose developed photo is here already.
+    RawOf { of: String },
     /// The browser could not read it, or its worker was lost.
     Unreadable(String),
     /// There is nothing in it.
@@ -326,6 +331,7 @@ pub struct Desk {
     pub files: RwSignal<BTreeMap<String, PhotoFile>, LocalStorage>,
     pictures: RwSignal<Vec<pictures::Shown>, LocalStorage>,
     parts: RwSignal<Vec<parts::Part>, LocalStorage>,
+    apart: RwSignal<Vec<apart::Apart>>,
     pub problems: RwSignal<Vec<Problem>>,
     pub notice: RwSignal<Option<Notice>>,
     pub asking: RwSignal<Option<Asking>, LocalStorage>,
@@ -394,6 +400,7 @@ impl Desk {
             files: RwSignal::new_local(BTreeMap::new()),
             pictures: RwSignal::new_local(Vec::new()),
             parts: RwSignal::new_local(Vec::new()),
+            apart: RwSignal::default(),
             problems: RwSignal::default(),
             notice: RwSignal::default(),
             asking: RwSignal::new_local(None),

@@ -2,6 +2,7 @@
 
 pub mod adjust;
 pub mod advice;
+mod apart;
 pub mod changes;
 pub mod control;
 pub mod experiments;
@@ -15,6 +16,7 @@ pub mod keys;
 pub mod layers;
 pub mod loupe;
 pub mod marking;
+mod measured;
 pub mod object;
 mod photo_view;
 pub mod photos;

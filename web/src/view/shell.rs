@@ -430,7 +430,7 @@ pub fn choose_project(desk: Desk) {
 /// Opens the chooser for photos.
 pub fn choose_photos(desk: Desk) {
     file::choose(
-        ".jpg,.jpeg,.png,.tif,.tiff,.heic,.heif,.dng,.nef,.cr2,.cr3,.arw,.orf,.rw2,image/*",
+        ".jpg,.jpeg,.png,.tif,.tiff,.heic,.heif,.dng,.nef,.nrw,.cr2,.cr3,.arw,.orf,.rw2,.raf,.pef,.srw,image/*",
         true,
         move |files| {
             desk.take(files);
@@ -444,6 +444,8 @@ pub fn problem_sentence(reason: &crate::store::Reason) -> String {
     match reason {
         Reason::Engine(error) => errors::sentence(error),
         Reason::Duplicate { of } => text::duplicate_of(of),
+        Reason::Developed { of } => text::developed_of(of),
+        Reason::RawOf { of } => text::raw_of(of),
         Reason::Unreadable(detail) => text::unreadable(detail),
         Reason::Empty => text::is_empty().to_owned(),
         Reason::NoList => text::is_no_list().to_owned(),

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use sightline::detection::{Channel, Codes, Method, PictureReport, Polarity, PolarityChoice, Reason, Target};
 use sightline::ring_code::Family;
 
+use super::apart::ColoursApart;
 use super::field::Field;
 use super::icon::{Glyph, Icon};
 use super::loupe::Loupe;
@@ -65,6 +66,7 @@ pub fn Targets() -> impl IntoView {
                 <Loupe target=selected/>
                 <TargetDetails/>
                 <PictureNote/>
+                <ColoursApart/>
                 <RejectedTable/>
             </aside>
         </main>
@@ -282,7 +284,12 @@ pub fn TargetDetails() -> impl IntoView {
 #[component]
 fn PictureNote() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let sentence = move || current(desk).map_or(String::new(), |d| picture_sentence(&d.picture));
+    let sentence = move || {
+        current(desk).map_or(String::new(), |d| match &d.measured {
+            Some(measured) => super::measured::sentence(measured),
+            None => picture_sentence(&d.picture),
+        })
+    };
     view! {
         <Show when=move || !sentence().is_empty()>
             <p class="note" data-result="picture">{sentence}</p>

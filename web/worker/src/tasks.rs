@@ -5,7 +5,7 @@ use std::io::Cursor;
 
 use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
-use sightline::detection::{Channel, Codes, DetectOptions, Detection, Target};
+use sightline::detection::{Channel, Codes, ColoursApart, DetectOptions, Detection, Target};
 use sightline::error::{Error, Place, Thing};
 use sightline::exchange::export;
 use sightline::exchange::package::{self, Held, Package};
@@ -21,12 +21,12 @@ use sightline::sheets::{self, Kind};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
     Adjust, Adjusted, Adjusting, BeginPlan, Content, Detect, DrawSheets, Drawn, Export, ExportExperiment, Given,
-    MakePlan, MakePlots, MakeReport, Match, Measure, MeasureFeatures, Nothing, Open, Opened, Pack, PlanOf, Predict,
-    PredictPlan, Progress, ReportMade, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart,
-    ShowPhoto, Shown, Situate, Situated, Stream, SuggestPhoto, Unpack, Unpacked, WriteSheets,
+    MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, Nothing, Open, Opened, Pack,
+    PlanOf, Predict, PredictPlan, Progress, ReportMade, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served,
+    Service, ShowPart, ShowPhoto, Shown, Situate, Situated, Stream, SuggestPhoto, Unpack, Unpacked, WriteSheets,
 };
 
-use crate::codecs::unpack;
+use crate::codecs::{shot_of, unpack};
 use crate::kept::{self, digest, with_photo};
 
 type Files = Vec<Given>;
@@ -53,6 +53,13 @@ impl Service<Detect> for Engine {
         let (file, options) = (first(&files), &task.options);
         let detect = |photo: &Shot| detect::detect_shot(photo, options);
         Ok((with_photo(file, digest(file), options.channel, detect)?, Vec::new()))
+    }
+}
+
+impl Service<MeasureColours> for Engine {
+    fn serve(&self, task: MeasureColours, files: Files, _: Progress<Nothing>) -> Served<ColoursApart> {
+        let apart = detect::colours_apart(|channel| shot_of(first(&files), channel), &task.options)?;
+        Ok((apart, Vec::new()))
     }
 }
 

@@ -1,0 +1,235 @@
+//! Targets on the samples of a sensor.
+//!
+//! They are searched in a grey picture made from the sites of one colour ([`plane`]), with the whole of the detection for ordinary
+//! pictures, and measured on these sites alone: no sample is interpolated, every one has its own place and its own standard error
+//! ([`noise`]), and what the white level clips says no more than that ([`fit`]).
+
+mod curve;
+mod fit;
+mod noise;
+mod plane;
+
+use super::ellipse::outline::Outline;
+use super::rendered::Field;
+use super::{check_place, code::outline_of, detect_photo, edges::edge, edges::surround, measure_in_photo};
+use crate::decode::Photo;
+use crate::detection::{
+    Colour, DetectOptions, Detection, Measured, MeasuredOn, Method, Polarity, Reason, Rejected, Target,
+};
+use crate::error::{Error, Place, Reason as Wrong, Result};
+use crate::image::{Grey, GreyView, Plane, Samples, SamplesView};
+use crate::sensor::{Sensor, measured_colour};
+use noise::NoiseModel;
+
+/// The sites of one colour, with all that a fit needs to know of them.
+pub(crate) struct Sites<'a> {
+    sensor: &'a Sensor,
+    colour: Colour,
+    noise: NoiseModel,
+    /// Sample from which one is clipped, black not taken off.
+    clip: f64,
+    /// Left, top, right and bottom of the part that light reaches.
+    lit: [usize; 4],
+}
+
+impl<'a> Sites<'a> {
+    fn of(sensor: &'a Sensor, options: &DetectOptions) -> Self {
+        let colour = measured_colour(&sensor.mosaic, options.channel);
+        let [left, top, width, height] = sensor.mosaic.active_area.map(|side| side as usize);
+        let mut sites = Self {
+            sensor,
+            colour,
+            noise: NoiseModel::default(),
+            clip: sensor.mosaic.white,
+            lit: [left, top, left + width, top + height],
+        };
+        sites.clip = noise::clipping(&sites);
+        sites.noise = noise::estimate(&sites);
+        sites
+    }
+
+    /// Whether a site has the colour.
+    #[inline]
+    fn has(&self, x: usize, y: usize) -> bool {
+        self.sensor.mosaic.pattern.at(x, y) == self.colour
+    }
+
+    /// The sample of a site, black not taken off.
+    #[inline]
+    fn raw(&self, x: usize, y: usize) -> u16 {
+        self.sensor.samples[y * self.sensor.width + x]
+    }
+
+    /// Light of a site: its sample less its black.
+    #[inline]
+    fn light(&self, x: usize, y: usize) -> f64 {
+        f64::from(self.raw(x, y)) - self.sensor.mosaic.black.at(x, y)
+    }
+
+    /// Whether a row could be decoded.
+    fn is_whole(&self, y: usize) -> bool {
+        !self.sensor.damaged_rows.iter().any(|[first, last]| (*first as usize..*last as usize).contains(&y))
+    }
+}
+
+/// Finds and measures the targets of a sensor's samples; places are on its whole grid.
+///
+/// # Errors
+/// As for [`detect`](super::detect).
+pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<Detection> {
+    let sites = Sites::of(sensor, options);
+    let (photo, hot) = searched(&sites)?;
+    let mut detection = detect_photo(&photo, options)?;
+    let shift = [sites.lit[0] as f64, sites.lit[1] as f64];
+    for blob in &mut detection.rejected_blobs {
+        (blob.u, blob.v) = (blob.u + shift[0], blob.v + shift[1]);
+    }
+    let mut field = Field::default();
+    for target in std::mem::take(&mut detection.targets) {
+        let (u, v, diameter) = (target.u + shift[0], target.v + shift[1], target.major);
+        match sites.measured(&photo.grey.view()?, target, options, &mut field) {
+            Ok(target) => detection.targets.push(target),
+            Err(reason) => {
+                *detection.rejected.entry(reason).or_default() += 1;
+                detection.rejected_blobs.push(Rejected { u, v, diameter, reason });
+            }
+        }
+    }
+    detection.targets.iter_mut().for_each(|target| target.id = 0);
+    detection.number_targets();
+    let size = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
+    (detection.width, detection.height) = (size(sensor.width), size(sensor.height));
+    detection.damaged_rows = sensor.damaged_rows.clone();
+    // what holds for the picture of the search is not what is measured
+    detection.picture.noise = sites.noise.deviation(sites.noise.usual);
+    detection.picture.noise_correlation = 1.0;
+    detection.picture.compression = 0.0;
+    detection.measured = Some(sites.told(options.method, hot));
+    Ok(detection)
+}
+
+/// Measures the one target at a click.
+///
+/// # Errors
+/// As for [`measure_at`](super::measure_at).
+pub(super) fn measure_in_sensor(sensor: &Sensor, u: f64, v: f64, options: &DetectOptions) -> Result<Option<Target>> {
+    let sites = Sites::of(sensor, options);
+    let (photo, _) = searched(&sites)?;
+    let shift = [sites.lit[0] as f64, sites.lit[1] as f64];
+    let whole = [(u, sensor.width, "u"), (v, sensor.height, "v")];
+    if let Some((value, size, name)) =
+        whole.into_iter().find(|(value, size, _)| !(*value >= 0.0 && *value <= *size as f64))
+    {
+        let reason = Wrong::OutsidePicture { name: name.into(), value: value.into(), size };
+        return Err(Error::Invalid { reason, at: Place::field(name) });
+    }
+    let view = photo.grey.view()?;
+    if check_place(&view, u - shift[0], v - shift[1]).is_err() {
+        // in the masked border, where no light falls
+        return Ok(None);
+    }
+    let Some(target) = measure_in_photo(&photo, u - shift[0], v - shift[1], options)? else { return Ok(None) };
+    Ok(sites.measured(&view, target, options, &mut Field::default()).ok())
+}
+
+/// Targets that are known, measured on the sites of another colour, without a search; none where that has no target.
+///
+/// # Errors
+/// As for [`detect_sensor`].
+pub(super) fn measured_again(
+    sensor: &Sensor,
+    targets: &[Target],
+    options: &DetectOptions,
+) -> Result<Vec<Option<Target>>> {
+    let sites = Sites::of(sensor, options);
+    let (photo, _) = searched(&sites)?;
+    let view = photo.grey.view()?;
+    let mut field = Field::default();
+    let again = |target: &Target| {
+        let (u, v) = (target.u - sites.lit[0] as f64, target.v - sites.lit[1] as f64);
+        sites.measured(&view, Target { u, v, ..target.clone() }, options, &mut field).ok()
+    };
+    Ok(targets.iter().map(again).collect())
+}
+
+/// The grey picture of the search, of the lit part; how many hot sites were left out of it.
+fn searched(sites: &Sites) -> Result<(Photo, usize)> {
+    let (samples, hot) = plane::of(sites);
+    let [left, top, right, bottom] = sites.lit;
+    let grey = Grey { width: right - left, height: bottom - top, samples: Samples::U16(samples) };
+    let inside = |row: u32| (row as usize).clamp(top, bottom) - top;
+    let rows = sites.sensor.damaged_rows.iter().map(|rows| rows.map(|row| inside(row) as u32));
+    Ok((Photo { grey, damaged_rows: rows.filter(|rows| rows[0] < rows[1]).collect() }, hot))
+}
+
+impl Sites<'_> {
+    /// A target of the search, measured on the sites. Other methods than the fit keep what they found in the picture.
+    fn measured(
+        &self,
+        view: &GreyView,
+        target: Target,
+        options: &DetectOptions,
+        field: &mut Field,
+    ) -> std::result::Result<Target, Reason> {
+        let shift = [self.lit[0] as f64, self.lit[1] as f64];
+        let moved = |target: Target| Target { u: target.u + shift[0], v: target.v + shift[1], ..target };
+        if options.method != Method::LeastSquares {
+            return Ok(moved(target));
+        }
+        let SamplesView::U16(samples) = view.samples() else { return Err(Reason::NoFit) };
+        let outline = outline_of(&target);
+        let all = vec![true; edge::ray_count(&outline)];
+        let plane = Plane::new(view.width(), view.height(), samples);
+        let blur = target.quality.edge_width;
+        let around = surround::measure(&plane, &outline, blur.max(0.7), &all, u32::MAX).ok_or(Reason::NoFit)?;
+        let outline = Outline { u: outline.u + shift[0], v: outline.v + shift[1], ..outline };
+        let found = fit::fit(self, &outline, blur, around.outer, field).ok_or(Reason::NoFit)?;
+        let (a, b, angle) = found.outline.axes();
+        let bright = target.polarity == Polarity::Bright;
+        let apart = (found.outline.u - outline.u).hypot(found.outline.v - outline.v);
+        if apart > 1.0 + 0.1 * b || (found.contrast > 0.0) != bright {
+            return Err(Reason::NoFit);
+        }
+        if b < options.min_axis_ratio * a {
+            return Err(Reason::TooFlat);
+        }
+        let [uu, uv, vv] = found.covariance;
+        let mut quality = target.quality;
+        quality.fit_rms = found.rms;
+        quality.noise = self.noise.deviation(found.ground);
+        quality.edge_width = found.blur;
+        quality.saturated = found.clipped;
+        quality.roundness = b / a;
+        Ok(Target {
+            u: found.outline.u,
+            v: found.outline.v,
+            sigma_u: uu.sqrt(),
+            sigma_v: vv.sqrt(),
+            covariance_uv: uv,
+            major: 2.0 * a,
+            minor: 2.0 * b,
+            angle,
+            contrast: found.contrast.abs(),
+            quality,
+            ..target
+        })
+    }
+
+    /// What the detection says of what it was measured on.
+    fn told(&self, method: Method, hot: usize) -> Measured {
+        let Sensor { format, bits, mosaic, corrections, .. } = self.sensor;
+        Measured {
+            on: if method == Method::LeastSquares { MeasuredOn::Sites } else { MeasuredOn::InterpolatedSites },
+            format: format.clone(),
+            colour: Some(self.colour),
+            pattern: Some(mosaic.pattern.letters()),
+            bits: *bits,
+            active_area: Some(mosaic.active_area),
+            white: Some(self.clip),
+            gain: Some(self.noise.gain),
+            read_noise: self.noise.readout(),
+            hot_sites: Some(hot),
+            corrections: corrections.clone(),
+        }
+    }
+}

@@ -1,0 +1,246 @@
+//! Least-squares fit of a rendered ellipse to the sites of one colour.
+//!
+//! g(x, y) = B + gx x + gy y + C I(x, y; u, v, p, q, r, s) as for pictures ([`rendered`](crate::detect::rendered)), here at the
+//! sites alone, each weighted by the inverse of its variance r + g g(x, y). The variance follows the model, not the sample: weights that
+//! know a sample's noise would draw the fit to the dark. Which sites the white level clips follows the model too, so that the
+//! choice says nothing of their noise. The covariance is that of the Cramér-Rao bound of these sites where the model holds, and as
+//! much more as the residuals show where it does not.
+
+mod system;
+
+use super::Sites;
+use crate::detect::ellipse::outline::Outline;
+use crate::detect::normal::BLUR;
+use crate::detect::rendered::{Field, Span};
+use system::{System, UNKNOWNS, Unknowns, counts, modelled};
+
+/// Most corrections; what is clipped has a longer way to its contrast.
+const ROUNDS: usize = 40;
+/// Corrections in pixels below which nothing changes any more.
+const CONVERGED: f64 = 2e-5;
+/// Pixels around the rim's blur that are taken where the ground is free.
+const WIDEST: f64 = 14.0;
+/// Deviations from the model, and share of the contrast, beyond which a site is not the target's.
+const FAR: f64 = 4.5;
+const LENS: f64 = 0.05;
+/// Largest share of sites that may be left out.
+const DISTURBED: f64 = 0.3;
+/// Contrast of what is clipped, in units of what the scale shows.
+const OVEREXPOSED: f64 = 16.0;
+/// Largest residuals that a model of two levels explains: noise and share of the contrast.
+const EXPLAINED: (f64, f64) = (1.5, 0.1);
+
+/// What the fit gives. Levels are samples, black taken off.
+pub(super) struct SiteFit {
+    pub outline: Outline,
+    pub blur: f64,
+    pub contrast: f64,
+    /// Level of the ground at the centre.
+    pub ground: f64,
+    /// Rms of the residuals.
+    pub rms: f64,
+    /// Share of the sites inside that are clipped.
+    pub clipped: f64,
+    /// Covariance of the centre: uu, uv, vv.
+    pub covariance: [f64; 3],
+}
+
+/// A site: place from the outline's first centre, light, whether its sample is clipped.
+struct Site {
+    x: i64,
+    y: i64,
+    light: f64,
+    black: f64,
+    clipped: bool,
+    kept: bool,
+}
+
+struct State {
+    outline: Outline,
+    blur: f64,
+    contrast: f64,
+    background: [f64; 3],
+}
+
+/// Fits, from an outline and a blur on the whole grid; `outer` is the distance from the rim up to which the ground is free. What is
+/// found chooses the sites anew: which ones count is not left to the first guess.
+pub(super) fn fit(sites: &Sites, start: &Outline, blur: f64, outer: f64, field: &mut Field) -> Option<SiteFit> {
+    let blur = blur.clamp(BLUR.0.max(0.4), BLUR.1);
+    let around = |outline: &Outline, blur: f64| {
+        let chosen = choose(sites, &outline.grown((2.5 * blur + 1.0).max(outer.min(2.5 * blur + WIDEST))));
+        (chosen.len() >= 2 * UNKNOWNS).then_some(chosen)
+    };
+    let mut chosen = around(start, blur)?;
+    let mut state = first(start, blur, &chosen)?;
+    approach(sites, &mut chosen, &mut state, true, field)?;
+    chosen = around(&state.outline, state.blur)?;
+    let origin = [state.outline.u, state.outline.v];
+    // the plane of the ground goes through the new middle
+    let [level, gx, gy] = state.background;
+    state.background = [level + gx * (origin[0] - start.u) + gy * (origin[1] - start.v), gx, gy];
+    let origin = approach(sites, &mut chosen, &mut state, false, field)?;
+    finished(sites, &chosen, &state, field, origin)
+}
+
+/// Corrections until nothing changes any more, from the sites that are the target's; gives the place that the ground's slopes
+/// count from.
+fn approach(
+    sites: &Sites,
+    chosen: &mut [Site],
+    state: &mut State,
+    by_sample: bool,
+    field: &mut Field,
+) -> Option<[f64; 2]> {
+    let origin = [state.outline.u, state.outline.v];
+    let black = sites.sensor.mosaic.black.at(origin[0].max(0.0) as usize, origin[1].max(0.0) as usize);
+    let white = sites.clip - black;
+    let shown = if state.contrast > 0.0 { white - state.background[0] } else { state.background[0] }.max(1.0);
+    let most = OVEREXPOSED * shown.max(state.contrast.abs());
+    let (mut cleaned, mut last) = (0, f64::INFINITY);
+    for round in 0..ROUNDS {
+        render(field, state);
+        let system = System::of(sites, chosen, state, field, origin, by_sample && round == 0);
+        let step = system.solve()?;
+        let size = step.fixed_rows::<6>(0).amax();
+        if !size.is_finite() {
+            return None;
+        }
+        let limit =
+            (0.6 * (state.blur + 0.3) / size).min(0.6 * state.contrast.abs() / step[6].abs().max(1e-12)).min(1.0);
+        state.add(&(step * limit), most);
+        if !state.outline.is_proper() {
+            return None;
+        }
+        let settled = size < CONVERGED || (round > 12 && size < 1e-3 && size > 0.5 * last);
+        last = size;
+        let near = size < 0.02;
+        if (near && cleaned == 0) || (settled && cleaned < 4) {
+            cleaned += 1;
+            render(field, state);
+            if clean(sites, chosen, state, field, origin) || !settled {
+                continue;
+            }
+        }
+        if settled {
+            render(field, state);
+            return Some(origin);
+        }
+    }
+    // a contrast that the scale does not show may go on for ever, which the centre does not notice
+    render(field, state);
+    (last < 1e-3).then_some(origin)
+}
+
+/// The sites inside of an outline.
+fn choose(sites: &Sites, around: &Outline) -> Vec<Site> {
+    let half_v = around.half_box().1;
+    let [left, top, right, bottom] = sites.lit;
+    let range = |from: f64, to: f64, low: usize, high: usize| {
+        let last = (to.ceil().max(0.0) as usize).clamp(low, high);
+        (from.floor().max(0.0) as usize).clamp(low, last)..last
+    };
+    let mut chosen = Vec::new();
+    for y in range(around.v - half_v, around.v + half_v, top, bottom) {
+        let Some((from, to)) = around.chord(y as f64 + 0.5).filter(|_| sites.is_whole(y)) else { continue };
+        for x in range(from - 0.5, to + 0.5, left, right).filter(|x| sites.has(*x, y)) {
+            let (raw, black) = (f64::from(sites.raw(x, y)), sites.sensor.mosaic.black.at(x, y));
+            let clipped = raw >= sites.clip;
+            chosen.push(Site { x: x as i64, y: y as i64, light: raw - black, black, clipped, kept: true });
+        }
+    }
+    chosen
+}
+
+/// First values: medians of the light well inside and outside of the outline.
+fn first(outline: &Outline, blur: f64, chosen: &[Site]) -> Option<State> {
+    let (mut inside, mut outside) = (Vec::new(), Vec::new());
+    let (core, rim) = (outline.grown(-(1.2 * blur).min(0.5 * outline.semi_axes().1)), outline.grown(1.5 * blur + 0.5));
+    for site in chosen {
+        let [c, s] = core.normalised(site.x as f64 + 0.5, site.y as f64 + 0.5);
+        let [far_c, far_s] = rim.normalised(site.x as f64 + 0.5, site.y as f64 + 0.5);
+        if c * c + s * s < 1.0 {
+            inside.push(site.light);
+        } else if far_c * far_c + far_s * far_s > 1.0 {
+            outside.push(site.light);
+        }
+    }
+    let median = |levels: &mut Vec<f64>| {
+        let middle = levels.len() / 2;
+        (!levels.is_empty()).then(|| *levels.select_nth_unstable_by(middle, f64::total_cmp).1)
+    };
+    let (disc, ground) = (median(&mut inside)?, median(&mut outside)?);
+    (disc != ground).then_some(State {
+        outline: *outline,
+        blur,
+        contrast: disc - ground,
+        background: [ground, 0.0, 0.0],
+    })
+}
+
+fn render(field: &mut Field, state: &State) {
+    if field.width == 0 || !field.holds(&state.outline, state.blur) {
+        field.place(&state.outline, state.blur, 1.5);
+    }
+    let spans: Vec<Span> = (0..field.height).map(|row| (row, 0, field.width)).collect();
+    field.render(&state.outline, state.blur, true, &spans);
+}
+
+impl State {
+    fn add(&mut self, step: &Unknowns, most: f64) {
+        self.outline = self.outline.plus(&step.as_slice()[..5]);
+        self.blur = (self.blur + step[5]).clamp(BLUR.0, BLUR.1);
+        self.contrast = (self.contrast + step[6]).clamp(-most, most);
+        for (value, correction) in self.background.iter_mut().zip(&step.as_slice()[7..]) {
+            *value += correction;
+        }
+    }
+}
+
+/// Leaves out what is not the target's: dirt, hot sites, what stands before it. Whether anything changed.
+fn clean(sites: &Sites, chosen: &mut [Site], state: &State, field: &Field, origin: [f64; 2]) -> bool {
+    let mut changed = false;
+    for k in 0..chosen.len() {
+        let model = modelled(&chosen[k], state, field, origin);
+        let limit = (FAR * sites.noise.deviation(model.level)).max(LENS * state.contrast.abs());
+        let clipped = !counts(sites, &Site { kept: true, ..chosen[k] }, model.level, false);
+        let kept = clipped || (chosen[k].light - model.level).abs() <= limit;
+        changed |= kept != chosen[k].kept;
+        chosen[k].kept = kept;
+    }
+    changed
+}
+
+fn finished(sites: &Sites, chosen: &[Site], state: &State, field: &Field, origin: [f64; 2]) -> Option<SiteFit> {
+    let system = System::of(sites, chosen, state, field, origin, false);
+    let free = system.used.checked_sub(UNKNOWNS).filter(|free| *free >= UNKNOWNS)? as f64;
+    let dropped = chosen.iter().filter(|site| !site.kept).count() as f64;
+    let ground = state.background[0];
+    let rms = (system.squares[1] / free).sqrt();
+    let noise = sites.noise.deviation(ground.max(ground + state.contrast));
+    let explained = rms <= EXPLAINED.0 * noise + EXPLAINED.1 * state.contrast.abs();
+    if dropped > DISTURBED * chosen.len() as f64 || !explained {
+        return None;
+    }
+    // what chance makes of the sum of squares is not the noise's
+    let excess = system.squares[0] / free;
+    let factor = if excess > 1.0 + 3.0 * (2.0 / free).sqrt() { excess } else { 1.0 };
+    let covariance = system.covariance()?.map(|part| factor * part);
+    let (mut inside, mut clipped) = (0.0, 0.0);
+    for site in chosen {
+        let [c, s] = state.outline.normalised(site.x as f64 + 0.5, site.y as f64 + 0.5);
+        if c * c + s * s <= 1.0 {
+            inside += 1.0;
+            clipped += if site.clipped { 1.0 } else { 0.0 };
+        }
+    }
+    let sound = covariance.iter().all(|part| part.is_finite()) && covariance[0] > 0.0 && covariance[2] > 0.0;
+    sound.then_some(SiteFit {
+        outline: state.outline,
+        blur: state.blur,
+        contrast: state.contrast,
+        ground,
+        rms,
+        clipped: clipped / f64::max(inside, 1.0),
+        covariance,
+    })
+}

@@ -1,0 +1,111 @@
+//! The normal equations of the fit: what the model says of a site, and how it changes.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::{Site, Sites, State};
+use crate::detect::ellipse::outline::Outline;
+use crate::detect::rendered::Field;
+
+/// u, v, p, q, r, s, contrast, and the ground's level and slopes.
+pub(super) const UNKNOWNS: usize = 10;
+type Normal = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
+pub(super) type Unknowns = SVector<f64, UNKNOWNS>;
+
+/// What the model says of a site.
+pub(super) struct Modelled {
+    pub level: f64,
+    share: f64,
+    /// After u, v and s.
+    slopes: [f64; 3],
+}
+
+pub(super) fn modelled(site: &Site, state: &State, field: &Field, origin: [f64; 2]) -> Modelled {
+    let (column, row) = (site.x - field.left, site.y - field.top);
+    let [x, y] = [site.x as f64 + 0.5 - origin[0], site.y as f64 + 0.5 - origin[1]];
+    let inside = (0..field.width as i64).contains(&column) && (0..field.height as i64).contains(&row);
+    let (share, slopes) = if inside {
+        let (column, row) = (column as usize, row as usize);
+        let slope = |which: usize| f64::from(field.derivative(which, row)[column]);
+        (f64::from(field.share(row)[column]), [slope(0), slope(1), slope(2)])
+    } else {
+        (0.0, [0.0; 3])
+    };
+    let [level, gx, gy] = state.background;
+    Modelled { level: level + gx * x + gy * y + state.contrast * share, share, slopes }
+}
+
+/// Whether the white level leaves a site alone: by its sample at first, then by what the model expects of it.
+pub(super) fn counts(sites: &Sites, site: &Site, level: f64, by_sample: bool) -> bool {
+    let white = sites.clip - site.black;
+    site.kept && if by_sample { !site.clipped } else { level < white - 3.0 * sites.noise.deviation(white) }
+}
+
+/// The weighted normal equations.
+pub(super) struct System {
+    normal: Normal,
+    right: Unknowns,
+    /// Sums of weighted squares and of squares.
+    pub squares: [f64; 2],
+    /// Sites that count.
+    pub used: usize,
+}
+
+impl System {
+    /// Of the sites that count, at a state whose picture is in the field.
+    pub fn of(sites: &Sites, chosen: &[Site], state: &State, field: &Field, origin: [f64; 2], by_sample: bool) -> Self {
+        let Outline { u, v, p, q, r } = state.outline;
+        let det = p * q - r * r;
+        let mut system = Self { normal: Normal::zeros(), right: Unknowns::zeros(), squares: [0.0; 2], used: 0 };
+        for site in chosen {
+            let model = modelled(site, state, field, origin);
+            if !counts(sites, site, model.level, by_sample) {
+                continue;
+            }
+            let weight = 1.0 / sites.noise.variance(model.level);
+            let residual = site.light - model.level;
+            let [x, y] = [site.x as f64 + 0.5 - origin[0], site.y as f64 + 0.5 - origin[1]];
+            let [du, dv, ds] = model.slopes.map(|slope| state.contrast * slope);
+            // the rim next to the site moves with p, q and r as its parameter says
+            let [dx, dy] = [site.x as f64 + 0.5 - u, site.y as f64 + 0.5 - v];
+            let (c, s) = ((q * dx - r * dy) / det, (p * dy - r * dx) / det);
+            let length = (c * c + s * s + 1e-12).sqrt();
+            let (c, s) = (c / length, s / length);
+            let row = [du, dv, c * du, s * dv, s * du + c * dv, ds, model.share, 1.0, x, y];
+            for i in 0..UNKNOWNS {
+                let weighted = weight * row[i];
+                system.right[i] += weighted * residual;
+                for j in 0..=i {
+                    system.normal[(i, j)] += weighted * row[j];
+                }
+            }
+            system.squares[0] += weight * residual * residual;
+            system.squares[1] += residual * residual;
+            system.used += 1;
+        }
+        system.normal.fill_upper_triangle_with_lower_triangle();
+        system
+    }
+
+    /// Scales of a unit diagonal, and the matrix with a trace of damping for what clipped sites do not determine.
+    fn scaled(&self) -> (Normal, Unknowns) {
+        let scale = Unknowns::from_fn(|i, _| 1.0 / self.normal[(i, i)].max(1e-300).sqrt());
+        let mut matrix = Normal::from_fn(|i, j| self.normal[(i, j)] * scale[i] * scale[j]);
+        for i in 0..UNKNOWNS {
+            matrix[(i, i)] += 1e-7;
+        }
+        (matrix, scale)
+    }
+
+    /// Corrections.
+    pub fn solve(&self) -> Option<Unknowns> {
+        let (matrix, scale) = self.scaled();
+        Some(matrix.cholesky()?.solve(&self.right.component_mul(&scale)).component_mul(&scale))
+    }
+
+    /// Covariance of the centre with the given weights.
+    pub fn covariance(&self) -> Option<[f64; 3]> {
+        let (matrix, scale) = self.scaled();
+        let inverse = matrix.cholesky()?.inverse();
+        Some([(0, 0), (0, 1), (1, 1)].map(|(i, j)| inverse[(i, j)] * scale[i] * scale[j]))
+    }
+}

@@ -1,0 +1,74 @@
+//! Colours of a photo measured apart, on request: the last ones are kept.
+
+use std::sync::Arc;
+
+use leptos::prelude::*;
+use sightline::detection::{ColoursApart, DetectOptions};
+use sightline_protocol::MeasureColours;
+
+use super::pool::{Failure, Outcome};
+use super::{Desk, Until};
+use crate::i18n::{errors, text};
+
+/// Photos kept.
+const KEPT: usize = 32;
+
+/// The colours of a photo, or the asking for them.
+#[derive(Clone)]
+pub struct Apart {
+    digest: u64,
+    options: DetectOptions,
+    /// Absent while it lasts.
+    pub found: Option<Arc<ColoursApart>>,
+}
+
+impl Desk {
+    /// What is known of a photo's colours with the options of now.
+    pub fn apart_of(self, photo: &str) -> Option<Apart> {
+        let digest = self.files.with(|files| files.get(photo).map(|file| file.digest))?;
+        let options = self.detect_options.get();
+        self.apart.with(|all| all.iter().find(|a| a.digest == digest && a.options == options).cloned())
+    }
+
+    /// Measures the targets of a photo in every colour.
+    pub fn measure_apart(self, photo: &str) {
+        let Some((digest, file)) =
+            self.files.with_untracked(|files| files.get(photo).map(|file| (file.digest, file.content.clone())))
+        else {
+            return self.warn(|| text::no_photo_files().to_owned());
+        };
+        let options = self.detect_options.get_untracked();
+        self.apart.update(|all| {
+            all.retain(|apart| apart.digest != digest);
+            if all.len() >= KEPT {
+                all.remove(0);
+            }
+            all.push(Apart { digest, options: options.clone(), found: None });
+        });
+        let photo = photo.to_owned();
+        let task = MeasureColours { options: options.clone() };
+        let on_outcome = move |outcome: Outcome<MeasureColours>| {
+            let failed = |words: Box<dyn Fn() -> String + Send + Sync>| {
+                self.apart.update(|all| all.retain(|apart| apart.digest != digest));
+                let photo = photo.clone();
+                self.say(true, Until::NextWork, move || text::photo_failed(&photo, words()));
+            };
+            match outcome {
+                Outcome::Progress(nothing) => match nothing {},
+                Outcome::Done(found, _) => self.apart.update(|all| {
+                    if let Some(apart) = all.iter_mut().find(|a| a.digest == digest && a.options == options) {
+                        apart.found = Some(Arc::new(found));
+                    }
+                }),
+                Outcome::Failed(Failure::Refused(error)) => failed(Box::new(move || errors::sentence(&error))),
+                Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => {
+                    failed(Box::new(move || text::worker_lost(&detail)));
+                }
+            }
+        };
+        self.pool.with_value(|pool| {
+            let batch = pool.batch();
+            pool.submit(batch, task, vec![file], on_outcome);
+        });
+    }
+}
