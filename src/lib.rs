@@ -55,6 +55,7 @@
 pub mod adjust;
 pub mod adjustment;
 pub mod camera;
+pub mod comparison;
 pub mod decode;
 pub mod depiction;
 pub mod detect;

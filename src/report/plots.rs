@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 use super::context::Context;
 use super::html::escaped;
 use crate::adjustment::Adjustment;
+use crate::comparison::Comparison;
 use crate::error::Result;
 use crate::project::Project;
 
@@ -94,12 +95,12 @@ pub fn plots(project: &Project, adjustment: Option<&Adjustment>) -> Result<Vec<P
     Ok(all(&super::context(project, adjustment)?))
 }
 
-/// What an adjustment changed beside an earlier one of the same points; none where they share fewer than two.
+/// What an adjustment changed beside an earlier one; none where fewer than two points can be compared.
 ///
 /// # Errors
 /// As [`super::report`].
-pub fn comparison(project: &Project, adjustment: Option<&Adjustment>, before: &Adjustment) -> Result<Option<Plot>> {
-    Ok(comparison::plot(&super::context(project, adjustment)?, before))
+pub fn comparison(project: &Project, adjustment: Option<&Adjustment>, found: &Comparison) -> Result<Option<Plot>> {
+    Ok(comparison::plot(&super::context(project, adjustment)?, found))
 }
 
 /// Standard error of the radial distortion of a brown camera at an image radius, in photo units; none without statistics.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::networks::{Wanted, brown, exact, noisy};
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Quantity};
+use sightline::comparison::compare;
 use sightline::error::{Error, Lack, Reason};
 use sightline::exchange;
 use sightline::noise::Noise;
@@ -315,16 +316,21 @@ fn every_plot_is_a_drawing_with_its_words() {
 fn two_adjustments_are_compared_point_by_point() {
     let project = project();
     let adjustment = adjusted(&project);
-    let same = comparison(&project, Some(&adjustment), &adjustment).expect("a result").expect("a plot");
-    assert!(same.sentence.contains("Beyond 2 σ: 0."), "{}", same.sentence);
+    let beside = |before: &Adjustment| {
+        let found = compare((&project, before), (&project, &adjustment));
+        comparison(&project, Some(&adjustment), &found).expect("a result")
+    };
+    let same = beside(&adjustment).expect("a plot");
+    assert!(same.sentence.contains("Beyond 3.29 standard errors: 0."), "{}", same.sentence);
     let mut moved = adjustment.clone();
     let last = moved.points.last_mut().expect("points");
     last.xyz[2] += 5.0;
     let id = last.id.clone();
-    let told = comparison(&project, Some(&adjustment), &moved).expect("a result").expect("a plot").sentence;
-    assert!(told.contains(&format!("point {id}")) && told.contains("Beyond 2 σ: 1.") && told.contains("5.0"), "{told}");
+    let told = beside(&moved).expect("a plot").sentence;
+    let said = told.contains("Beyond 3.29 standard errors: 1.") && told.contains("5.0");
+    assert!(told.contains(&format!("point {id}")) && said, "{told}");
     moved.points.clear();
-    assert_eq!(comparison(&project, Some(&adjustment), &moved).expect("a result"), None);
+    assert_eq!(beside(&moved), None);
 }
 
 #[test]

@@ -1,41 +1,30 @@
 //! Two adjustments of the same points: how far the later one moved each, beside its standard error.
 
-use std::collections::HashMap;
-
 use super::chart::{Axis, Chart};
 use super::svg::Anchor;
 use super::{Group, Plot};
-use crate::adjustment::Adjustment;
+use crate::comparison::Comparison;
 use crate::report::context::Context;
 use crate::report::number::{count, fixed, maybe};
 
-pub fn plot(context: &Context, before: &Adjustment) -> Option<Plot> {
+pub fn plot(context: &Context, comparison: &Comparison) -> Option<Plot> {
     let words = context.words;
-    let earlier: HashMap<&str, [f64; 3]> = before.points.iter().map(|p| (p.id.as_str(), p.xyz)).collect();
     let length = |d: [f64; 3]| d[0].hypot(d[1]).hypot(d[2]);
-    let common = context.adjustment.points.iter().filter_map(|p| Some((p, earlier.get(p.id.as_str())?)));
-    let mut moved: Vec<(&str, f64, f64)> = common
-        .map(|(p, old)| {
-            let shift = length(std::array::from_fn(|k| p.xyz[k] - old[k]));
-            (p.id.as_str(), shift, p.sigma.map_or(0.0, length))
-        })
-        .collect();
-    if moved.len() < 2 {
-        return None;
-    }
+    let mut moved: Vec<(&str, f64, f64)> =
+        comparison.points.iter().map(|m| (m.id.as_str(), m.length(), m.sigma.map_or(0.0, length))).collect();
+    let rms = comparison.rms.filter(|_| moved.len() >= 2)?;
     moved.sort_by(|a, b| a.1.total_cmp(&b.1));
     let n = moved.len();
-    let rms = (moved.iter().map(|m| m.1 * m.1).sum::<f64>() / n as f64).sqrt();
-    let beyond = moved.iter().filter(|m| m.1 > 2.0 * m.2).count();
     let (worst, largest, _) = moved[n - 1];
     let title = words.plot_comparison();
-    let sigma0 = [before.sigma0, context.adjustment.sigma0].map(|s| maybe(s, 3));
+    let sigma0 = comparison.sigma0.map(|s| maybe(s, 3));
     let sentence = words.plot_comparison_says(
         &count(n),
         &context.with_unit(rms),
         &context.with_unit(largest),
         &worst,
-        &count(beyond),
+        &fixed(comparison.limit, 2),
+        &count(comparison.beyond),
         &sigma0[0],
         &sigma0[1],
     );

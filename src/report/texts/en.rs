@@ -310,7 +310,7 @@ declare! {
     plot_redundancy_says(mean, low, limit): "The larger the dot, the less an observation is checked by others: the mean of the smaller of r in x and y is {mean}; below {limit} lie {low}.";
 
     plot_comparison: "Against the adjustment before";
-    plot_comparison_says(n, rms, largest, point, beyond, before, after): "{n} points that both have moved by {rms} in the mean (rms); the most by {largest}, point {point}. Beyond 2 σ: {beyond}. σ₀ was {before} and is {after}.";
+    plot_comparison_says(n, rms, largest, point, limit, beyond, before, after): "{n} points that both have moved by {rms} in the mean (rms); the most by {largest}, point {point}. Beyond {limit} standard errors: {beyond}. σ₀ was {before} and is {after}.";
     points_by_shift: "points, by how far they moved";
 
     // Settings

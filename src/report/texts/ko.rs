@@ -307,7 +307,7 @@ translate! { Korean {
     plot_redundancy_says(mean, low, limit): "점이 클수록 다른 관측값으로 덜 점검됩니다. x, y 중 작은 r의 평균은 {mean}이며, {limit} 미만은 {low}개입니다.";
 
     plot_comparison: "이전 조정과의 비교";
-    plot_comparison_says(n, rms, largest, point, beyond, before, after): "두 조정에 공통인 {n}점은 평균(RMS) {rms} 움직였고, 가장 큰 것은 점 {point}의 {largest}입니다. 2σ를 넘는 것: {beyond}. σ₀: {before} → {after}.";
+    plot_comparison_says(n, rms, largest, point, limit, beyond, before, after): "두 조정에 공통인 {n}점은 평균(RMS) {rms} 움직였고, 가장 큰 것은 점 {point}의 {largest}입니다. 표준오차의 {limit}배를 넘는 것: {beyond}. σ₀: {before} → {after}.";
     points_by_shift: "점, 움직인 크기 순";
 
     // Settings

@@ -213,7 +213,7 @@ tasks! {
     MakePlots {
         /** Adjusted, with the language of its report. */ pub project: Project,
         /** Its result. */ pub adjustment: Adjustment,
-        /** The result before, where there was one. */ pub before: Option<Adjustment>,
+        /** What the result before was made from, and that result, where there was one. */ pub before: Option<(Project, Adjustment)>,
     } => Nothing, Vec<Plot>;
     /// Run one of the papers' experiments; progress in steps done of all.
     RunExperiment {

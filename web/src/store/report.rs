@@ -89,8 +89,9 @@ impl Desk {
             let mut project = (*d.project).clone();
             project.report = ReportSettings::default();
             project.report.language = Some(report_language(&project.report));
-            let before =
-                self.history.with(|history| history.result_before(result).map(|before| before.adjustment.clone()));
+            let before = self.history.with(|history| {
+                history.result_before(result).map(|before| ((*before.input).clone(), before.adjustment.clone()))
+            });
             Some(MakePlots { project, adjustment: result.adjustment.clone(), before })
         });
         let serial = self.reports.asked_plots.get_untracked() + 1;

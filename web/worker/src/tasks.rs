@@ -5,6 +5,7 @@ use std::io::Cursor;
 
 use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
+use sightline::comparison::compare;
 use sightline::detection::{Channel, Codes, ColoursApart, DetectOptions, Detection, Target};
 use sightline::error::{Error, Place, Thing};
 use sightline::exchange::export;
@@ -187,8 +188,9 @@ impl Service<MakePlots> for Engine {
     fn serve(&self, task: MakePlots, _: Files, _: Progress<Nothing>) -> Served<Vec<Plot>> {
         let MakePlots { project, adjustment, before } = task;
         let mut all = plots(&project, Some(&adjustment))?;
-        if let Some(before) = before {
-            all.extend(comparison(&project, Some(&adjustment), &before)?);
+        if let Some((old, earlier)) = before {
+            let found = compare((&old, &earlier), (&project, &adjustment));
+            all.extend(comparison(&project, Some(&adjustment), &found)?);
         }
         Ok((all, Vec::new()))
     }

@@ -36,6 +36,7 @@ const ORDERS: [Order; 2] = [
             "sensor",
             "detect",
             "initial",
+            "comparison",
             "eccentricity",
             "features",
             "adjust",

@@ -1,0 +1,267 @@
+//! Two adjustments of one object: what moved from the earlier to the later, and by how many standard errors.
+//!
+//! With x₁, σ₁ of the earlier adjustment and x₂, σ₂ of the later one, every coordinate and every parameter has
+//!
+//! ```text
+//! d = x₂ - x₁        ratio = max over the axes of |d| / max(σ₁, σ₂)
+//! ```
+//!
+//! How the two results are correlated is not known. Where one was found from part of the other's observations, the variance of
+//! d is the difference of the two variances and never more than the larger one (J. A. Hausman 1978), so that a ratio tells rather too
+//! little than too much; where they share nothing it is the sum, and a ratio is too large by at most √2.
+//!
+//! Coordinates of two networks can be set beside each other only in one system. Under control that is the system of the control
+//! points, as long as three of them kept their coordinates. Otherwise it hangs on the initial values and on which points take part:
+//! then the earlier network is first laid upon the later one, by the similarity of those common points that agree with each other
+//! ([`similarity::fit_robust`]), without a scale where both networks have one of their own. What such a network did as a whole is not
+//! seen, and standard errors differ with the datum; [`Alignment`] says which it was.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use nalgebra::Vector3;
+
+use crate::adjustment::{AdjustedCamera, Adjustment, PhotoUnit};
+use crate::initial::similarity::{self, Similarity};
+use crate::project::{DatumKind, Parameter, Project, Role};
+
+/// Control points that must have kept their coordinates for the system to be the same.
+const SAME_SYSTEM: usize = 3;
+
+/// In which system the two were set beside each other.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Alignment {
+    /// Both are in the system of the same control points.
+    Same,
+    /// Each is in a system of its own: the earlier one was laid upon the later one.
+    Fitted {
+        /// Common points that carried it.
+        points: usize,
+        /// Its scale; none where both networks have their own, which is compared then.
+        scale: Option<f64>,
+    },
+    /// Too few points are common, or they lie on a line: no coordinate is compared.
+    Apart {
+        /// How many are common.
+        common: usize,
+    },
+    /// Their lengths are in different units: no coordinate is compared.
+    Units {
+        /// Of the earlier.
+        before: String,
+        /// Of the later.
+        after: String,
+    },
+}
+
+/// How far a point or a projection centre moved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moved {
+    /// Identifier of the point or of the photo.
+    pub id: String,
+    /// Later minus earlier, in the later system and in the project's unit.
+    pub difference: [f64; 3],
+    /// The larger standard error per axis; none where neither has one.
+    pub sigma: Option<[f64; 3]>,
+    /// Largest |difference| over its standard error; none without, or where every standard error is 0.
+    pub ratio: Option<f64>,
+}
+
+impl Moved {
+    /// Length of the movement.
+    pub fn length(&self) -> f64 {
+        Vector3::from(self.difference).norm()
+    }
+}
+
+/// How far a camera's parameter changed, in photo units or pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterChange {
+    /// Camera identifier.
+    pub camera: String,
+    /// Photo identifier, for cameras with an interior orientation per photo.
+    pub photo: Option<String>,
+    /// Which.
+    pub parameter: Parameter,
+    /// The earlier value.
+    pub before: f64,
+    /// The later value.
+    pub after: f64,
+    /// The larger standard error; none where it was held both times.
+    pub sigma: Option<f64>,
+    /// |after - before| over its standard error.
+    pub ratio: Option<f64>,
+}
+
+/// What a later adjustment changed beside an earlier one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// The system of the differences.
+    pub alignment: Alignment,
+    /// Points that both have, in the later one's order.
+    pub points: Vec<Moved>,
+    /// Projection centres that both have.
+    pub photos: Vec<Moved>,
+    /// Parameters of the interior orientations that both have, where at least one of the two estimated them or they changed.
+    pub parameters: Vec<ParameterChange>,
+    /// Cameras that cannot be compared: another model, or another unit of their photo coordinates.
+    pub unlike_cameras: Vec<String>,
+    /// Points that only the earlier has.
+    pub gone: Vec<String>,
+    /// Points that only the later has.
+    pub new: Vec<String>,
+    /// Root mean square of the lengths by which the points moved; none without common points.
+    pub rms: Option<f64>,
+    /// Ratios beyond this are told: the critical value of the later adjustment's tests.
+    pub limit: f64,
+    /// Points whose ratio is beyond it.
+    pub beyond: usize,
+    /// Standard deviations of unit weight, earlier and later.
+    pub sigma0: [Option<f64>; 2],
+    /// Redundancies, earlier and later.
+    pub redundancy: [usize; 2],
+}
+
+/// Compares two adjustments, each with the project it was made from.
+///
+/// Nothing is refused: what cannot be compared is left out, and the result says what that was.
+pub fn compare(before: (&Project, &Adjustment), after: (&Project, &Adjustment)) -> Comparison {
+    let (earlier, later) = (before.1, after.1);
+    let places: HashMap<&str, usize> = earlier.points.iter().enumerate().map(|(k, p)| (p.id.as_str(), k)).collect();
+    let pairs: Vec<(usize, usize)> =
+        later.points.iter().enumerate().filter_map(|(k, p)| Some((*places.get(p.id.as_str())?, k))).collect();
+    let (alignment, transform) = aligned(before, after, &pairs);
+    let mut points = Vec::new();
+    let mut photos = Vec::new();
+    if let Some(transform) = &transform {
+        points.extend(pairs.iter().map(|&(i, k)| {
+            let (p, q) = (&earlier.points[i], &later.points[k]);
+            moved(&q.id, (p.xyz, p.sigma), (q.xyz, q.sigma), transform)
+        }));
+        let centres: HashMap<&str, _> =
+            earlier.photos.iter().map(|p| (p.id.as_str(), (p.position, p.sigma_position))).collect();
+        photos.extend(later.photos.iter().filter_map(|q| {
+            Some(moved(&q.id, *centres.get(q.id.as_str())?, (q.position, q.sigma_position), transform))
+        }));
+    }
+    let (parameters, unlike_cameras) = parameters(&earlier.cameras, &later.cameras);
+    let ids = |a: &Adjustment| a.points.iter().map(|p| p.id.clone()).collect::<BTreeSet<_>>();
+    let (old, present) = (ids(earlier), ids(later));
+    let limit = later.criteria.w;
+    let squares: f64 = points.iter().map(|m| m.length().powi(2)).sum();
+    Comparison {
+        alignment,
+        rms: (!points.is_empty()).then(|| (squares / points.len() as f64).sqrt()),
+        beyond: points.iter().filter(|m| m.ratio.is_some_and(|ratio| ratio > limit)).count(),
+        points,
+        photos,
+        parameters,
+        unlike_cameras,
+        gone: old.difference(&present).cloned().collect(),
+        new: present.difference(&old).cloned().collect(),
+        limit,
+        sigma0: [earlier.sigma0, later.sigma0],
+        redundancy: [earlier.redundancy, later.redundancy],
+    }
+}
+
+/// How coordinates of the earlier network come into the system of the later one; no transform where they cannot.
+fn aligned(
+    (old, earlier): (&Project, &Adjustment),
+    (new, later): (&Project, &Adjustment),
+    pairs: &[(usize, usize)],
+) -> (Alignment, Option<Similarity>) {
+    if old.unit != new.unit {
+        return (Alignment::Units { before: old.unit.clone(), after: new.unit.clone() }, None);
+    }
+    if same_system(old, new) {
+        return (Alignment::Same, Some(Similarity::identity()));
+    }
+    let source: Vec<_> = pairs.iter().map(|&(i, _)| Vector3::from(earlier.points[i].xyz)).collect();
+    let target: Vec<_> = pairs.iter().map(|&(_, k)| Vector3::from(later.points[k].xyz)).collect();
+    let Ok((fit, kept)) = similarity::fit_robust(&source, &target, 0) else {
+        return (Alignment::Apart { common: pairs.len() }, None);
+    };
+    let both_scaled = has_scale(old, earlier) && has_scale(new, later);
+    // About the centroids rotation and shift of least squares are the same with and without a scale.
+    let scale = if both_scaled { 1.0 } else { fit.transform.scale };
+    let carried = kept.iter().filter(|kept| **kept).count();
+    let alignment = Alignment::Fitted { points: carried, scale: (!both_scaled).then_some(scale) };
+    (alignment, Some(Similarity { scale, ..fit.transform }))
+}
+
+/// Whether both are held by control points of which enough kept their coordinates.
+fn same_system(old: &Project, new: &Project) -> bool {
+    if old.datum.kind != DatumKind::Control || new.datum.kind != DatumKind::Control {
+        return false;
+    }
+    let control = |p: &Project| -> HashMap<String, Option<[f64; 3]>> {
+        p.points.iter().filter(|p| p.role == Role::Control).map(|p| (p.id.clone(), p.xyz)).collect()
+    };
+    let earlier = control(old);
+    let kept = control(new).into_iter().filter(|(id, xyz)| xyz.is_some() && earlier.get(id) == Some(xyz));
+    kept.count() >= SAME_SYSTEM
+}
+
+/// Whether something in the network says how long it is.
+fn has_scale(project: &Project, adjustment: &Adjustment) -> bool {
+    let there: BTreeSet<&str> = adjustment.points.iter().map(|p| p.id.as_str()).collect();
+    let used = |from: &str, to: &str| there.contains(from) && there.contains(to);
+    project.datum.kind == DatumKind::Control
+        || project.distances.iter().any(|d| !d.check && used(d.from.as_str(), d.to.as_str()))
+}
+
+type Placed = ([f64; 3], Option<[f64; 3]>);
+
+/// A point's movement, its earlier place and standard errors brought into the later system.
+fn moved(id: &str, (before, sigma_before): Placed, (after, sigma_after): Placed, transform: &Similarity) -> Moved {
+    let place = transform.point(&Vector3::from(before));
+    let difference: [f64; 3] = std::array::from_fn(|axis| after[axis] - place[axis]);
+    // Turned without what the axes have in common, which a result holds for few points only: Σ R²σ².
+    let turned = sigma_before.map(|sigma| -> [f64; 3] {
+        std::array::from_fn(|axis| {
+            let squares = (0..3).map(|k| (transform.rotation[(axis, k)] * sigma[k]).powi(2));
+            transform.scale * squares.sum::<f64>().sqrt()
+        })
+    });
+    let sigma = match (turned, sigma_after) {
+        (Some(a), Some(b)) => Some(std::array::from_fn(|axis| a[axis].max(b[axis]))),
+        (one, other) => one.or(other),
+    };
+    let ratio = sigma.and_then(|sigma| {
+        let ratios = (0..3).filter(|&axis| sigma[axis] > 0.0).map(|axis| difference[axis].abs() / sigma[axis]);
+        ratios.reduce(f64::max)
+    });
+    Moved { id: id.to_owned(), difference, sigma, ratio }
+}
+
+/// Parameters that both adjustments have, and the cameras that cannot be compared.
+fn parameters(earlier: &[AdjustedCamera], later: &[AdjustedCamera]) -> (Vec<ParameterChange>, Vec<String>) {
+    let key = |c: &AdjustedCamera| (c.camera.id.clone(), c.photo.clone());
+    let before: BTreeMap<_, _> = earlier.iter().map(|c| (key(c), c)).collect();
+    let mut changes = Vec::new();
+    let mut unlike = BTreeSet::new();
+    for (now, old) in later.iter().filter_map(|c| Some((c, *before.get(&key(c))?))) {
+        let same_model = now.camera.interior.parameters() == old.camera.interior.parameters();
+        if !same_model || PhotoUnit::of(&now.camera) != PhotoUnit::of(&old.camera) {
+            unlike.insert(now.camera.id.clone());
+            continue;
+        }
+        for &parameter in now.camera.interior.parameters() {
+            let values = (old.camera.interior.get(parameter), now.camera.interior.get(parameter));
+            let (Some(before), Some(after)) = values else { continue };
+            let sigmas = [old, now].map(|c| c.sigma.get(&parameter).copied());
+            let estimated = [old, now].iter().any(|c| c.camera.estimated().contains(&parameter));
+            if before == after && !estimated {
+                continue;
+            }
+            let sigma = sigmas.into_iter().flatten().reduce(f64::max);
+            let ratio = sigma.filter(|sigma| *sigma > 0.0).map(|sigma| (after - before).abs() / sigma);
+            let (camera, photo) = key(now);
+            changes.push(ParameterChange { camera, photo, parameter, before, after, sigma, ratio });
+        }
+    }
+    (changes, unlike.into_iter().collect())
+}
+
+#[cfg(test)]
+mod tests;
