@@ -61,6 +61,7 @@ pub mod depiction;
 pub mod detect;
 pub mod detection;
 pub mod eccentricity;
+pub mod equipment;
 pub mod error;
 pub mod exchange;
 pub mod exif;

@@ -25,6 +25,9 @@ pub const PHOTOS_RATIO: u64 = 20;
 /// See [`PHOTOS_RATIO`].
 pub const PHOTOS_FREE: u64 = 64 << 20;
 
+/// Most bytes of equipment: some hundred thousand calibrations.
+pub const EQUIPMENT_BYTES: usize = 64 << 20;
+
 /// Bytes that a document takes when read, at most: every object and list as large as the largest kind of entry with the room that
 /// lists grow into, every further value as a number, and all text.
 ///

@@ -52,6 +52,12 @@ reasons! {
     ParameterSigma => "the a priori standard error of a parameter is greater than 0; leave it out to hold the parameter";
     FocalLengthTwice => "f stands for fx and fy as one: estimate either f, or fx and fy";
 
+    // Equipment
+    NoEquipment { message: String } => "this is no equipment of Sightline: {message}";
+    EquipmentVersion { version: u32 } => "the equipment has version {version} and this program reads version 1: open it with a newer one";
+    EquipmentTooLong { megabytes: usize } => "equipment takes up to {megabytes} MB, and this is more";
+    BarIncomplete => "a scale bar needs a name, two ends and a unit";
+
     // The adjustment
     DatumPoints => "the datum needs at least three points that do not lie in one line";
     NoImage => "the iteration ended where a point has no image: improve the initial values";
@@ -276,6 +282,7 @@ words! {
         Feature = "feature" => "feature";
         System = "system" => "coordinate system";
         Layer = "layer" => "layer";
+        ScaleBar = "scale bar" => "scale bar";
     }
 }
 

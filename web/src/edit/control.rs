@@ -1,15 +1,8 @@
 //! What ties the object to the world: given coordinates, measured distances, unit and datum.
 
+use sightline::equipment::unit_factor;
+pub use sightline::equipment::{UNITS, has_lengths};
 use sightline::project::{DatumKind, Distance, Point, Project, Role};
-
-/// Units of length that are known, in millimetres.
-pub const UNITS: [(&str, f64); 6] =
-    [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("µm", 0.001), ("in", 25.4), ("ft", 304.8)];
-
-/// Whether something of the project has a length already, so that its unit is more than the one it began with.
-pub fn has_lengths(project: &Project) -> bool {
-    !project.distances.is_empty() || project.points.iter().any(|p| p.role != Role::Tie && p.xyz.is_some())
-}
 
 /// Takes points as control, or as what they say they are, in place of what was known of them. Their coordinates come in
 /// `unit`: the first ones give the project its unit, later ones are brought to it where both are known. How many.
@@ -49,11 +42,7 @@ pub fn take_points(project: &mut Project, points: Vec<Point>, unit: &str) -> usi
 
 /// What a length in one unit is multiplied by to be in another; 1 where one of them is not known.
 pub fn factor(from: &str, to: &str) -> f64 {
-    let mm = |unit: &str| UNITS.iter().find(|(name, _)| *name == unit).map(|(_, mm)| *mm);
-    match (mm(from), mm(to)) {
-        (Some(from), Some(to)) => from / to,
-        _ => 1.0,
-    }
+    unit_factor(from, to).unwrap_or(1.0)
 }
 
 /// Gives a point a role; a tie point is kept only as long as something observes it.

@@ -18,6 +18,16 @@ pub fn reason(reason: &Reason) -> String {
     let plain = match reason {
         R::NotADocument => "Sightline 문서가 아닙니다. \"format\": \"sightline\"이 없습니다",
         R::NotJson { message } => return format!("Sightline 문서가 아닙니다: {message}"),
+        R::NoEquipment { message } => return format!("Sightline 장비 파일이 아닙니다: {message}"),
+        R::EquipmentVersion { version } => {
+            return format!(
+                "장비 파일의 버전이 {version}입니다. 여기서는 버전 1을 읽으므로 더 새 프로그램으로 여십시오"
+            );
+        }
+        R::EquipmentTooLong { megabytes } => {
+            return format!("장비 파일은 {megabytes} MB까지 읽는데, 이 파일은 더 큽니다");
+        }
+        R::BarIncomplete => "축척 막대에는 이름과 두 끝점, 단위가 있어야 합니다",
         R::Format { format, version } => {
             return format!("형식 \"{format}\" 버전 {version}입니다. 여기서는 \"sightline\" 버전 1을 읽습니다");
         }
@@ -336,6 +346,7 @@ pub fn thing(thing: Thing) -> &'static str {
         Thing::Network => "망",
         Thing::Feature => "형상",
         Thing::System => "좌표계",
+        Thing::ScaleBar => "축척 막대",
         Thing::Layer => "레이어",
     }
 }

@@ -37,6 +37,7 @@ const ORDERS: [Order; 2] = [
             "detect",
             "initial",
             "comparison",
+            "equipment",
             "eccentricity",
             "features",
             "adjust",
