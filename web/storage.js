@@ -69,7 +69,7 @@ async function patiently(work) {
   }
 }
 
-/** The origin's private file system: projects/ID/journal-N and card-0 or card-1, photos/KEY, small/KEY. */
+/** The origin's private file system: projects/ID/journal-N and card-0 or card-1, photos/KEY, small/KEY, equipment-0 or -1. */
 async function fileSystem() {
   const top = await (await navigator.storage.getDirectory()).getDirectoryHandle('sightline', { create: true });
   const [projects, photos, small] = await Promise.all(['projects', 'photos', 'small'].map((name) => top.getDirectoryHandle(name, { create: true })));
@@ -198,6 +198,15 @@ async function fileSystem() {
     },
     putSmall: async (key, blob) => write(small, key, new Uint8Array(await blob.arrayBuffer())),
     removePhoto: (key) => Promise.all([drop(photos, key), drop(small, key)]),
+    async equipment() {
+      const both = await Promise.all(['equipment-0', 'equipment-1'].map((name) => bytes(top, name)));
+      return both.flatMap((content) => unframed(content).items).sort((a, b) => b.turn - a.turn)[0];
+    },
+    /** In turns, as cards. */
+    async setEquipment(words) {
+      const turn = ((await this.equipment())?.turn ?? 0) + 1;
+      await write(top, `equipment-${turn % 2}`, framed([{ turn, words }]));
+    },
   };
 }
 
@@ -227,7 +236,8 @@ async function database() {
   const range = (id, generation) => (generation === undefined ? IDBKeyRange.bound([id], [id, []]) : IDBKeyRange.bound([id, generation], [id, generation, []]));
   return {
     kind: 'database',
-    projects: () => run('cards', (cards) => settled(cards.getAllKeys())),
+    // Projects have a text for a key; what is of all of them has a list.
+    projects: async () => (await run('cards', (cards) => settled(cards.getAllKeys()))).filter((key) => typeof key === 'string'),
     size: (id) => run('frames', async (frames) => (await settled(frames.getAll(range(id)))).reduce((sum, frame) => sum + frame.length, 0)),
     async journal(id) {
       const keys = await run('frames', (frames) => settled(frames.getAllKeys(range(id))));
@@ -289,6 +299,8 @@ async function database() {
         await settled(photos.delete(key));
         await settled(small.delete(key));
       }),
+    equipment: () => run('cards', (cards) => settled(cards.get(['equipment']))),
+    setEquipment: (words) => run('cards', (cards) => settled(cards.put({ words }, ['equipment']))),
   };
 }
 
@@ -345,6 +357,7 @@ function yieldProject() {
 }
 
 windows?.addEventListener('message', ({ data }) => {
+  if (data.word === 'equipment') return tell('equipment');
   if (!project || data.id !== project.id) return;
   if (data.word === 'changed' && !project.writer) tell('changed');
   if (data.word === 'yield' && project.writer) {
@@ -642,7 +655,15 @@ async function purge({ id }) {
   for (const key of card.keys ?? []) if (!used.has(key)) await backend.removePhoto(key);
 }
 
-const CALLS = { start, open, take, append, survey, surveyed: surveyedTexts, leave, condense, parts, keep, photos, list, rename, duplicate, remove, purge, close };
+/** Cameras and scale bars, which are of no project: the text that the page wrote last, or none. */
+const equipment = async () => ({ reply: (await backend.equipment())?.words ?? null });
+
+async function setEquipment({ words }) {
+  await backend.setEquipment(words);
+  windows?.postMessage({ word: 'equipment' });
+}
+
+const CALLS = { equipment, setEquipment, start, open, take, append, survey, surveyed: surveyedTexts, leave, condense, parts, keep, photos, list, rename, duplicate, remove, purge, close };
 /** Copying photos lasts, and so does condensing: edits do not wait for them. */
 const ALONGSIDE = new Set(['keep', 'photos', 'list', 'survey', 'surveyed', 'leave', 'condense']);
 let queue = Promise.resolve();

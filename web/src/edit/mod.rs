@@ -4,6 +4,7 @@
 pub mod cameras;
 pub mod cells;
 pub mod control;
+pub mod equipment;
 pub mod features;
 pub mod many;
 pub mod pairs;

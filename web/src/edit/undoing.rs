@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use sightline::detection::{Detection, Polarity, Target};
+use sightline::equipment::{Calibration, ScaleBar, Use};
 use sightline::exif::PhotoInfo;
 use sightline::matching::{Doubt, Doubtful, Mark, Matching, snap};
 use sightline::project::{
@@ -13,7 +14,7 @@ use sightline_protocol::to_plain_text;
 
 use super::cells::{Cell, Editor};
 use super::sheet::{Col, Table};
-use super::{cameras, control, many, points, questions, targets};
+use super::{cameras, control, equipment, many, points, questions, targets};
 use crate::store::document::{Change, Document, History};
 use crate::store::selection::observation_key;
 
@@ -122,7 +123,7 @@ fn rename(d: &mut Document, names: BTreeMap<String, String>) {
 }
 
 /// The kinds of action.
-const ACTIONS: [(&str, Action); 50] = [
+const ACTIONS: [(&str, Action); 52] = [
     ("photos added", |d| {
         cameras::add_photo(d.project_mut(), "new.jpg", &PhotoInfo::default(), [100, 80], None);
     }),
@@ -233,6 +234,30 @@ const ACTIONS: [(&str, Action); 50] = [
     }),
     ("cameras joined", |d| {
         many::join_cameras(d.project_mut(), &keys(&["l", "m"]));
+    }),
+    ("calibration taken", |d| {
+        let calibration = Calibration {
+            date: "2026-05-01".into(),
+            pixel_pitch: Some([0.004; 2]),
+            interior: Interior::brown(35.0),
+            sigma: [(Parameter::C, 0.01), (Parameter::K1, 1e-6)].into(),
+            remark: String::new(),
+        };
+        equipment::use_calibration(d, "l", &calibration, Use::Observed);
+    }),
+    ("scale bars taken", |d| {
+        let bar = |from: &str, to: &str| ScaleBar {
+            id: format!("{from}-{to}"),
+            from: from.into(),
+            to: to.into(),
+            length: 1.0,
+            sigma: 1e-5,
+            unit: "m".into(),
+            certificate: String::new(),
+            date: String::new(),
+        };
+        points::observe(d.project_mut(), seen("2", "d", 2));
+        equipment::take_bars(d, &[bar("a", "d")]);
     }),
     ("question answered yes", |d| {
         if let Some(question) = questions::open(d).first().cloned() {

@@ -5,7 +5,9 @@
 use super::declare;
 
 mod before;
+mod beside;
 pub use before::{planning, printing};
+pub use beside::{comparing, equipment};
 
 /// This language.
 pub struct English;
@@ -543,7 +545,7 @@ declare! { desk {
     // Control and scale
     control_and_scale: "Control, scale";
     control_sentence(control, check, distances):
-        "{control} {control:control point|control points}, {check} check points, {distances} distances.";
+        "{control} {control:control point|control points}, {check} check {check:point|points}, {distances} {distances:distance|distances}.";
     open_control: "Open control points…";
     control_points: "Control points";
     paste_control: "Paste rows here: id, X, Y, Z, sX, sY, sZ";
@@ -778,6 +780,7 @@ declare! { desk {
     weak_distance_body: "Hold it or give it a σ, or add photos that converge and points at different depths.";
     components: "Estimate the standard errors";
     components_why: "One factor for image coordinates, control, distances and the rest, each from its own residuals, until sigma0 is 1.";
+    given_weights: "Adjust with the given standard errors";
     components_unsettled: "The variance components came to no end";
     components_unsettled_body: "Too few observations of one kind, or gross errors among them: take those out first.";
     gross_round: "round";

@@ -7,6 +7,7 @@ use sightline::report::texts::particles::after as choose;
 use super::translate;
 
 mod before;
+mod beside;
 
 /// This language.
 pub struct Korean;
@@ -755,6 +756,7 @@ translate! { Korean desk {
     weak_distance_body: "값을 고정하거나 σ를 주거나, 수렴 촬영과 깊이가 다른 점을 추가하십시오.";
     components: "표준오차 추정(분산 성분)";
     components_why: "사진좌표, 기준점, 거리 등 종류마다 잔차에서 배율 하나씩을 추정하여 σ₀를 1로 맞춥니다.";
+    given_weights: "주어진 표준오차로 다시 조정";
     components_unsettled: "분산 성분 추정이 수렴하지 않았습니다";
     components_unsettled_body: "한 종류의 관측이 너무 적거나 과대오차가 있습니다. 과대오차부터 제거하십시오.";
     gross_round: "회차";

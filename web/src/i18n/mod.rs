@@ -12,7 +12,7 @@ pub mod text;
 
 use leptos::prelude::*;
 
-pub use en::{experiments, object, planning, printing};
+pub use en::{comparing, equipment, experiments, object, planning, printing};
 
 use crate::browser::page;
 
@@ -166,6 +166,8 @@ mod tests {
                 planning::words(language).every_text(),
                 en::errors::words(language).every_text(),
                 object::words(language).every_text(),
+                comparing::words(language).every_text(),
+                equipment::words(language).every_text(),
             ];
             parts.into_iter().flatten().map(move |text| (language, text))
         };

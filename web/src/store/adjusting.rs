@@ -8,10 +8,10 @@ use sightline_protocol::{Adjust, Adjusted, Adjusting, Match};
 
 use super::document::{self, Change};
 use super::pool::{self, Failure};
-use super::{Desk, JobKind, Step};
+use super::{Desk, JobKind, Step, Until};
 use crate::edit::targets;
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{comparing, text};
 
 impl Desk {
     /// Orients what is not oriented and adjusts everything.
@@ -25,7 +25,7 @@ impl Desk {
         self.adjust_failure.set(None);
         self.go(Step::Adjust);
         let most = options.max_iterations;
-        let batch = self.start_job(JobKind::Adjusting, most, || {});
+        let batch = self.start_job(JobKind::Adjusting, most, move || self.keep_last_result());
         let task = Adjust { project: (*input).clone(), options };
         let on_outcome = move |outcome: pool::Outcome<Adjust>| match outcome {
             pool::Outcome::Progress(Adjusting::Oriented(notes)) => {
@@ -47,6 +47,7 @@ impl Desk {
             }
             pool::Outcome::Failed(failure) => {
                 self.end_job();
+                self.show_iterations_of_result();
                 if let Failure::Refused(error) = &failure {
                     self.adjust_failure.set(Some(error.clone()));
                 }
@@ -54,6 +55,25 @@ impl Desk {
             }
         };
         self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
+    }
+
+    /// After a cancelled adjustment the last result stands, with its own iterations, and the page says of what it is.
+    fn keep_last_result(self) {
+        self.show_iterations_of_result();
+        let (any, current) = self.document.with_untracked(|d| (d.result.is_some(), d.current().is_some()));
+        self.say(false, Until::Document, move || {
+            match (any, current) {
+                (true, true) => comparing::cancelled_result_kept(),
+                (true, false) => comparing::cancelled_result_old(),
+                (false, _) => comparing::cancelled_no_result(),
+            }
+            .to_owned()
+        });
+    }
+
+    fn show_iterations_of_result(self) {
+        let of_result = self.document.with_untracked(|d| d.result.as_ref().map(|r| r.adjustment.iterations.clone()));
+        self.iterations.set(of_result.unwrap_or_default());
     }
 
     /// Names the targets without a code by where the oriented photos see them.

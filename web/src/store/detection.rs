@@ -44,6 +44,8 @@ impl Desk {
                 }
                 if self.step_job(batch) {
                     self.end_job();
+                    // Names have come from codes: bars that are kept give their distances by themselves.
+                    self.take_bars();
                 }
             };
             let task = Detect { options: options.clone() };

@@ -138,6 +138,8 @@ pub enum Change {
     PointsRenamed(usize),
     CamerasJoined { cameras: usize, into: String },
     QuestionAnswered { photo: String },
+    CalibrationTaken { camera: String },
+    BarsTaken(usize),
 }
 
 /// A change and the state on its other side.
@@ -212,9 +214,12 @@ impl History {
     }
 
     /// The result that was there before another, where the two are of different adjustments.
-    pub fn result_before(&self, result: &Outcome) -> Option<&Outcome> {
-        let mut results = self.past.iter().rev().filter_map(|entry| entry.state.as_ref()?.result.as_deref());
-        results.find(|other| other.adjustment != result.adjustment)
+    pub fn result_before(&self, result: &Arc<Outcome>) -> Option<&Arc<Outcome>> {
+        // Most states share their result with the next one: each is looked at once.
+        let mut last = result;
+        let results = self.past.iter().rev().filter_map(|entry| entry.state.as_ref()?.result.as_ref());
+        let mut others = results.filter(|other| !Arc::ptr_eq(std::mem::replace(&mut last, other), other));
+        others.find(|other| other.adjustment != result.adjustment)
     }
 
     /// What has changed since the present result was found, latest last.

@@ -36,7 +36,7 @@ impl Desk {
         }
         let (mut projects, others): (Vec<_>, Vec<_>) = files.into_iter().partition(|f| is_project(&f.name));
         if let Some(project) = projects.pop() {
-            self.open_project(project);
+            self.open_project_or_equipment(project);
             return;
         }
         let (texts, photos): (Vec<_>, Vec<_>) = others.into_iter().partition(|f| is_text(&f.name));

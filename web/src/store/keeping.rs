@@ -176,6 +176,7 @@ impl Desk {
                         self.kept.set(Kept::At(String::new()));
                         self.keep_now();
                         self.read_shelf();
+                        self.read_equipment();
                     }
                     _ => self.kept.set(Kept::Nowhere),
                 }
@@ -191,6 +192,9 @@ impl Desk {
     }
 
     fn hear_from_storage(self, told: &str) {
+        if told == "equipment" {
+            return self.read_equipment();
+        }
         let Some(id) = self.open_id() else { return };
         match told {
             "yielded" => self.kept.set(Kept::Following),

@@ -7,6 +7,7 @@ pub mod condensing;
 pub mod control;
 pub mod detection;
 pub mod document;
+pub mod equipment;
 pub mod experiments;
 pub mod features;
 pub mod identity;
@@ -48,6 +49,7 @@ use crate::edit::questions::Question;
 use crate::i18n::{Text, errors, text};
 use control::Pasted;
 use document::{Change, Document, History};
+use equipment::Equipped;
 use experiments::Experiments;
 use identity::Marks;
 use keeping::{Keeper, Kept};
@@ -82,6 +84,8 @@ pub enum Step {
     Plan,
     /// Targets to print.
     Print,
+    /// Cameras and scale bars that are of no project.
+    Equipment,
 }
 
 impl Step {
@@ -90,7 +94,7 @@ impl Step {
         [Self::Photos, Self::Targets, Self::Identities, Self::Control, Self::Adjust, Self::Results, Self::Report];
 
     /// What is done before there are photos.
-    pub const BEFORE: [Self; 2] = [Self::Plan, Self::Print];
+    pub const BEFORE: [Self; 3] = [Self::Plan, Self::Print, Self::Equipment];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -107,6 +111,7 @@ impl Step {
             Self::Tables => "tables",
             Self::Plan => "plan",
             Self::Print => "print",
+            Self::Equipment => "equipment",
         }
     }
 
@@ -360,6 +365,7 @@ pub struct Desk {
     pub experiments: Experiments,
     pub reports: report::Reports,
     pub printing: Printing,
+    pub equipment: Equipped,
     pub planning: Planning,
 }
 
@@ -420,6 +426,7 @@ impl Desk {
             experiments: Experiments::default(),
             reports: report::Reports::default(),
             printing: Printing::default(),
+            equipment: Equipped::default(),
             planning: Planning::default(),
         }
     }
@@ -464,6 +471,11 @@ impl Desk {
     /// What has changed since the result was found.
     pub fn changes_since_result(self) -> Vec<Change> {
         self.document.with(|d| self.history.with(|h| h.since(d)))
+    }
+
+    /// The result before the present one, where there is one.
+    pub fn result_before(self) -> Option<Arc<document::Outcome>> {
+        self.document.with(|d| self.history.with(|h| h.result_before(d.current()?).cloned()))
     }
 
     /// What undoing would take back.

@@ -1,7 +1,7 @@
 //! Step 5: what is estimated from what, the iterations as they come, and what the network lacks.
 
 use leptos::prelude::*;
-use sightline::adjustment::{ObservationGroup, Termination, VarianceComponent, VarianceComponents};
+use sightline::adjustment::{AdjustedPhoto, ObservationGroup, Termination, VarianceComponent, VarianceComponents};
 use sightline::project::{Camera, DatumKind, Parameter, Project, Role};
 pub use sightline::report::names::{parameter_name, parameter_unit};
 
@@ -14,7 +14,7 @@ use super::plots::Convergence;
 use super::shell::TitleBar;
 use crate::browser::event;
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{comparing, text};
 use crate::store::{Desk, Step};
 
 #[component]
@@ -45,7 +45,7 @@ pub fn Adjust() -> impl IntoView {
         </TitleBar>
         <main class="adjust">
             <section class="scroll" tabindex="0" aria-label=text::what_is_estimated><Estimated/><FromWhat/><DatumChoice/><GrossErrors/></section>
-            <section class="scroll" tabindex="0" aria-label=text::iterations><Iterations/><GrossErrorRecord/></section>
+            <section class="scroll" tabindex="0" aria-label=text::iterations><Iterations/><PhotoResiduals/><GrossErrorRecord/></section>
             <section class="scroll" tabindex="0" aria-label=text::what_lacks><Advice/></section>
         </main>
     }
@@ -303,5 +303,47 @@ fn Iterations() -> impl IntoView {
             </table>
         </Show>
         {move || ending().map(|(words, bad)| view! { <p class="note" class:warn=bad>{words}</p> })}
+    }
+}
+
+/// Rms of the residuals photo by photo, the largest first: what the iterations have left.
+#[component]
+fn PhotoResiduals() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let rows = Memo::new(move |_| {
+        desk.document.with(|d| {
+            let Some(result) = d.current() else { return Vec::new() };
+            let in_pixels = |p: &AdjustedPhoto| [p.rms_x / p.pixel[0], p.rms_y / p.pixel[1]];
+            let all = result.adjustment.photos.iter().map(|p| (p.id.clone(), p.points, in_pixels(p)));
+            let mut all = all.collect::<Vec<_>>();
+            all.sort_by(|a, b| b.2[0].hypot(b.2[1]).total_cmp(&a.2[0].hypot(a.2[1])));
+            all
+        })
+    });
+    let largest = move || rows.with(|all| all.first().map_or(1.0, |(.., [x, y])| x.hypot(*y)).max(f64::MIN_POSITIVE));
+    let row = move |(id, points, [x, y]): (String, usize, [f64; 2])| {
+        let (photo, key) = (id.clone(), id.clone());
+        let bar = 4.0 + 56.0 * x.hypot(y) / largest();
+        view! {
+            <tr data-photo-residuals=key>
+                <td class="left"><button class="link" on:click=move |_| {
+                    desk.select_photo(&photo);
+                    desk.go(Step::Identities);
+                }>{id}</button></td>
+                <td>{format::count(points)}</td><td>{format::fixed(x, 3)}</td><td>{format::fixed(y, 3)}</td>
+                <td class="left wide"><i class="bar-cell" style:width=format!("{bar:.0}px")></i></td>
+            </tr>
+        }
+    };
+    view! {
+        <Show when=move || desk.job.with(Option::is_none) && rows.with(|rows| !rows.is_empty())>
+            <h2 class="section-head"><span>{comparing::residuals_by_photo}</span></h2>
+            <table class="table photo-residuals">
+                <thead><tr>
+                    <th class="left">{text::photo}</th><th>{text::points_column}</th><th>{text::rms_x} " " <u>"px"</u></th><th>{text::rms_y} " " <u>"px"</u></th><th class="left wide"></th>
+                </tr></thead>
+                <tbody>{move || rows.get().into_iter().map(row).collect_view()}</tbody>
+            </table>
+        </Show>
     }
 }

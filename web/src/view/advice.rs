@@ -31,6 +31,8 @@ enum Target {
         camera: String,
         parameter: Parameter,
     },
+    /// Takes the standard errors as they were given, and adjusts again.
+    GivenWeights,
     /// Weighs image coordinates with this standard deviation of what is not modelled, pixels.
     Unmodelled(f64),
 }
@@ -58,6 +60,7 @@ pub fn Advice() -> impl IntoView {
                     Target::None => None,
                     Target::Step(step) => Some(step_label(step).to_owned()),
                     Target::Unmodelled(px) => Some(text::add_unmodelled(format::fixed(px, 3))),
+                    Target::GivenWeights => Some(text::given_weights().to_owned()),
                     Target::Hold { parameter, .. } => Some(text::hold(parameter_name(parameter))),
                     _ => Some(text::show().to_owned()),
                 };
@@ -95,6 +98,10 @@ fn follow(desk: Desk, target: &Target) {
         }
         Target::Unmodelled(px) => {
             desk.set_options(|options| options.unmodelled = *px);
+            desk.adjust();
+        }
+        Target::GivenWeights => {
+            desk.set_options(|options| options.variance_components = None);
             desk.adjust();
         }
         Target::Hold { camera, parameter } => desk.set_free(camera, *parameter, false),
@@ -165,7 +172,9 @@ fn items(desk: Desk) -> Vec<Item> {
             items.extend(others.map(|advice| network_item(advice, &adjustment.criteria)));
         }
     });
-    let said = items.iter().map(|i| i.target.clone()).collect::<Vec<_>>();
+    // What is said of a point, a photo or a measurement is said once; a step can mend several things.
+    let one = |target: &Target| matches!(target, Target::Point(_) | Target::Photo(_) | Target::Observation { .. });
+    let said = items.iter().map(|i| i.target.clone()).filter(one).collect::<Vec<_>>();
     let adjusted = desk.document.with(|d| d.current().is_some());
     desk.notes.with(|notes| {
         // Once there is a result its own test says what disagrees.
@@ -361,13 +370,15 @@ fn network_item(advice: &sightline::adjustment::Advice, criteria: &sightline::ad
                 text::weak_distance_body().to_owned()
             },
             format!("{} ± {}", format::fixed(*value, 2), format::fixed(*sigma, 2)),
-            Target::None,
+            parameter
+                .parse()
+                .map_or(Target::Step(Step::Photos), |parameter| Target::Hold { camera: camera.clone(), parameter }),
         ),
         Advice::VarianceComponentsUnsettled => (
             text::components_unsettled().to_owned(),
             text::components_unsettled_body().to_owned(),
             String::new(),
-            Target::None,
+            Target::GivenWeights,
         ),
     };
     Item { warning: true, title, body, evidence, target }
@@ -396,16 +407,24 @@ fn note_item(note: &Note) -> Option<Item> {
         Note::PrincipalDistanceWeak { camera, value, sigma } => Item {
             evidence: sigma
                 .map_or_else(|| text::c_undetermined().to_owned(), |sigma| format!("± {}", format::compact(sigma))),
-            ..item(text::c_weak(camera, format::compact(*value)), text::c_weak_body().to_owned(), Target::None)
+            ..item(
+                text::c_weak(camera, format::compact(*value)),
+                text::c_weak_body().to_owned(),
+                Target::Step(Step::Photos),
+            )
         },
         Note::PrincipalDistanceChanged { camera, value, given } => item(
             text::c_changed(camera, format::compact(*given), format::compact(*value)),
             text::c_changed_body().to_owned(),
-            Target::None,
+            Target::Step(Step::Photos),
         ),
         Note::Groups { groups } => {
             let lists = groups.iter().map(|group| listed(group.iter().map(String::as_str))).collect::<Vec<_>>();
-            item(text::photo_groups(groups.len()), text::photo_groups_body(lists.join(" | ")), Target::None)
+            item(
+                text::photo_groups(groups.len()),
+                text::photo_groups_body(lists.join(" | ")),
+                Target::Step(Step::Identities),
+            )
         }
         Note::PhotoAmbiguous { photo, rms_px: [taken, other], .. } => Item {
             evidence: format!("{} / {} px", format::fixed(*taken, 2), format::fixed(*other, 2)),
@@ -448,4 +467,86 @@ fn note_item(note: &Note) -> Option<Item> {
             }
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use sightline::adjustment::{Advice as A, Criteria};
+
+    use super::*;
+
+    /// One of every kind that the engine gives; a new kind does not compile here until it has its place.
+    fn every_kind() -> Vec<A> {
+        let pair = || ("a".to_owned(), "1".to_owned());
+        let all = vec![
+            A::HighCorrelation {
+                camera: "k".into(),
+                photo: None,
+                first: "c".into(),
+                second: "k1".into(),
+                correlation: 0.97,
+            },
+            A::LowRedundancy { observations: vec![pair()], given: Vec::new() },
+            A::TwoRays { points: vec!["1".into()] },
+            A::NarrowIntersection { points: vec![("1".into(), 0.01)] },
+            A::BehindCamera { observations: vec![pair()] },
+            A::DistanceUnused { distances: vec![pair()] },
+            A::WeakPrincipalDistance {
+                camera: "k".into(),
+                photo: None,
+                parameter: "c".into(),
+                value: 20.0,
+                sigma: 3.0,
+                convergence: 0.1,
+            },
+            A::GrossErrorsUnsettled,
+            A::VarianceComponentsUnsettled,
+            A::SigmasTooSmall { sigma0: 3.0, unmodelled: None },
+            A::UnmodelledAgain { sigma0: 0.2, unmodelled: 0.1 },
+            A::Insignificant {
+                camera: "k".into(),
+                photo: None,
+                parameter: Parameter::P1,
+                ratio: 0.4,
+                with: None,
+                correlation: None,
+            },
+            A::Suspected { count: 1, observations: vec![("a".into(), "1".into(), 6.0)], given: Vec::new() },
+        ];
+        for advice in &all {
+            match advice {
+                A::HighCorrelation { .. }
+                | A::LowRedundancy { .. }
+                | A::TwoRays { .. }
+                | A::NarrowIntersection { .. }
+                | A::BehindCamera { .. }
+                | A::DistanceUnused { .. }
+                | A::WeakPrincipalDistance { .. }
+                | A::GrossErrorsUnsettled
+                | A::VarianceComponentsUnsettled
+                | A::SigmasTooSmall { .. }
+                | A::UnmodelledAgain { .. }
+                | A::Insignificant { .. }
+                | A::Suspected { .. } => {}
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn every_advice_has_a_button() {
+        for advice in every_kind() {
+            let item = network_item(&advice, &Criteria::default());
+            assert_ne!(item.target, Target::None, "{}", item.title);
+            assert!(!item.title.is_empty() && !item.body.is_empty());
+        }
+        let notes = [
+            Note::PrincipalDistanceWeak { camera: "k".into(), value: 20.0, sigma: None },
+            Note::PrincipalDistanceChanged { camera: "k".into(), value: 20.0, given: 10.0 },
+            Note::Groups { groups: vec![vec!["a".into(), "b".into()], vec!["c".into(), "d".into()]] },
+        ];
+        for note in notes {
+            assert_ne!(note_item(&note).map(|item| item.target), Some(Target::None), "{note:?}");
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! What a change did, in words.
 
 use super::tables::table_words;
-use crate::i18n::{object as words, planning, text};
+use crate::i18n::{equipment, object as words, planning, text};
 use crate::store::document::Change;
 
 pub fn change_words(change: &Change) -> String {
@@ -56,5 +56,7 @@ pub fn change_words(change: &Change) -> String {
         Change::PointsRenamed(n) => text::change_points_renamed(n),
         Change::CamerasJoined { cameras, into } => text::change_cameras_joined(cameras, into),
         Change::QuestionAnswered { photo } => text::change_question(photo),
+        Change::CalibrationTaken { camera } => equipment::change_calibration(camera),
+        Change::BarsTaken(n) => equipment::change_bars(n),
     }
 }

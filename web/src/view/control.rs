@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use leptos::prelude::*;
 use sightline::project::{DatumKind, Point, Role};
 
+use super::equipment::BarsOffer;
 use super::field::Field;
 use super::icon::{Glyph, Icon};
 use super::identities::NamedPhoto;
@@ -397,6 +398,7 @@ fn Distances() -> impl IntoView {
                     }).collect_view()}
                 </tbody>
             </table>
+            <BarsOffer/>
             <form class="distance-form" on:submit=move |e| { e.prevent_default(); add(); }>
                 {input(from, text::from_point, "from")}{input(to, text::to_point, "to")}{input(length, text::length, "length")}{input(sigma, || "σ", "sigma")}
                 <button class="button small" type="submit">{text::add_distance}</button>

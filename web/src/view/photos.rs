@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use leptos::prelude::*;
 use sightline::project::Camera;
 
+use super::equipment::KnownCameraOffer;
 use super::field::Field;
 use super::icon::{Glyph, Icon};
 use super::shell::{TitleBar, choose_photos, problem_sentence};
@@ -12,7 +13,7 @@ use super::strip::{NoThumbnail, Thumbnail};
 use crate::browser::event;
 use crate::edit::cameras::distance_parameter;
 use crate::format;
-use crate::i18n::{planning, text};
+use crate::i18n::{equipment, planning, text};
 use crate::store::{Desk, Problem, Step};
 
 #[component]
@@ -29,6 +30,7 @@ pub fn Photos() -> impl IntoView {
     view! {
         <TitleBar title=text::photos sentence=Signal::derive(sentence)>
             <button class="button" on:click=move |_| choose_photos(desk)>{text::add_photos}</button>
+            <button class="button" data-open="equipment" on:click=move |_| desk.go(Step::Equipment)>{equipment::equipment}</button>
             <button class="button" data-open="plan" on:click=move |_| desk.go(Step::Plan)>{planning::plan}</button>
             <Show when=move || any.get()>
                 <button class="button primary" on:click=move |_| desk.go(Step::Targets)>
@@ -216,6 +218,7 @@ fn CameraPanel(id: String) -> impl IntoView {
             <span>{text::camera_named(id.get_value())}</span>
             <span class="aside">{move || with(|c| format!("{} × {}", format::count(c.width as usize), format::count(c.height as usize)))}</span>
         </h2>
+        <KnownCameraOffer id=id.get_value()/>
         <dl class="pairs">
             <dt>{text::make_and_model}</dt><dd>{move || exif(model())}</dd>
             <dt>{text::focal_length}</dt><dd>{move || exif(lens())}</dd>

@@ -380,7 +380,7 @@ fn Diameters() -> impl IntoView {
     view! {
         <h2 class="section-head"><span>{words::which_diameter}</span></h2>
         <p class="note">{camera}</p>
-        <div class="scroll-x">
+        <div class="scroll-x" tabindex="0" role="region" aria-label=words::which_diameter>
             <table class="table diameters">
                 <thead>
                     <tr>

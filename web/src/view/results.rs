@@ -1,6 +1,7 @@
 //! Step 6: the result with its statistics. Of a project that changed since, no number is shown.
 
 mod cameras;
+mod compared;
 mod drawings;
 mod given;
 mod meanings;
@@ -16,10 +17,12 @@ use super::icon::{Glyph, Icon};
 use super::plots::{ResidualPlot, Vector};
 use super::shell::export_tables;
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{comparing, text};
 use crate::store::{Desk, Step};
 
 use cameras::Cameras;
+pub use cameras::parameter_cells;
+use compared::Compared;
 use drawings::Drawings;
 use given::GivenTable;
 pub use given::{given_kind, given_name};
@@ -93,6 +96,7 @@ fn read<T: Default>(desk: Desk, read: impl FnOnce(&Adjustment, &Project) -> T) -
 enum Shown {
     Tables,
     Plots,
+    Compared,
     Meanings,
 }
 
@@ -100,8 +104,14 @@ enum Shown {
 fn Current() -> impl IntoView {
     let shown = RwSignal::new(Shown::Tables);
     let explained = RwSignal::new(None::<Statistic>);
-    let views: [(Shown, crate::i18n::Text); 3] =
-        [(Shown::Tables, text::tables), (Shown::Plots, text::plots), (Shown::Meanings, text::meanings)];
+    let desk = expect_context::<Desk>();
+    let compared = Memo::new(move |_| desk.result_before().is_some());
+    let views: [(Shown, crate::i18n::Text); 4] = [
+        (Shown::Tables, text::tables),
+        (Shown::Plots, text::plots),
+        (Shown::Compared, comparing::beside_before),
+        (Shown::Meanings, text::meanings),
+    ];
     view! {
         <Hero explain=Callback::new(move |statistic| {
             explained.set(Some(statistic));
@@ -109,8 +119,10 @@ fn Current() -> impl IntoView {
         })/>
         <div class="result-views" role="group" aria-label=text::results>
             {views.map(|(one, name)| view! {
-                <button class="text-button" data-shown=format!("{one:?}").to_lowercase() aria-pressed=move || (shown.get() == one).to_string()
-                    on:click=move |_| shown.set(one)>{name}</button>
+                <Show when=move || one != Shown::Compared || compared.get()>
+                    <button class="text-button" data-shown=format!("{one:?}").to_lowercase() aria-pressed=move || (shown.get() == one).to_string()
+                        on:click=move |_| shown.set(one)>{name}</button>
+                </Show>
             }).collect_view()}
         </div>
         {move || match shown.get() {
@@ -124,6 +136,7 @@ fn Current() -> impl IntoView {
                 </main>
             }.into_any(),
             Shown::Plots => view! { <Drawings/> }.into_any(),
+            Shown::Compared => view! { <Compared/> }.into_any(),
             Shown::Meanings => view! { <Meanings chosen=explained/> }.into_any(),
         }}
     }

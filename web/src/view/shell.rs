@@ -8,8 +8,8 @@ use super::icon::{Glyph, Icon};
 use super::projects::{StorageLine, StorageNotices, kept_words};
 use super::results::control_figure;
 use super::{
-    adjust, control, experiments, help, identities, keys, object, photos, planning, printing, report, results, start,
-    tables, targets,
+    adjust, control, equipment, experiments, help, identities, keys, object, photos, planning, printing, report,
+    results, start, tables, targets,
 };
 use crate::browser::{event, file, page};
 use crate::i18n::{self, errors, experiments as words, planning as plan_words, printing as before, text};
@@ -75,6 +75,7 @@ pub fn App() -> impl IntoView {
                 Step::Tables => view! { <tables::Tables/> }.into_any(),
                 Step::Plan => view! { <planning::Planning/> }.into_any(),
                 Step::Print => view! { <printing::Printing/> }.into_any(),
+                Step::Equipment => view! { <equipment::Equipment/> }.into_any(),
             }}
             <Foot/>
             <help::Help/>
@@ -240,6 +241,7 @@ pub fn step_label(step: Step) -> &'static str {
         Step::Tables => text::tables(),
         Step::Plan => plan_words::plan(),
         Step::Print => before::targets_to_print(),
+        Step::Equipment => i18n::equipment::equipment(),
     }
 }
 

@@ -6,7 +6,7 @@ use super::icon::{Glyph, Icon};
 use super::photos::Problems;
 use super::projects::Projects;
 use super::shell::{Progress, choose_photos, choose_project};
-use crate::i18n::{experiments as words, planning, printing, text};
+use crate::i18n::{equipment, experiments as words, planning, printing, text};
 use crate::store::{Desk, Step};
 
 #[component]
@@ -47,6 +47,13 @@ pub fn Start() -> impl IntoView {
                     <span>
                         <b>{printing::targets_to_print}</b>
                         <span>{printing::targets_to_print_words}</span>
+                    </span>
+                    <Glyph icon=Icon::Arrow/>
+                </button>
+                <button class="entry" data-open="equipment" on:click=move |_| desk.go(Step::Equipment)>
+                    <span>
+                        <b>{equipment::equipment}</b>
+                        <span>{equipment::equipment_words}</span>
                     </span>
                     <Glyph icon=Icon::Arrow/>
                 </button>

@@ -6,12 +6,12 @@ use sightline::project::{Camera, Parameter};
 
 use super::read;
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{equipment, text};
 use crate::store::Desk;
 use crate::view::adjust::{parameter_name, parameter_unit};
 
 /// Value, sigma and unit of a parameter, with a power of ten where the value is small.
-pub(super) fn parameter_cells(
+pub fn parameter_cells(
     camera: &Camera,
     parameter: Parameter,
     value: f64,
@@ -33,6 +33,7 @@ pub(super) fn Cameras() -> impl IntoView {
 /// A camera's parameters with their correlations in the same rows.
 #[component]
 pub(super) fn CameraTable(camera: AdjustedCamera) -> impl IntoView {
+    let desk = expect_context::<Desk>();
     let names =
         camera.correlation.names.iter().map(|n| n.parse::<Parameter>().map_or("", parameter_name)).collect::<Vec<_>>();
     let id = camera.camera.id.clone();
@@ -57,9 +58,15 @@ pub(super) fn CameraTable(camera: AdjustedCamera) -> impl IntoView {
         .iter()
         .filter(|p| **p != Parameter::F && !camera.camera.estimated().contains(p));
     let held = held.map(|p| parameter_name(*p)).collect::<Vec<_>>().join(", ");
+    // One of all photos can be kept for other projects.
+    let keep = (camera.photo.is_none() && !camera.sigma.is_empty()).then(|| {
+        let id = camera.camera.id.clone();
+        view! { <button class="link" data-keep=id.clone() on:click=move |_| desk.keep_calibration(&id)>{equipment::keep_calibration}</button> }
+    });
     view! {
         <h2 class="section-head">
             <span>{move || text::camera_and_correlations(&id)}</span>
+            {keep}
             <span class="aside"><i class="swatch minus"></i>" −1 " <i class="swatch plus"></i> " +1"</span>
         </h2>
         <table class="table correlations">
