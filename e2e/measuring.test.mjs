@@ -188,3 +188,47 @@ test('residuals are drawn over the photo, as many times their length as asked', 
     await close();
   }
 });
+
+test('a magnified photo shows its pixels and their values, and turning that off leaves the photo alone', longer, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  const drawn = () =>
+    page.evaluate(() => {
+      const canvas = document.querySelector('canvas.photo');
+      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let k = 3; k < data.length; k += 4) count += data[k] > 0 ? 1 : 0;
+      return count;
+    });
+  try {
+    await sample(page);
+    await go(page, 'targets');
+    await showPhoto(page, 'sample-1');
+    await page.click('[data-action=layers]');
+    const percent = async () => Number(/\d+/.exec((await page.textContent('.zoom')).replaceAll('\u2009', ''))[0]);
+    const until = async (least) => {
+      await page.locator('canvas.photo').focus();
+      while ((await percent()) < least) await page.keyboard.press('+');
+      await page.waitForTimeout(500);
+    };
+    // Whole there is no grid; from twelve screen pixels on there is, from forty on there are values.
+    const whole = await drawn();
+    await page.uncheck('[name=layer-pixels]');
+    assert.equal(await drawn(), whole);
+    await until(1500);
+    const plain = await drawn();
+    await page.check('[name=layer-pixels]');
+    const grid = await drawn();
+    assert.ok(grid > plain + 20_000, `${plain} ${grid}`);
+    await until(4500);
+    await page.uncheck('[name=layer-pixels]');
+    const without = await drawn();
+    await page.check('[name=layer-pixels]');
+    await page.waitForTimeout(1500);
+    const values = await drawn();
+    // A third of the pixels' lines are left at three times the zoom; what is more is digits.
+    assert.ok(values > without + 40_000, `${without} ${values}`);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});

@@ -13,6 +13,7 @@ mod open;
 mod palette;
 mod show;
 mod signature;
+pub mod tiles;
 
 use image::{DynamicImage, ImageDecoder};
 

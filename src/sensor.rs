@@ -16,7 +16,7 @@ use crate::exif::PhotoInfo;
 use crate::image::{Grey, Samples};
 use crate::limits;
 pub use mosaic::{Black, BlackRow, Mosaic, Pattern};
-pub use part::part;
+pub use part::{part, values};
 
 /// What is said of the samples.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -20,6 +20,23 @@ pub fn part(shot: &Shot, [left, top]: [usize; 2], side: usize) -> Picture {
     Picture { width: across as u32, height: down as u32, rgba }
 }
 
+/// The samples of a rectangle (left, top, columns, rows) as they were stored, row by row, with the rectangle as far as the photo goes.
+/// Of a sensor black is not taken off.
+pub fn values(shot: &Shot, [left, top, across, down]: [usize; 4]) -> ([usize; 4], Vec<u16>) {
+    let [width, height] = shot.size();
+    let (left, top) = (left.min(width), top.min(height));
+    let (across, down) = ((width - left).min(across), (height - top).min(down));
+    let lines = (top..top + down).map(|row| row * width + left..row * width + left + across);
+    let samples = match shot {
+        Shot::Sensor(sensor) => lines.flat_map(|line| &sensor.samples[line]).copied().collect(),
+        Shot::Photo(photo) => match &photo.grey.samples {
+            Samples::U8(samples) => lines.flat_map(|line| &samples[line]).map(|level| u16::from(*level)).collect(),
+            Samples::U16(samples) => lines.flat_map(|line| &samples[line]).copied().collect(),
+        },
+    };
+    ([left, top, across, down], samples)
+}
+
 fn of_grey(grey: &Grey, [left, top, across, down]: [usize; 4]) -> Vec<u8> {
     let lines = (top..top + down).map(|row| row * grey.width + left..row * grey.width + left + across);
     match &grey.samples {
@@ -65,6 +82,8 @@ mod tests {
         assert_eq!((shown.width, shown.height), (2, 2));
         assert_eq!(shown.rgba.iter().step_by(4).copied().collect::<Vec<_>>(), [6, 7, 10, 11]);
         assert!(part(&shot, [9, 9], 4).rgba.is_empty());
+        assert_eq!(values(&shot, [2, 1, 9, 1]), ([2, 1, 2, 1], vec![6 << 8, 7 << 8]));
+        assert_eq!(values(&shot, [9, 9, 1, 1]).1, Vec::<u16>::new());
     }
 
     #[test]

@@ -7,6 +7,7 @@ use std::io::{Read, Seek};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sightline::adjustment::{AdjustOptions, AdjustedPhoto, Adjustment, Iteration, Measured};
+pub use sightline::decode::tiles::Pyramid;
 use sightline::detection::{ColoursApart, DetectOptions, Detection, Target};
 use sightline::exif::PhotoInfo;
 use sightline::experiments::{Experiment, ExperimentOptions};
@@ -156,8 +157,13 @@ pub fn from_text<M: DeserializeOwned>(text: &str) -> std::result::Result<M, Stri
 tasks! {
     /// Look into a photo: size, EXIF, a small picture, whose bytes come along.
     Open { /** Longest side of the small picture. */ pub max_side: u32 } => Nothing, Opened;
-    /// Decode a photo for the screen; its bytes come along.
-    ShowPhoto {} => Nothing, Shown;
+    /// Decode a photo for the screen; the bytes of its tiles come along, level by level.
+    ShowPhoto {} => Nothing, Pyramid;
+    /// The samples of a rectangle of a photo as they are stored.
+    ShowValues {
+        /** Of the file. */ pub digest: u64,
+        /** Left, top, columns and rows in pixels. */ pub place: [u32; 4],
+    } => Nothing, Values;
     /// Find the targets of a photo.
     Detect { /** How. */ pub options: DetectOptions } => Nothing, Detection;
     /// Measure the targets of a photo in every colour.
@@ -273,6 +279,15 @@ pub struct Shown {
     pub width: u32,
     /// In pixels.
     pub height: u32,
+}
+
+/// Samples of a part of a photo.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Values {
+    /// Left, top, columns and rows in pixels, as far as the photo goes.
+    pub place: [u32; 4],
+    /// Row by row.
+    pub samples: Vec<u16>,
 }
 
 /// A report in the parts that the page shows and prints.
@@ -416,10 +431,10 @@ mod tests {
 
     #[test]
     fn a_word_of_another_task_is_not_taken_for_an_answer() {
-        let shown = to_text::<SaidTo<ShowPhoto>>(&Said::Done(Shown { width: 3, height: 2 }));
-        assert!(matches!(from_text::<SaidTo<ShowPhoto>>(&shown), Ok(Said::Done(Shown { width: 3, height: 2 }))));
+        let shown = to_text::<SaidTo<ShowPart>>(&Said::Done(Shown { width: 3, height: 2 }));
+        assert!(matches!(from_text::<SaidTo<ShowPart>>(&shown), Ok(Said::Done(Shown { width: 3, height: 2 }))));
         assert!(from_text::<SaidTo<Detect>>(&shown).is_err());
-        assert!(from_text::<SaidTo<ShowPhoto>>("").is_err());
+        assert!(from_text::<SaidTo<ShowPart>>("").is_err());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use wasm_bindgen::prelude::*;
 use web_sys::{CanvasRenderingContext2d, HtmlCanvasElement, ResizeObserver};
 
-use super::picture::Picture;
+use super::picture::{Picture, Pyramid};
 
 /// Height of text on a canvas, whatever the zoom.
 pub const TEXT_SIZE: f64 = 12.0;
@@ -53,6 +53,60 @@ impl Surface {
         self.context.set_image_smoothing_enabled(!crisp);
         let _ = self.context.draw_image_with_image_bitmap(&picture.bitmap, 0.0, 0.0);
         let _ = self.context.set_transform(self.ratio, 0.0, 0.0, self.ratio, 0.0, 0.0);
+    }
+
+    /// Draws what is in sight of a photo, its pixel frame mapped to the canvas by `map`, from the level that has at most two pixels
+    /// for one of the screen.
+    pub fn pyramid(&self, pyramid: &Pyramid, map: Affine, crisp: bool) {
+        let scale = self.ratio * map[0].hypot(map[1]);
+        let last = pyramid.tiles.len().saturating_sub(1);
+        let level = if scale < 1.0 { ((1.0 / scale).log2().floor() as usize).min(last) } else { 0 };
+        let factor = f64::from(1u32 << level);
+        let [a, b, c, d, e, f] = map;
+        let map = [a * factor, b * factor, c * factor, d * factor, e, f];
+        let [left, top, right, bottom] = self.sight(map);
+        let [m0, m1, m2, m3, m4, m5] = map.map(|x| x * self.ratio);
+        let _ = self.context.set_transform(m0, m1, m2, m3, m4, m5);
+        self.context.set_image_smoothing_enabled(!crisp);
+        let Some(tiles) = pyramid.tiles.get(level) else { return };
+        for ([x, y, width, height], tile) in pyramid.plan.tiles(level).into_iter().zip(tiles) {
+            let [x, y, width, height] = [x, y, width, height].map(f64::from);
+            if x < right && x + width > left && y < bottom && y + height > top {
+                let _ = self.context.draw_image_with_image_bitmap(tile, x, y);
+            }
+        }
+        let _ = self.context.set_transform(self.ratio, 0.0, 0.0, self.ratio, 0.0, 0.0);
+    }
+
+    /// What of a frame is in sight that is mapped to the canvas by `map`: left, top, right, bottom.
+    pub fn sight(&self, [a, b, c, d, e, f]: Affine) -> [f64; 4] {
+        let determinant = a * d - b * c;
+        let place = |x: f64, y: f64| {
+            let (x, y) = (x - e, y - f);
+            [(d * x - c * y) / determinant, (a * y - b * x) / determinant]
+        };
+        let corners =
+            [place(0.0, 0.0), place(self.width, 0.0), place(0.0, self.height), place(self.width, self.height)];
+        let of = |axis: usize, pick: fn(f64, f64) -> f64| {
+            corners.iter().map(|corner| corner[axis]).reduce(pick).unwrap_or_default()
+        };
+        [of(0, f64::min), of(1, f64::min), of(0, f64::max), of(1, f64::max)]
+    }
+
+    /// Small texts around their places, readable on any ground.
+    pub fn values<'a>(&self, texts: impl Iterator<Item = (&'a str, [f64; 2])>, colour: &str, outline: &str) {
+        self.font(false);
+        self.context.set_text_align("center");
+        self.context.set_text_baseline("middle");
+        self.context.set_line_join("round");
+        self.pen(outline, 3.0, &[]);
+        self.context.set_fill_style_str(colour);
+        for (text, [x, y]) in texts {
+            let _ = self.context.stroke_text(text, x, y);
+            let _ = self.context.fill_text(text, x, y);
+        }
+        self.context.set_text_align("start");
+        self.context.set_text_baseline("alphabetic");
     }
 
     /// Sets colour, width (0 for fills) and dashes of what follows.

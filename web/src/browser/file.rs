@@ -40,8 +40,7 @@ impl Blob {
 
     /// Its first bytes.
     pub async fn head(&self, bytes: usize) -> Result<Vec<u8>, String> {
-        let head = self.0.slice_with_f64_and_f64(0.0, bytes as f64).map_err(|e| describe(&e))?;
-        Self(head).read().await
+        self.part(0.0, bytes as f64)?.read().await
     }
 
     pub fn is_empty(&self) -> bool {

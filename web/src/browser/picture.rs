@@ -1,7 +1,10 @@
 //! Pictures for the screen, kept on JavaScript's side. The engine decodes them: a browser would rotate, colour-manage
 //! or refuse them.
 
+use std::rc::Rc;
+
 use js_sys::Uint8ClampedArray;
+use sightline_protocol::Pyramid as Plan;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{ImageBitmap, ImageData};
@@ -39,5 +42,35 @@ impl Picture {
         let bitmap = JsFuture::from(promise).await.map_err(|e| describe(&e))?.unchecked_into::<ImageBitmap>();
         let (width, height) = (bitmap.width(), bitmap.height());
         Ok(Self { bitmap, width, height })
+    }
+}
+
+/// A photo in levels, each half the one before, cut into tiles.
+#[derive(Clone)]
+pub struct Pyramid {
+    pub(super) plan: Rc<Plan>,
+    /// Level by level, in the order of the plan.
+    pub(super) tiles: Rc<Vec<Vec<ImageBitmap>>>,
+}
+
+impl Pyramid {
+    /// From the bytes of the tiles. Between two of them the page does what it has to: no tile takes long.
+    pub async fn from_tiles(plan: Plan, bytes: Vec<Bytes>) -> Result<Self, String> {
+        let mut bytes = bytes.into_iter();
+        let mut levels = Vec::new();
+        for level in 0..plan.levels.len() {
+            let mut made = Vec::new();
+            for [_, _, width, height] in plan.tiles(level) {
+                let tile = bytes.next().ok_or("a tile is missing")?;
+                made.push(Picture::from_rgba(tile, width, height).await?.bitmap);
+            }
+            levels.push(made);
+        }
+        Ok(Self { plan: Rc::new(plan), tiles: Rc::new(levels) })
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [f64; 2] {
+        self.plan.levels.first().map_or([1.0; 2], |size| size.map(f64::from))
     }
 }

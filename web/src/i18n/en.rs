@@ -440,6 +440,7 @@ declare! { desk {
     layer_predicted: "where the point should be";
     layer_epipolar: "epipolar lines";
     layer_residuals: "residuals";
+    layer_pixels: "pixel grid, grey values";
     residual_factor: "How many times their length residuals are drawn";
     times(n): "{n} times";
     brightness: "brightness";

@@ -430,6 +430,7 @@ translate! { Korean desk {
     layer_predicted: "예측 위치";
     layer_epipolar: "에피폴라선";
     layer_residuals: "잔차";
+    layer_pixels: "화소 격자와 밝기값";
     residual_factor: "잔차 벡터의 확대 배율";
     times(n): "{n}배";
     brightness: "밝기";

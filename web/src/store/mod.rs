@@ -30,6 +30,7 @@ pub mod selection;
 pub mod shelf;
 pub mod tables;
 pub mod texts;
+pub mod values;
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -239,6 +240,8 @@ pub struct Layers {
     pub predicted: bool,
     pub epipolar: bool,
     pub residuals: bool,
+    /// The grid of the pixels and their values, where a photo is magnified enough for them.
+    pub pixels: bool,
     /// How many times their length residuals are drawn.
     pub residual_factor: f64,
     /// How bright and how rich in contrast photos are shown; 1 is as they are.
@@ -254,6 +257,7 @@ impl Default for Layers {
             predicted: true,
             epipolar: true,
             residuals: false,
+            pixels: true,
             residual_factor: 100.0,
             brightness: 1.0,
             contrast: 1.0,
@@ -337,6 +341,7 @@ pub struct Desk {
     pictures: RwSignal<Vec<pictures::Shown>, LocalStorage>,
     parts: RwSignal<Vec<parts::Part>, LocalStorage>,
     apart: RwSignal<Vec<apart::Apart>>,
+    values: RwSignal<values::Asked>,
     pub problems: RwSignal<Vec<Problem>>,
     pub notice: RwSignal<Option<Notice>>,
     pub asking: RwSignal<Option<Asking>, LocalStorage>,
@@ -407,6 +412,7 @@ impl Desk {
             pictures: RwSignal::new_local(Vec::new()),
             parts: RwSignal::new_local(Vec::new()),
             apart: RwSignal::default(),
+            values: RwSignal::default(),
             problems: RwSignal::default(),
             notice: RwSignal::default(),
             asking: RwSignal::new_local(None),

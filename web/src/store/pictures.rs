@@ -2,14 +2,14 @@
 
 use leptos::prelude::*;
 use leptos::task::spawn_local;
-use sightline_protocol::{ShowPhoto, Shown as Decoded};
+use sightline_protocol::ShowPhoto;
 
 use super::pool::{Failure, Outcome};
 use super::{Desk, Until};
-use crate::browser::picture::Picture;
+use crate::browser::picture::Pyramid;
 use crate::i18n::{errors, text};
 
-/// Decoded pictures kept: a photo of 24 megapixels takes 96 MB.
+/// Decoded pictures kept: a photo of 24 megapixels takes 128 MB with its levels.
 const KEPT: usize = 3;
 
 /// A photo's picture, or the asking for it.
@@ -17,12 +17,12 @@ const KEPT: usize = 3;
 pub struct Shown {
     photo: String,
     digest: u64,
-    picture: Option<Picture>,
+    picture: Option<Pyramid>,
 }
 
 impl Desk {
     /// The picture of a photo, as soon as it is there; the small one serves meanwhile.
-    pub fn picture(self, photo: &str) -> Option<Picture> {
+    pub fn picture(self, photo: &str) -> Option<Pyramid> {
         let digest = self.files.with(|files| files.get(photo).map(|file| file.digest))?;
         let is = |shown: &&Shown| shown.photo == photo && shown.digest == digest;
         if let Some(shown) = self.pictures.with(|all| all.iter().find(is).cloned()) {
@@ -43,11 +43,10 @@ impl Desk {
             }
         });
         let on_outcome = move |outcome: Outcome<ShowPhoto>| match outcome {
-            Outcome::Done(Decoded { width, height }, bytes) => {
-                let Some(bytes) = bytes.into_iter().next() else { return };
+            Outcome::Done(plan, bytes) => {
                 let photo = photo.clone();
                 spawn_local(async move {
-                    match Picture::from_rgba(bytes, width, height).await {
+                    match Pyramid::from_tiles(plan, bytes).await {
                         Ok(picture) => self.pictures.update(|all| {
                             if let Some(shown) = all.iter_mut().find(|s| s.photo == photo && s.digest == digest) {
                                 shown.picture = Some(picture);

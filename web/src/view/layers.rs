@@ -112,6 +112,7 @@ pub fn LayerChoice() -> impl IntoView {
                 {tick(text::layer_ellipses, "layer-ellipses", |l| l.ellipses, |l, on| l.ellipses = on)}
                 {tick(text::layer_names, "layer-names", |l| l.names, |l, on| l.names = on)}
                 {tick(text::layer_predicted, "layer-predicted", |l| l.predicted, |l, on| l.predicted = on)}
+                {tick(text::layer_pixels, "layer-pixels", |l| l.pixels, |l, on| l.pixels = on)}
                 {tick(text::layer_epipolar, "layer-epipolar", |l| l.epipolar, |l, on| l.epipolar = on)}
                 <Show when=move || desk.document.with(|d| d.result.is_some())>
                     {tick(text::layer_residuals, "layer-residuals", |l| l.residuals, |l, on| l.residuals = on)}

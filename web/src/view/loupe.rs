@@ -36,10 +36,14 @@ pub fn Loupe(
         let Some(centre) = desk.cursor.get().or(target.map(|t| [t[0], t[1]])) else { return };
         let Some(picture) = desk.picture(&photo) else { return };
         let orientation = desk.files.with(|files| files.get(&photo).map_or(1, |f| f.info.orientation));
-        let size = [f64::from(picture.width), f64::from(picture.height)];
+        let shown = picture.size();
+        let file = desk.files.with(|files| files.get(&photo).map(|f| f.size.map(f64::from)));
+        let size = file.unwrap_or(shown);
         let start = Placement { size, orientation, scale: 1.0, shift: [0.0; 2] };
         let placement = start.centred(centre, side / field(), surface.width, surface.height);
-        surface.picture(&picture, placement.affine(), true);
+        let [a, b, c, d, e, f] = placement.affine();
+        let (sx, sy) = (size[0] / shown[0], size[1] / shown[1]);
+        surface.pyramid(&picture, [a * sx, b * sx, c * sy, d * sy, e, f], true);
         let accent = surface.token("--p-accent");
         if let Some([u, v, major, minor, angle]) = target {
             let [x, y] = placement.to_screen([u, v]);

@@ -22,6 +22,7 @@ pub mod object;
 mod photo_view;
 pub mod photos;
 pub mod picking;
+pub mod pixels;
 pub mod planning;
 pub mod plots;
 pub mod printing;

@@ -10,6 +10,7 @@ use super::icon::{Glyph, Icon};
 use super::insets::Insets;
 use super::keys;
 use super::layers::{LayerChoice, draw_prediction, draw_residuals, residuals_in};
+use super::pixels::draw_pixels;
 use super::transform::Placement;
 use crate::browser::canvas::{SizeWatch, Surface, TEXT_SIZE};
 use crate::browser::event::{self, Key, Pointer};
@@ -211,6 +212,9 @@ pub fn PhotoView(
         let Some(surface) = Surface::new(&element) else { return };
         let layers = desk.layers.get();
         if let Some((photo, ..)) = frame.get() {
+            if layers.pixels {
+                draw_pixels(desk, &surface, placement, &photo);
+            }
             if let Some(predicted) = desk.prediction_here() {
                 draw_prediction(&surface, placement, &predicted, layers);
             }
@@ -423,7 +427,11 @@ fn filter(layers: &Layers) -> String {
 fn draw_photo(desk: Desk, surface: &Surface, photo: &str, [w, h]: [f64; 2], placement: Placement) {
     let map = placement.affine();
     if let Some(picture) = desk.picture(photo) {
-        surface.picture(&picture, map, placement.scale >= 2.0);
+        // Of a sensor's samples a reduced picture is shown.
+        let [width, height] = picture.size();
+        let [a, b, c, d, e, f] = map;
+        let (sx, sy) = (w / width, h / height);
+        surface.pyramid(&picture, [a * sx, b * sx, c * sy, d * sy, e, f], placement.scale >= 2.0);
     } else if let Some(small) = desk.files.with(|files| files.get(photo).map(|f| f.small.clone())) {
         let (sx, sy) = (w / f64::from(small.width), h / f64::from(small.height));
         let [a, b, c, d, e, f] = map;

@@ -6,6 +6,7 @@ use std::io::Cursor;
 use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
 use sightline::comparison::compare;
+use sightline::decode::tiles::{self, Pyramid};
 use sightline::detection::{Channel, Codes, ColoursApart, DetectOptions, Detection, Target};
 use sightline::error::{Error, Place, Thing};
 use sightline::exchange::export;
@@ -24,7 +25,8 @@ use sightline_protocol::{
     Adjust, Adjusted, Adjusting, BeginPlan, Content, Detect, DrawSheets, Drawn, Export, ExportExperiment, Given,
     MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, Nothing, Open, Opened, Pack,
     PlanOf, Predict, PredictPlan, Progress, ReportMade, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served,
-    Service, ShowPart, ShowPhoto, Shown, Situate, Situated, Stream, SuggestPhoto, Unpack, Unpacked, WriteSheets,
+    Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto, Unpack, Unpacked, Values,
+    WriteSheets,
 };
 
 use crate::codecs::{shot_of, unpack};
@@ -43,9 +45,18 @@ impl Service<Open> for Engine {
 }
 
 impl Service<ShowPhoto> for Engine {
-    fn serve(&self, _: ShowPhoto, files: Files, _: Progress<Nothing>) -> Served<Shown> {
-        let picture = shown(first(&files))?;
-        Ok((Shown { width: picture.width, height: picture.height }, vec![picture.rgba]))
+    fn serve(&self, _: ShowPhoto, files: Files, _: Progress<Nothing>) -> Served<Pyramid> {
+        Ok(tiles::pyramid(shown(first(&files))?))
+    }
+}
+
+impl Service<ShowValues> for Engine {
+    fn serve(&self, task: ShowValues, files: Files, _: Progress<Nothing>) -> Served<Values> {
+        let read = |photo: &Shot| {
+            let (place, samples) = sensor::values(photo, task.place.map(|n| n as usize));
+            Ok((Values { place: place.map(|n| n as u32), samples }, Vec::new()))
+        };
+        with_photo(first(&files), task.digest, Channel::default(), read)
     }
 }
 
