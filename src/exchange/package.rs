@@ -141,9 +141,7 @@ pub fn read_from(mut source: impl Read + Seek) -> Result<(Package, BTreeMap<Stri
     if archive.len() > limits::ENTRIES {
         return Err(invalid(Reason::Entries { entries: archive.len(), limit: limits::ENTRIES }));
     }
-    if share_bytes(&mut archive) {
-        return Err(invalid(Reason::SharedBytes));
-    }
+    let running_over = running_over(&mut archive)?;
     let (mut package, mut photos) = (Package::default(), BTreeMap::new());
     let (mut found, mut room) = (false, photos_room(length));
     for index in 0..archive.len() {
@@ -151,11 +149,17 @@ pub fn read_from(mut source: impl Read + Seek) -> Result<(Package, BTreeMap<Stri
             package.damaged.push(invalid(Reason::EntryName));
             continue;
         };
-        let mut entry = match archive.by_index(index) {
+        let damage = |error: ZipError| Reason::DamagedEntry { message: shortened(&error.to_string()) };
+        let opened = if running_over.contains(&index) {
+            Err(Reason::EntrySize)
+        } else {
+            archive.by_index(index).map_err(damage)
+        };
+        let mut entry = match opened {
             Ok(entry) => entry,
             // What stands at its place is not what the directory says: that concerns this entry alone.
-            Err(error) if known(&name) => {
-                let error = invalid(Reason::DamagedEntry { message: shortened(&error.to_string()) }).in_file(&name);
+            Err(reason) if known(&name) => {
+                let error = invalid(reason).in_file(&name);
                 if name == DOCUMENT {
                     return Err(error);
                 }
@@ -207,17 +211,23 @@ fn known(name: &str) -> bool {
     [DOCUMENT, "targets.json", "adjustment.json"].contains(&name) || name.strip_prefix(PHOTOS).is_some_and(plain)
 }
 
-/// Whether bytes belong to several entries: so a small file claims to be a large one. Entries that are not where the directory has
-/// them are not read, so they share nothing.
-fn share_bytes<R: Read + Seek>(archive: &mut ZipArchive<R>) -> bool {
+/// The entries that run into the header of another one: their own is damaged, or made to claim what is not theirs. Entries that are
+/// not where the directory has them are not read, so they share nothing.
+///
+/// # Errors
+/// Several entries that are one and the same: so a small file claims to be a large one.
+fn running_over<R: Read + Seek>(archive: &mut ZipArchive<R>) -> Result<HashSet<usize>> {
     let mut ranges = Vec::new();
     for index in 0..archive.len() {
         let Ok(entry) = archive.by_index_raw(index) else { continue };
-        let size = entry.compressed_size();
-        ranges.extend(entry.data_start().filter(|_| size > 0).map(|start| (start, start.saturating_add(size))));
+        let end = entry.data_start().map(|start| start.saturating_add(entry.compressed_size()));
+        ranges.extend(end.map(|end| (entry.header_start(), end, index)));
     }
     ranges.sort_unstable();
-    ranges.windows(2).any(|pair| pair[0].1 > pair[1].0)
+    if ranges.windows(2).any(|pair| pair[0].0 == pair[1].0) {
+        return Err(invalid(Reason::SharedBytes));
+    }
+    Ok(ranges.windows(2).filter(|pair| pair[0].1 > pair[1].0).map(|pair| pair[0].2).collect())
 }
 
 /// Reads an entry that claims a size to its end and checks it, without holding it.

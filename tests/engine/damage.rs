@@ -3,8 +3,10 @@
 
 use crate::networks::{Uniform, Wanted, brown, exact, noisy, opencv};
 use crate::tree::{damage, is_finite};
+use serde_json::{Value, json};
 use sightline::adjust::{adjust, apply};
 use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, Robust};
+use sightline::exchange::import;
 use sightline::exchange::package::{self, Package};
 use sightline::noise::Noise;
 use sightline::project::{DatumKind, Parameter, Project};
@@ -123,4 +125,49 @@ fn an_adjustment_that_no_longer_gains_ends_however_many_iterations_are_allowed()
     assert!(!ended.contains_key("IterationLimit"), "{ended:?}");
     assert!(ended.get("Converged").is_some_and(|n| *n > 50), "{ended:?}");
     assert!(ended.get("Diverged").is_some_and(|n| *n > 5), "{ended:?}");
+}
+
+/// An error's words name a place as people write it, and never print the document.
+#[test]
+fn what_is_wrong_in_a_document_is_told_with_its_place_in_few_words() {
+    let cameras = vec![brown(&[Parameter::C, Parameter::K1]), opencv(&[Parameter::F])];
+    let sound = exact(&Wanted { photos: 4, points: 9, cameras, ..Wanted::default() }, 3);
+    let mut random = Uniform(4321);
+    let mut below = |n: usize| random.between(0.0, n as f64) as usize;
+    let odd =
+        [json!([[1, 2], [3, 4]]), json!("x".repeat(3000)), json!({"a": {"b": []}}), json!(vec![7; 5000]), json!(-1)];
+    let (mut refused, mut placed) = (0, 0);
+    for round in 0..3000 {
+        let mut document = serde_json::to_value(&sound).expect("a document");
+        *somewhere(&mut document, &mut below) = odd[round % odd.len()].clone();
+        let bytes = serde_json::to_vec(&document).expect("JSON");
+        let Err(error) = import("sightline", &[("a.json".to_owned(), bytes)].into()) else { continue };
+        refused += 1;
+        let words = error.to_string();
+        assert!(words.len() < 400, "round {round}: {} characters: {}", words.len(), &words[..400]);
+        let place = error.place();
+        assert_eq!(place.file.as_deref(), Some("a.json"), "round {round}: {words}");
+        let Some(field) = &place.field else { continue };
+        assert!(!field.contains(".[") && !field.contains('?') && field.len() < 100, "round {round}: {field}: {words}");
+        placed += 1;
+    }
+    assert!(refused > 1500 && placed * 10 > refused * 9, "{refused} refused, {placed} of them with a place");
+}
+
+/// A value somewhere in a tree.
+fn somewhere<'a>(value: &'a mut Value, below: &mut dyn FnMut(usize) -> usize) -> &'a mut Value {
+    let count = match &*value {
+        Value::Array(list) => list.len(),
+        Value::Object(fields) => fields.len(),
+        _ => 0,
+    };
+    if count == 0 || below(12) == 0 {
+        return value;
+    }
+    let at = below(count);
+    match value {
+        Value::Array(list) => somewhere(&mut list[at], below),
+        Value::Object(fields) => somewhere(fields.iter_mut().nth(at).expect("a field").1, below),
+        leaf => leaf,
+    }
 }

@@ -28,7 +28,7 @@ const PATIENCE: f64 = 0.1;
 const LEAST_DAMPING: f64 = 1e-8;
 /// Steps that crawl: where so many iterations lower the squares by less than this part, none of those that follow will end.
 const LOOK_BACK: usize = 100;
-const LEAST_GAIN: f64 = 1e-4;
+const LEAST_GAIN: f64 = 1e-2;
 /// Damping beyond which no step is left to try.
 const LARGEST_DAMPING: f64 = 1e12;
 

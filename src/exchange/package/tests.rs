@@ -165,6 +165,50 @@ fn entries_that_share_bytes_are_refused() {
     assert!(read(&bytes).is_err());
 }
 
+/// Where each entry stands, its name and its bytes, by the headers before them.
+fn places(bytes: &[u8], names: &[&str]) -> Vec<(String, std::ops::Range<usize>)> {
+    let starts = (0..bytes.len() - 4).filter(|at| bytes[*at..].starts_with(b"PK\x03\x04")).collect::<Vec<_>>();
+    let directory = bytes.windows(4).position(|w| w == b"PK\x01\x02").expect("a directory");
+    assert_eq!(starts.len(), names.len());
+    let ends = starts[1..].iter().copied().chain([directory]);
+    names.iter().zip(starts.iter().zip(ends)).map(|(name, (from, to))| ((*name).to_owned(), *from..to)).collect()
+}
+
+#[test]
+fn damage_of_an_entry_is_told_of_that_entry_and_costs_no_other() {
+    let all = Package {
+        adjustment: Some(Adjustment::default()),
+        photos: [("a.jpg".to_owned(), vec![7; 300]), ("b.jpg".to_owned(), (0..=255).collect())].into(),
+        ..package()
+    };
+    let bytes = write(&all).unwrap();
+    let names = ["project.json", "targets.json", "adjustment.json", "photos/a.jpg", "photos/b.jpg"];
+    for (name, range) in places(&bytes, &names) {
+        for (place, flip) in range.flat_map(|place| [0x01, 0x5a, 0x80].map(|flip| (place, flip))) {
+            let mut bad = bytes.clone();
+            bad[place] ^= flip;
+            match read(&bad) {
+                Err(error) => {
+                    assert_eq!(name, "project.json", "byte {place}: {error}");
+                    assert_eq!(error.place().file.as_deref(), Some("project.json"), "byte {place}: {error}");
+                }
+                Ok(read) => {
+                    let told = read.damaged.iter().map(|error| error.place().file.clone()).collect::<Vec<_>>();
+                    assert!(told.iter().all(|file| file.as_deref() == Some(&name)), "byte {place} of {name}: {told:?}");
+                    let lost = |this: &str| name == this && !told.is_empty();
+                    let mut cost = all.clone();
+                    if lost("targets.json") {
+                        cost.targets.clear();
+                    }
+                    cost.adjustment = cost.adjustment.filter(|_| !lost("adjustment.json"));
+                    cost.photos.retain(|photo, _| !lost(&format!("photos/{photo}")));
+                    assert_eq!(Package { damaged: Vec::new(), ..read }, cost, "byte {place} of {name}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn photos_go_by_and_are_found_again() {
     let all = Package {

@@ -1,0 +1,155 @@
+// Calls of every function of the face with arguments that are damaged anywhere, all on one instance: each gives a result or an error
+// with a code, in time, and memory does not grow with them. SIGHTLINE_CALLS is how many: a million in `cargo xtask bench field`.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { document, sightline } from './engine.mjs';
+
+const CALLS = Number(process.env.SIGHTLINE_CALLS ?? 20_000);
+/** No call takes longer. */
+const LONGEST_MS = 10_000;
+/** What memory may grow by after the first tenth of all calls, by when every function has had its share. */
+const GROWTH = 64 << 20;
+
+let state = Number(process.env.SIGHTLINE_SEED ?? 7);
+const random = () => (state = (state * 48_271) % 2_147_483_647) / 2_147_483_647;
+const below = (n) => Math.floor(n * random());
+const one = (all) => all[below(all.length)];
+
+const ODD = [
+  () => undefined, () => null, () => NaN, () => Infinity, () => -1, () => 0, () => 1e300, () => -0.5, () => 4294967296, () => '', () => 'tie', () => '1001', () => '\u0000',
+  () => '=1+1', () => 'x'.repeat(below(3000)), () => true, () => [], () => ({}), () => [null], () => [[], {}], () => Symbol('s'), () => 10n, () => () => 1, () => new Date(NaN),
+  () => new Map(), () => new Uint8Array(below(100)), () => new Float64Array(3), () => new Array(5), () => Object.create(null), () => ({ toJSON: null }),
+];
+
+/** A copy with something odd in some places. */
+function damaged(value) {
+  const copy = structuredClone(value);
+  for (let times = below(3); times >= 0; times--) {
+    let at = copy;
+    for (;;) {
+      if (at === null || typeof at !== 'object' || ArrayBuffer.isView(at)) break;
+      const keys = Object.keys(at);
+      if (keys.length === 0) break;
+      const key = one(keys);
+      const inner = at[key];
+      if (inner === null || typeof inner !== 'object' || ArrayBuffer.isView(inner) || random() < 0.1) {
+        if (ArrayBuffer.isView(inner) && random() < 0.9) {
+          for (let n = below(4); n >= 0; n--) inner[below(inner.length)] = below(256);
+        } else if (random() < 0.05) delete at[key];
+        else if (typeof inner === 'number' && random() < 0.5) at[key] = inner * (6 * random() - 3);
+        else at[key] = one(ODD)();
+        break;
+      }
+      at = inner;
+    }
+  }
+  return copy;
+}
+
+/** A network that can be adjusted: a cube of points in four photos, seen by a plain projection. */
+function network() {
+  const points = [0, 1, 2, 3, 4, 5, 6, 7, 8].map((k) => ({ id: `${k}`, role: k < 3 ? 'control' : 'tie', xyz: [k % 3, Math.floor(k / 3), k === 4 ? 1 : (k % 2) / 2], sigma: k < 3 ? [0.01, 0.01, 0.01] : null }));
+  const cameras = [{ id: 'c', width: 1000, height: 800, pixel_pitch: [0.01, 0.01], model: 'brown', c: 10, free: [] }];
+  const photos = [[0, 0], [2, 0], [0, 2], [2, 2]].map(([x, y], k) => ({ id: `p${k}`, camera: 'c', file: `${k}.jpg`, position: [x, y, 6], rotation: [0, 0, 0] }));
+  const observations = photos.flatMap((photo) =>
+    points.map((point) => {
+      const [x, y, z] = [0, 1, 2].map((axis) => point.xyz[axis] - photo.position[axis]);
+      return { photo: photo.id, point: point.id, u: 500 - (1000 * x) / z, v: 400 + (1000 * y) / z, sigma: 0.1 };
+    }),
+  );
+  return { format: 'sightline', version: 1, cameras, photos, points, observations, datum: { kind: 'control', points: null } };
+}
+
+const grey = Uint8Array.from({ length: 64 * 48 }, (_, k) => ((k % 64) - 30) ** 2 + (Math.floor(k / 64) - 22) ** 2 < 60 ? 220 : 30);
+
+/** Sound arguments of every function that is not asynchronous, and how often it is called beside the others. */
+function calls() {
+  const project = network();
+  const adjustment = sightline.adjust(project);
+  const detection = sightline.detectGray(64, 48, grey);
+  const pack = sightline.exportProject('package', project, adjustment);
+  const json = sightline.exportProject('sightline', document());
+  const marks = sightline.exportProject('mark-points', project);
+  const control = sightline.exportProject('control-csv', project);
+  // The smallest of pictures: 2 x 2, grey, as a BMP.
+  const bmp = Uint8Array.from(Buffer.from('424d4600000000000000360000002800000002000000020000000100180000000000100000000000000000000000000000000000000000000000ffffff000000808080ffffff0000', 'hex'));
+  const named = [{ photo: 'p0', targets: detection.targets }, { photo: 'p1', targets: detection.targets }];
+  const known = {
+    version: [[], 1],
+    detect: [[bmp, {}], 4],
+    detectGray: [[64, 48, grey, { codes: 'auto' }], 4],
+    measureAt: [[bmp, 1, 1, {}], 2],
+    measureAtGray: [[64, 48, grey, 30, 22, {}], 2],
+    photoInfo: [[bmp], 20],
+    nameCoded: [[named, {}], 20],
+    spreadCodes: [['ring-12'], 1],
+    snapMarks: [[project, named, {}], 20],
+    matchUncoded: [[project, named, {}], 2],
+    predict: [[project, null, '4', {}], 10],
+    orient: [[project], 2],
+    adjust: [[project, { max_iterations: 10 }], 4],
+    applyAdjustment: [[project, adjustment], 10],
+    measureFeatures: [[project, {}], 5],
+    nearestNames: [[project, project, 0.1], 10],
+    importProject: [['package', pack], 10],
+    exportProject: [['csv', project, adjustment], 10],
+  };
+  // The same functions again with other formats.
+  const more = [
+    ['importProject', ['sightline', json], 20],
+    ['importProject', ['mark-points', marks], 20],
+    ['importProject', ['control-csv', control], 20],
+    ['importProject', ['photomodeler', marks], 5],
+    ['importProject', ['aicon', control], 5],
+    ['importProject', ['dbat', json], 5],
+    ['importProject', ['comparator', marks], 5],
+    ...['sightline', 'package', 'mark-points', 'control-csv', 'dxf', 'ply', 'gltf', 'tsv'].map((format) => ['exportProject', [format, project, adjustment], 5]),
+    ['exportProject', ['report', project, adjustment], 0.2],
+    ['exportProject', ['plots', project, adjustment], 0.2],
+  ];
+  const all = [...Object.entries(known).map(([name, [sound, weight]]) => [name, sound, weight]), ...more];
+  // What is not listed is called with what is odd alone.
+  const apart = new Set(['default', 'initSync', 'initCodecs', 'initCodecsSync', 'start']);
+  for (const name of Object.keys(sightline)) {
+    if (typeof sightline[name] === 'function' && !apart.has(name) && !(name in known)) all.push([name, [{}, {}, {}], 5]);
+  }
+  return all;
+}
+
+test(`${CALLS} calls with damaged arguments on one instance`, { timeout: 600_000 + 10 * CALLS }, () => {
+  const { memory } = sightline.initSync();
+  const all = calls();
+  const total = all.reduce((sum, [, , weight]) => sum + weight, 0);
+  const draw = () => {
+    let at = total * random();
+    return all.find(([, , weight]) => (at -= weight) < 0) ?? all[0];
+  };
+  const codes = new Map();
+  const began = Date.now();
+  let [results, longest, early] = [0, 0, 0];
+  for (let call = 0; call < CALLS; call++) {
+    const [name, sound] = draw();
+    const given = random() < 0.1 ? sound.map((argument) => (random() < 0.5 ? one(ODD)() : argument)) : damaged(sound);
+    const start = performance.now();
+    try {
+      sightline[name](...given);
+      results++;
+    } catch (error) {
+      assert.ok(error instanceof Error && !(error instanceof WebAssembly.RuntimeError), `call ${call}, ${name}: ${String(error)}`);
+      assert.equal(typeof error.code, 'string', `call ${call}, ${name}: ${error.stack}`);
+      assert.notEqual(error.code, 'internal', `call ${call}, ${name}: ${error.message}`);
+      codes.set(error.code, (codes.get(error.code) ?? 0) + 1);
+    }
+    const took = performance.now() - start;
+    assert.ok(took < LONGEST_MS, `call ${call}, ${name}: ${took} ms`);
+    longest = Math.max(longest, took);
+    if (call === Math.floor(CALLS / 10)) early = memory.buffer.byteLength;
+    if (call % 100_000 === 99_999) console.log(`${call + 1} calls in ${((Date.now() - began) / 60_000).toFixed(1)} min, ${(memory.buffer.byteLength / 1e6).toFixed(0)} MB, the longest ${longest.toFixed(0)} ms`);
+  }
+  const grown = memory.buffer.byteLength - early;
+  assert.ok(grown <= GROWTH, `memory grew by ${grown} bytes`);
+  // It works still, and both ends were reached.
+  assert.equal(sightline.adjust(network()).termination, 'converged');
+  assert.ok(results > CALLS / 50 && [...codes.values()].reduce((sum, n) => sum + n, 0) > CALLS / 5, `${results} results, ${JSON.stringify([...codes])}`);
+});
