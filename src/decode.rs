@@ -13,7 +13,6 @@ mod open;
 mod palette;
 mod show;
 mod signature;
-pub mod tiles;
 
 use image::{DynamicImage, ImageDecoder};
 

@@ -184,7 +184,8 @@ pub(crate) fn document(bytes: &[u8]) -> Result<Project> {
     let mut json = serde_json::Deserializer::from_str(&text);
     serde_path_to_error::deserialize(&mut json).map_err(|error| Error::Invalid {
         reason: Reason::DamagedDocument { message: shortened(&error.inner().to_string()) },
-        at: Place::field(error.path().to_string()),
+        // A name that is none of those known has no place of its own: its owner's is told.
+        at: Place::field(error.path().to_string().replace(".?", "")),
     })
 }
 

@@ -86,5 +86,6 @@ pub mod scene;
 pub mod sensor;
 pub mod sheets;
 pub mod statistics;
+pub mod tiles;
 
 pub use error::{Error, Result};

@@ -33,7 +33,7 @@ pub fn read<T: DeserializeOwned>(value: &JsValue, name: &str) -> Result<T> {
 
 fn of_json<T: DeserializeOwned>(text: &str, name: &str) -> Result<T> {
     serde_path_to_error::deserialize(&mut serde_json::Deserializer::from_str(text)).map_err(|error| {
-        let path = error.path().to_string();
+        let path = error.path().to_string().replace(".?", "");
         let field = match path.as_str() {
             "." => name.to_owned(),
             _ if name.is_empty() => path,

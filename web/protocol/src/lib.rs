@@ -7,7 +7,6 @@ use std::io::{Read, Seek};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sightline::adjustment::{AdjustOptions, AdjustedPhoto, Adjustment, Iteration, Measured};
-pub use sightline::decode::tiles::Pyramid;
 use sightline::detection::{ColoursApart, DetectOptions, Detection, Target};
 use sightline::exif::PhotoInfo;
 use sightline::experiments::{Experiment, ExperimentOptions};
@@ -17,6 +16,7 @@ use sightline::plan::{Criterion, Made, MakeOptions, Prediction as PlanPrediction
 use sightline::project::{Datum, Plan, Project};
 use sightline::report::plots::Plot;
 use sightline::sheets::{CodeCount, SheetOptions};
+pub use sightline::tiles::Pyramid;
 use sightline::{Error, Result};
 
 /// Work for a worker. The files it needs come with it.

@@ -6,7 +6,6 @@ use std::io::Cursor;
 use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
 use sightline::comparison::compare;
-use sightline::decode::tiles::{self, Pyramid};
 use sightline::detection::{Channel, Codes, ColoursApart, DetectOptions, Detection, Target};
 use sightline::error::{Error, Place, Thing};
 use sightline::exchange::export;
@@ -20,6 +19,7 @@ use sightline::report::plots::{Plot, comparison, plots};
 use sightline::report::{self, Report};
 use sightline::sensor::{self, Shot};
 use sightline::sheets::{self, Kind};
+use sightline::tiles::{self, Pyramid};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
     Adjust, Adjusted, Adjusting, BeginPlan, Content, Detect, DrawSheets, Drawn, Export, ExportExperiment, Given,

@@ -34,6 +34,7 @@ const ORDERS: [Order; 2] = [
             "decode",
             "exif",
             "sensor",
+            "tiles",
             "detect",
             "initial",
             "comparison",

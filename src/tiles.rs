@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Picture;
+use crate::decode::Picture;
 
 /// Columns and rows of a tile, without its seam.
 const SIDE: u32 = 1024;
