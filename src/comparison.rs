@@ -19,6 +19,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::adjustment::{AdjustedCamera, Adjustment, PhotoUnit};
 use crate::initial::similarity::{self, Similarity};
@@ -28,7 +29,8 @@ use crate::project::{DatumKind, Parameter, Project, Role};
 const SAME_SYSTEM: usize = 3;
 
 /// In which system the two were set beside each other.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Alignment {
     /// Both are in the system of the same control points.
     Same,
@@ -54,7 +56,7 @@ pub enum Alignment {
 }
 
 /// How far a point or a projection centre moved.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moved {
     /// Identifier of the point or of the photo.
     pub id: String,
@@ -74,7 +76,7 @@ impl Moved {
 }
 
 /// How far a camera's parameter changed, in photo units or pixels.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ParameterChange {
     /// Camera identifier.
     pub camera: String,
@@ -93,7 +95,7 @@ pub struct ParameterChange {
 }
 
 /// What a later adjustment changed beside an earlier one.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Comparison {
     /// The system of the differences.
     pub alignment: Alignment,

@@ -7,6 +7,7 @@ use std::io::{Read, Seek};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sightline::adjustment::{AdjustOptions, AdjustedPhoto, Adjustment, Iteration, Measured};
+use sightline::comparison::Comparison;
 use sightline::detection::{ColoursApart, DetectOptions, Detection, Target};
 use sightline::exif::PhotoInfo;
 use sightline::experiments::{Experiment, ExperimentOptions};
@@ -221,6 +222,13 @@ tasks! {
         /** Its result. */ pub adjustment: Adjustment,
         /** What the result before was made from, and that result, where there was one. */ pub before: Option<(Project, Adjustment)>,
     } => Nothing, Vec<Plot>;
+    /// Set a result beside the one before.
+    CompareResults {
+        /** What the earlier result was made from. */ pub before: Project,
+        /** The earlier result. */ pub earlier: Adjustment,
+        /** What the later one was made from. */ pub after: Project,
+        /** The later result. */ pub later: Adjustment,
+    } => Nothing, Comparison;
     /// Run one of the papers' experiments; progress in steps done of all.
     RunExperiment {
         /** Which. */ pub name: String,

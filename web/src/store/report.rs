@@ -1,10 +1,13 @@
 //! The report: made by the engine in a worker, shown and printed here.
 
+use std::sync::Arc;
+
 use leptos::prelude::*;
 use leptos::task::spawn_local;
+use sightline::comparison::Comparison;
 use sightline::project::{LengthLimit, Project, ReportLanguage, ReportSettings};
 use sightline::report::plots::Plot;
-use sightline_protocol::{Export, MakePlots, MakeReport, ReportMade};
+use sightline_protocol::{CompareResults, Export, MakePlots, MakeReport, ReportMade};
 
 use super::document::Change;
 use super::pool::Outcome;
@@ -23,11 +26,14 @@ pub struct Reports {
     pub made: RwSignal<Option<ReportMade>>,
     /// The plots of the present result.
     pub plots: RwSignal<Vec<Plot>>,
+    /// The present result beside the one before.
+    pub compared: RwSignal<Option<Arc<Comparison>>>,
     /// Why nothing was.
     pub failure: RwSignal<Option<String>>,
     /// Tells the answer to the last question from earlier ones.
     asked: RwSignal<u64>,
     asked_plots: RwSignal<u64>,
+    asked_comparison: RwSignal<u64>,
 }
 
 /// The language that a report is written in: its own, or the desk's.
@@ -103,6 +109,32 @@ impl Desk {
             }
             match outcome {
                 Outcome::Done(plots, _) => self.reports.plots.set(plots),
+                Outcome::Failed(failure) => self.tell_failure(failure),
+                Outcome::Progress(nothing) => match nothing {},
+            }
+        };
+        self.pool.with_value(|pool| pool.submit_first(task, Vec::new(), on_outcome));
+    }
+
+    /// Has the present result set beside the one before, where there is one.
+    pub fn compare_results(self) {
+        let before = untrack(|| self.result_before());
+        let present = self.document.with_untracked(|d| d.current().cloned());
+        let serial = self.reports.asked_comparison.get_untracked() + 1;
+        self.reports.asked_comparison.set(serial);
+        let Some((before, present)) = before.zip(present) else { return self.reports.compared.set(None) };
+        let task = CompareResults {
+            before: (*before.input).clone(),
+            earlier: before.adjustment.clone(),
+            after: (*present.input).clone(),
+            later: present.adjustment.clone(),
+        };
+        let on_outcome = move |outcome: Outcome<CompareResults>| {
+            if self.reports.asked_comparison.get_untracked() != serial {
+                return;
+            }
+            match outcome {
+                Outcome::Done(found, _) => self.reports.compared.set(Some(Arc::new(found))),
                 Outcome::Failed(failure) => self.tell_failure(failure),
                 Outcome::Progress(nothing) => match nothing {},
             }

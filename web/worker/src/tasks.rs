@@ -5,7 +5,7 @@ use std::io::Cursor;
 
 use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
-use sightline::comparison::compare;
+use sightline::comparison::{Comparison, compare};
 use sightline::detection::{Channel, Codes, ColoursApart, DetectOptions, Detection, Target};
 use sightline::error::{Error, Place, Thing};
 use sightline::exchange::export;
@@ -22,11 +22,11 @@ use sightline::sheets::{self, Kind};
 use sightline::tiles::{self, Pyramid};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
-    Adjust, Adjusted, Adjusting, BeginPlan, Content, Detect, DrawSheets, Drawn, Export, ExportExperiment, Given,
-    MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, Nothing, Open, Opened, Pack,
-    PlanOf, Predict, PredictPlan, Progress, ReportMade, RunExperiment, Sample, SamplePhoto, SamplePhotoMade, Served,
-    Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto, Unpack, Unpacked, Values,
-    WriteSheets,
+    Adjust, Adjusted, Adjusting, BeginPlan, CompareResults, Content, Detect, DrawSheets, Drawn, Export,
+    ExportExperiment, Given, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, Nothing,
+    Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReportMade, RunExperiment, Sample, SamplePhoto,
+    SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto,
+    Unpack, Unpacked, Values, WriteSheets,
 };
 
 use crate::codecs::{shot_of, unpack};
@@ -204,6 +204,12 @@ impl Service<MakePlots> for Engine {
             all.extend(comparison(&project, Some(&adjustment), &found)?);
         }
         Ok((all, Vec::new()))
+    }
+}
+
+impl Service<CompareResults> for Engine {
+    fn serve(&self, task: CompareResults, _: Files, _: Progress<Nothing>) -> Served<Comparison> {
+        Ok((compare((&task.before, &task.earlier), (&task.after, &task.later)), Vec::new()))
     }
 }
 

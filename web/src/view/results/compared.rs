@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use sightline::comparison::{Alignment, Comparison, Moved, ParameterChange, compare};
+use sightline::comparison::{Alignment, Moved, ParameterChange};
 
 use super::cameras::parameter_cells;
 use crate::format;
@@ -11,18 +11,6 @@ use crate::i18n::{comparing as words, text};
 use crate::store::{Desk, Kind};
 use crate::view::adjust::parameter_name;
 use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
-
-type Found = Option<Arc<Comparison>>;
-
-/// The comparison of the present result with the one before, where there is one.
-fn found(desk: Desk) -> Found {
-    let before = desk.result_before()?;
-    desk.document.with(|d| {
-        let present = d.current()?;
-        let both = ((&*before.input, &before.adjustment), (&*present.input, &present.adjustment));
-        Some(Arc::new(compare(both.0, both.1)))
-    })
-}
 
 /// In which system the two were compared.
 fn alignment_words(alignment: &Alignment) -> String {
@@ -38,10 +26,17 @@ fn alignment_words(alignment: &Alignment) -> String {
 #[component]
 pub(super) fn Compared() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let all = Memo::new_with_compare(
-        move |_| found(desk),
-        |a: Option<&Found>, b: Option<&Found>| a.map(|a| a.as_deref()) != b.map(|b| b.as_deref()),
-    );
+    let all = desk.reports.compared;
+    // Which two results are compared, told apart by where they are.
+    let pair = Memo::new(move |_| {
+        let present = desk.document.with(|d| d.current().map(Arc::as_ptr));
+        let before = desk.result_before();
+        [present.map(|p| p as usize), before.as_ref().map(|b| Arc::as_ptr(b) as usize)]
+    });
+    Effect::new(move |_| {
+        pair.track();
+        desk.compare_results();
+    });
     let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
     let says = move || {
         all.with(|found| {
