@@ -164,8 +164,6 @@ for (const [kind, prelude] of [['files', ''], ['database', 'delete StorageManage
       const saved = unzipped(Object.values(await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click()))[0]);
       assert.equal(JSON.parse(saved['project.json']).name, 'After');
       assert.equal(Object.keys(saved).filter((name) => name.startsWith('photos/')).length, 8);
-      // Chromium takes away what is written to its file system after that, too, as soon as the page is left: only the database is sure.
-      if (kind === 'files') return;
       await page.waitForTimeout(2000);
       await page.reload();
       await goOn(page);
@@ -181,6 +179,38 @@ for (const [kind, prelude] of [['files', ''], ['database', 'delete StorageManage
     }
   });
 }
+
+test('storage cleared under two windows is stored again by both, whichever is closed first', { timeout: 600_000 }, async () => {
+  const { page: first, context, url, close } = await open({ width: 1366, height: 768 });
+  try {
+    const second = await context.newPage();
+    await second.goto(url);
+    for (const [page, name] of [[first, 'One'], [second, 'Two']]) {
+      await page.bringToFront();
+      await drop(page, [scratch(`${name}.json`, named(name))]);
+      await page.waitForFunction((wanted) => document.querySelector('.project-name')?.value === wanted, name);
+      await written(page);
+    }
+    const session = await context.newCDPSession(first);
+    await session.send('Storage.clearDataForOrigin', { origin: new URL(url).origin, storageTypes: 'all' });
+    // The first one notices; the other is told, and nothing was done in it.
+    await first.bringToFront();
+    await rename(first, 'One after');
+    for (const page of [first, second]) {
+      await page.waitForFunction(() => /cleared its storage/.test(document.querySelector('.notices')?.textContent ?? ''), undefined, { timeout: 30_000 });
+      await written(page);
+    }
+    await second.close();
+    await first.waitForTimeout(1000);
+    await first.reload();
+    await first.waitForSelector('[data-project]');
+    const names = await first.$$eval('[data-project]', (all) => all.map((row) => row.textContent));
+    assert.equal(names.length, 2, names.join());
+    for (const name of ['One after', 'Two']) assert.ok(names.some((text) => text.includes(name)), `${name} in ${names.join()}`);
+  } finally {
+    await close();
+  }
+});
 
 test('storage that was cleared since the last visit is told', { timeout: 300_000 }, async () => {
   const { page, context, url, close } = await open({ width: 1366, height: 768 });

@@ -6,6 +6,10 @@
 // still needed, and a new journal with that takes the place of the old one. Photos are kept once, by what is in them.
 //
 // Where the origin has a private file system its files are used, else IndexedDB, else nothing, and the page is told.
+//
+// A browser that clears its storage under an open page leaves the files that are open then, and in Chromium whatever is stored meanwhile
+// is taken away with them when the last of those is let go. Only the end of the worker lets go of them: the page ends it and starts a new
+// one, which waits until those of all windows have gone.
 
 /** A part is written whole again after so many that only say what changed, or when those outgrow it: reading it stays short. */
 const CHAIN = 64;
@@ -15,6 +19,12 @@ const PIECE = 4 << 20;
 const RESERVE = 32 << 20;
 /** Versions of the journal that are read here. */
 const VERSION = 1;
+/** Held by every worker that has had a file open, as long as it lives. */
+const OPEN_FILES = 'sightline files';
+/** How long the workers of other windows are waited for after storage was cleared, in milliseconds. */
+const PATIENCE = 5000;
+/** Between a lock that is let go and the files that were beside it, in milliseconds. */
+const SETTLING = 250;
 
 const TABLE = Int32Array.from({ length: 256 }, (_, n) => {
   for (let k = 0; k < 8; k++) n = n & 1 ? 0xedb88320 ^ (n >>> 1) : n >>> 1;
@@ -55,6 +65,7 @@ function unframed(bytes) {
 }
 
 const fault = (name, message) => Object.assign(new Error(message), { name });
+const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
 const absent = (error) => error.name === 'NotFoundError';
 
 /** Tries again while another holder of a file goes away: that of a killed page is there for a moment. */
@@ -64,7 +75,7 @@ async function patiently(work) {
       return await work();
     } catch (error) {
       if (error.name !== 'NoModificationAllowedError' || attempt === 60) throw error;
-      await new Promise((done) => setTimeout(done, 50));
+      await pause(50);
     }
   }
 }
@@ -305,6 +316,10 @@ async function database() {
 }
 
 let backend;
+/** Whether the page began anew here after its storage was cleared. */
+let anew = false;
+/** Settled when this worker may have files open. */
+let entered = null;
 /** The project that is open: its parts as they were read, the last part of each kind, its writer unless another window has it. */
 let project = null;
 /** Sends the page what it did not ask for. */
@@ -322,8 +337,31 @@ async function reach() {
   }
 }
 
-async function start() {
+/** Before the first file is opened for writing: whoever waits for all files to be closed goes first. */
+function enter() {
+  if (!navigator.locks) return null;
+  entered ??= new Promise((done) => navigator.locks.request(OPEN_FILES, { mode: 'shared' }, () => (done(), new Promise(() => {}))));
+  return entered;
+}
+
+/** Waits until no window has a file of the storage that was cleared. */
+async function othersGone() {
+  windows?.postMessage({ word: 'cleared' });
+  if (!navigator.locks) return pause(4 * SETTLING);
+  try {
+    await navigator.locks.request(OPEN_FILES, { signal: AbortSignal.timeout(PATIENCE) }, () => pause(SETTLING));
+  } catch (error) {
+    throw ['AbortError', 'TimeoutError'].includes(error.name) ? fault('HeldError', 'another window has files of the cleared storage') : error;
+  }
+}
+
+/** `after`: where storage was cleared under the page, whether this window "noticed" or was "told" by the one that waits for all others. */
+async function start({ after }) {
+  if (after === 'noticed') await othersGone();
+  if (after === 'told') await enter();
+  anew = Boolean(after);
   await reach();
+  if (after === 'noticed') windows?.postMessage({ word: 'anew' });
   if (!backend) return { kind: 'none' };
   // Deleted in an earlier visit, when it could still be undone.
   for (const id of await backend.projects()) if ((await cardOf(id))?.deleted) await purge({ id });
@@ -333,7 +371,8 @@ async function start() {
 const cardOf = (id) => backend.card(id).catch(() => undefined);
 
 /** Holds a project for this window, or finds that another has it. */
-function hold(id, steal) {
+async function hold(id, steal) {
+  if (backend.kind === 'files') await enter();
   if (!navigator.locks) return Promise.resolve(() => {});
   return new Promise((done, failed) => {
     const held = (lock) => {
@@ -358,6 +397,9 @@ function yieldProject() {
 
 windows?.addEventListener('message', ({ data }) => {
   if (data.word === 'equipment') return tell('equipment');
+  // Without open files it is enough to look for the folders again, when the one who waits for the others has made them.
+  if (data.word === 'cleared' && entered) return tell('cleared');
+  if (data.word === 'anew') return (queue = queue.then(reach));
   if (!project || data.id !== project.id) return;
   if (data.word === 'changed' && !project.writer) tell('changed');
   if (data.word === 'yield' && project.writer) {
@@ -407,10 +449,17 @@ function text(parts, id) {
 async function open({ id }, _, taken) {
   await close();
   const release = taken ?? (await hold(id).catch(() => null));
-  const { generation, items, end, size } = await backend.journal(id);
-  const { parts, last, notes } = gathered(items);
-  const writer = release ? await backend.writer(id, generation, end, size) : null;
-  project = { id, generation, parts, writer, release, last: new Map() };
+  let journal, contents, writer;
+  try {
+    journal = await backend.journal(id);
+    contents = gathered(journal.items);
+    writer = release ? await backend.writer(id, journal.generation, journal.end, journal.size) : null;
+  } catch (error) {
+    release?.();
+    throw error;
+  }
+  const { parts, last, notes } = contents;
+  project = { id, generation: journal.generation, parts, writer, release, last: new Map() };
   for (const [kind, part] of last) project.last.set(kind, { id: part.id, words: text(parts, part.id), chain: CHAIN });
   return { reply: { notes, following: !writer, nextPart: Math.max(0, ...parts.keys()) + 1 } };
 }
@@ -456,18 +505,17 @@ function partOf(id, kind, words, last) {
 async function append({ id, note, parts, card, snapshot }, texts) {
   if (snapshot && project?.id !== id) {
     await close();
-    const release = await hold(id, false);
+    // A worker that was ended lets go of its locks a moment later.
+    let release = await hold(id, false);
+    for (const until = Date.now() + PATIENCE; anew && !release && Date.now() < until; release = await hold(id, false)) await pause(50);
     if (!release) throw fault('InvalidStateError', 'held');
     project = { id, generation: 0, parts: new Map(), writer: null, release, last: new Map() };
   }
   if (project?.id !== id) throw fault('InvalidStateError', 'not open');
   if (!project.writer && !snapshot) throw fault('InvalidStateError', 'following');
   if (!snapshot && !(await backend.has(id, project.generation).catch(() => false))) {
-    // What is written to a file that was taken away is nowhere: the page has everything, and begins anew. Closing such a file would
-    // wait for ever in Chromium.
-    project.release?.();
-    project = null;
-    await reach();
+    // What is written to a file that was taken away is nowhere: the page has everything, and begins anew with another worker. Closing
+    // such a file would wait for ever in Chromium.
     throw fault('GoneError', 'cleared');
   }
   const before = new Map(project.last);
@@ -480,6 +528,8 @@ async function append({ id, note, parts, card, snapshot }, texts) {
       const end = await backend.begin(id, 1, frame);
       project.generation = 1;
       project.writer = await backend.writer(id, 1, end, frame.length);
+      // Told as stored when it can be read again: another clearing may have come between.
+      if (anew && (await backend.journal(id)).size !== frame.length) throw fault('GoneError', 'cleared');
     } else {
       await project.writer.append(framed(items));
     }
@@ -490,6 +540,11 @@ async function append({ id, note, parts, card, snapshot }, texts) {
   }
   windows?.postMessage({ id, word: 'changed' });
   return { size: project.writer.size() };
+}
+
+/** Whether what was stored is there still. */
+async function check({ id }) {
+  if (project?.id === id && project.writer && !(await backend.has(id, project.generation).catch(() => false))) throw fault('GoneError', 'cleared');
 }
 
 /** A journal as it was read to be condensed, until that is done. */
@@ -663,7 +718,7 @@ async function setEquipment({ words }) {
   windows?.postMessage({ word: 'equipment' });
 }
 
-const CALLS = { equipment, setEquipment, start, open, take, append, survey, surveyed: surveyedTexts, leave, condense, parts, keep, photos, list, rename, duplicate, remove, purge, close };
+const CALLS = { equipment, setEquipment, start, open, take, append, survey, surveyed: surveyedTexts, leave, check, condense, parts, keep, photos, list, rename, duplicate, remove, purge, close };
 /** Copying photos lasts, and so does condensing: edits do not wait for them. */
 const ALONGSIDE = new Set(['keep', 'photos', 'list', 'survey', 'surveyed', 'leave', 'condense']);
 let queue = Promise.resolve();

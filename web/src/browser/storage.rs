@@ -40,6 +40,21 @@ pub struct Storage {
     worker: web_sys::Worker,
     waiting: Waiting,
     calls: Rc<Cell<u32>>,
+    ended: Rc<Cell<bool>>,
+}
+
+/// The name of the fault of calls that nobody answers.
+pub const LOST: &str = "Lost";
+const ENDED: &str = "the worker was ended";
+
+/// Answers all that wait.
+fn give_up(waiting: &RefCell<HashMap<u32, Function>>, words: &str) {
+    for (_, resolve) in waiting.take() {
+        let answer = Object::new();
+        set(&answer, "fault", &LOST.into());
+        set(&answer, "text", &words.into());
+        let _ = resolve.call1(&JsValue::UNDEFINED, &answer);
+    }
 }
 
 impl Storage {
@@ -61,19 +76,21 @@ impl Storage {
         });
         let lost = waiting.clone();
         let on_error = Closure::<dyn FnMut(ErrorEvent)>::new(move |event: ErrorEvent| {
-            for (_, resolve) in lost.take() {
-                let answer = Object::new();
-                set(&answer, "fault", &"Lost".into());
-                set(&answer, "text", &error_words(&event).into());
-                let _ = resolve.call1(&JsValue::UNDEFINED, &answer);
-            }
+            give_up(&lost, &error_words(&event));
         });
         worker.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
         worker.set_onerror(Some(on_error.as_ref().unchecked_ref()));
-        // It lives as long as the page.
+        // It lives as long as the page, nearly always.
         on_message.forget();
         on_error.forget();
-        Ok(Self { worker, waiting, calls: Rc::default() })
+        Ok(Self { worker, waiting, calls: Rc::default(), ended: Rc::default() })
+    }
+
+    /// Ends it, with all that it holds: who waits for it, or calls it later, is told that it is lost.
+    pub fn end(&self) {
+        self.ended.set(true);
+        self.worker.terminate();
+        give_up(&self.waiting, ENDED);
     }
 
     /// Calls it, and waits for the answer.
@@ -84,6 +101,9 @@ impl Storage {
         extras: Vec<Extra>,
     ) -> Result<(A, Vec<Extra>), Fault> {
         let fault = |name: &str, detail: String| Fault { name: name.to_owned(), detail };
+        if self.ended.get() {
+            return Err(fault(LOST, ENDED.to_owned()));
+        }
         let call = self.calls.get();
         self.calls.set(call + 1);
         let answered = Promise::new(&mut |resolve, _| {
@@ -94,8 +114,8 @@ impl Storage {
         set(&message, "name", &name.into());
         set(&message, "text", &to_text(arguments).into());
         set(&message, "extras", &extras.iter().map(Extra::as_js).collect::<Array>());
-        self.worker.post_message(&message).map_err(|e| fault("Lost", describe(&e)))?;
-        let answer = JsFuture::from(answered).await.map_err(|e| fault("Lost", describe(&e)))?;
+        self.worker.post_message(&message).map_err(|e| fault(LOST, describe(&e)))?;
+        let answer = JsFuture::from(answered).await.map_err(|e| fault(LOST, describe(&e)))?;
         let text = field(&answer, "text").as_string().unwrap_or_default();
         if let Some(name) = field(&answer, "fault").as_string() {
             return Err(fault(&name, text));

@@ -343,8 +343,9 @@ declare! { desk {
     kept_unreadable(detail): "What is stored could not be read ({detail}). Nothing of it was deleted.";
     kept_by_newer(version): "A newer version of Sightline stored this project (format {version}). Reload the page to get that version.";
     storage_cleared(n): "The browser has cleared its storage: {n} {n:project is|projects are} gone from this list. Open them from their saved files.";
-    cleared_under_page: "The browser cleared its storage while this page was open. The project was stored again as it is here, photos and all, but do not rely on that: save it as a file now.";
-    cleared_with_photos(n): "The browser cleared its storage while this page was open. The project was stored again as it is here; {n} {n:photo|photos} went and {n:has|have} to be dropped on the page again. Do not rely on that: save the project as a file now.";
+    cleared_under_page: "The browser cleared its storage while this page was open. The project is stored again as it is here, photos and all; other projects are gone. Save it as a file too: what was cleared once may be cleared again.";
+    cleared_with_photos(n): "The browser cleared its storage while this page was open. The project is stored again as it is here; {n} {n:photo|photos} went and {n:has|have} to be dropped on the page again. Save it as a file too: what was cleared once may be cleared again.";
+    held_by_windows: "The browser cleared its storage, and another window of this page still holds files of it: close the other windows. Until then the project is in this page only; save it as a file.";
     space_used(used, all): "{used} of {all} used";
     lasts: "kept when space runs short";
     may_be_cleared: "the browser may clear it when space runs short";

@@ -16,7 +16,7 @@ use super::{Desk, PhotoFile, Selection, Step, Until};
 use crate::browser::file::{Blob, NamedFile};
 use crate::browser::page;
 use crate::browser::picture::Picture;
-use crate::browser::storage::{Extra, Fault, Storage};
+use crate::browser::storage::{Extra, Fault, LOST, Storage};
 use crate::i18n::text;
 
 /// Undoable states that are read ahead of being asked for.
@@ -43,23 +43,25 @@ pub enum Kept {
 /// What keeps the project.
 #[derive(Default)]
 pub struct Keeper {
-    storage: Option<Storage>,
+    pub(super) storage: Option<Storage>,
     /// Of the project that is open.
     pub(super) id: Option<String>,
     pub(super) book: Rc<RefCell<Book>>,
     /// What is not written yet, in its order.
     pub(super) backlog: VecDeque<Append>,
-    sending: bool,
+    pub(super) sending: bool,
     /// Photos that are kept, or that could not be.
-    photos: HashSet<String>,
-    copying: bool,
+    pub(super) photos: HashSet<String>,
+    pub(super) copying: bool,
+    /// Whether a worker is being started in the place of one whose storage was cleared.
+    pub(super) anew: bool,
     /// Notes written, ever.
     pub(super) written: usize,
     /// Whether the journal is to be condensed soon; its size after the last time.
     pub(super) condensing: bool,
     pub(super) condensed: f64,
     /// States of the history that are still in the storage, by their serials.
-    stored: HashMap<u64, State>,
+    pub(super) stored: HashMap<u64, State>,
     reading: bool,
 }
 
@@ -124,9 +126,16 @@ struct Appended {
     size: f64,
 }
 
+#[derive(Serialize)]
+pub(super) struct Starting {
+    /// Where storage was cleared under the page: "noticed" by this window, or "told" by another one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub after: Option<&'static str>,
+}
+
 #[derive(Deserialize)]
-struct Started {
-    kind: String,
+pub(super) struct Started {
+    pub kind: String,
 }
 
 /// Of a call with nothing to say.
@@ -168,9 +177,9 @@ impl PhotoFile {
 impl Desk {
     /// Starts the storage, and keeps whatever changes from now on.
     pub fn start_keeping(self) {
-        match Storage::start(move |told| self.hear_from_storage(&told)) {
+        match self.storage_worker() {
             Ok(storage) => spawn_local(async move {
-                match storage.call::<Started>("start", &Plain {}, Vec::new()).await {
+                match storage.call::<Started>("start", &Starting { after: None }, Vec::new()).await {
                     Ok((Started { kind }, _)) if kind != "none" => {
                         self.keeper.update_value(|keeper| keeper.storage = Some(storage));
                         self.kept.set(Kept::At(String::new()));
@@ -191,9 +200,15 @@ impl Desk {
         });
     }
 
+    pub(super) fn storage_worker(self) -> Result<Storage, String> {
+        Storage::start(move |told| self.hear_from_storage(&told))
+    }
+
     fn hear_from_storage(self, told: &str) {
-        if told == "equipment" {
-            return self.read_equipment();
+        match told {
+            "equipment" => return self.read_equipment(),
+            "cleared" => return spawn_local(self.keep_anew("told")),
+            _ => {}
         }
         let Some(id) = self.open_id() else { return };
         match told {
@@ -309,46 +324,16 @@ impl Desk {
                     self.kept.set(Kept::At(page::clock()));
                     self.measure_space();
                 }
-                Err(Fault { name, .. }) if name == "GoneError" => self.keep_anew().await,
+                Err(Fault { name, .. }) if name == "GoneError" => self.keep_anew("noticed").await,
+                // Another worker takes this one's place, and everything is written again.
+                Err(Fault { name, .. }) if name == LOST && self.keeper.with_value(|keeper| keeper.anew) => {}
                 Err(Fault { name, detail }) => self.tell_unkept(name, detail),
             }
         });
     }
 
-    /// The browser has cleared its storage under this page: what is here is written again, photos from where they came.
-    async fn keep_anew(self) {
-        let mut files = self.files.get_untracked();
-        let mut lost = Vec::new();
-        for (id, file) in &mut files {
-            if let Some(original) = file.original.take() {
-                file.content = original;
-            }
-            let readable = match file.content.part(0.0, 1.0) {
-                Ok(start) => start.read().await.is_ok(),
-                Err(_) => false,
-            };
-            if !readable {
-                lost.push(id.clone());
-            }
-        }
-        files.retain(|id, _| !lost.contains(id));
-        self.keeper.update_value(|keeper| {
-            keeper.book = Rc::default();
-            keeper.backlog.clear();
-            keeper.stored.clear();
-            keeper.photos.clear();
-        });
-        self.files.set(files);
-        let lost = lost.len();
-        self.say(true, Until::NextWork, move || match lost {
-            0 => text::cleared_under_page().to_owned(),
-            _ => text::cleared_with_photos(lost),
-        });
-        self.keep_now();
-    }
-
     /// What could not be written stays here, is tried again, and the person is told the way out.
-    fn tell_unkept(self, name: String, detail: String) {
+    pub(super) fn tell_unkept(self, name: String, detail: String) {
         let told = self.kept.with_untracked(|kept| matches!(kept, Kept::Failed(..)));
         self.kept.set(Kept::Failed(name.clone(), detail.clone()));
         if !told {
@@ -385,6 +370,8 @@ impl Desk {
                 let asked = Keys { keys: std::slice::from_ref(&key) };
                 let (failed, failure) = match storage.call::<Copied>("keep", &asked, extras).await {
                     Ok((Copied { missed, failure }, _)) => (!missed.is_empty(), failure),
+                    // Its place is taken by another worker, which copies all of them.
+                    Err(fault) if fault.name == LOST => break,
                     Err(fault) => (true, Some(fault.detail)),
                 };
                 missed += usize::from(failed);
@@ -485,7 +472,7 @@ impl Desk {
         });
     }
 
-    async fn read_again(self, id: &str) {
+    pub(super) async fn read_again(self, id: &str) {
         self.open_call("open", id).await;
     }
 
@@ -625,7 +612,11 @@ impl Desk {
 
 /// The sentence for what could not be written.
 pub fn unkept_words(name: &str, detail: &str) -> String {
-    if name == "QuotaExceededError" { text::storage_full().to_owned() } else { text::not_kept(detail) }
+    match name {
+        "QuotaExceededError" => text::storage_full().to_owned(),
+        "HeldError" => text::held_by_windows().to_owned(),
+        _ => text::not_kept(detail),
+    }
 }
 
 fn data_fault(detail: String) -> Fault {

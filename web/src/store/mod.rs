@@ -3,6 +3,7 @@
 pub mod adjusting;
 mod apart;
 pub mod cameras;
+mod cleared;
 pub mod condensing;
 pub mod control;
 pub mod detection;
