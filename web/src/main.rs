@@ -4,6 +4,7 @@ mod browser;
 mod edit;
 mod format;
 mod i18n;
+mod parts;
 mod store;
 mod view;
 

@@ -1,7 +1,7 @@
 //! pkg/ (the engine with its JavaScript face) and dist/ (the page): cargo in the release profile, then wasm-bindgen.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ use wasm_bindgen_cli_support::Bindgen;
 
 use crate::install::{self, TARGET};
 use crate::process::{cargo, output, program, root, run};
-use crate::{Outcome, offline, page};
+use crate::{Outcome, offline, page, parts};
 
 /// How the page is built.
 #[derive(Clone, Copy, PartialEq)]
@@ -73,7 +73,7 @@ fn assemble_dist(profile: Profile) -> Outcome {
     if profile == Profile::Release {
         links_no_engine()?;
     }
-    bindings(profile, "sightline-desk", &folder, page::MODULE, false)?;
+    desk(profile, &folder)?;
     bindings(profile, "sightline-worker", &folder, page::WORKER, false)?;
     bindings(profile, "sightline_codecs", &folder, page::CODECS, false)?;
     page::assemble(&root(), &folder)?;
@@ -81,6 +81,9 @@ fn assemble_dist(profile: Profile) -> Outcome {
     offline::icons(&folder)?;
     offline::seal(&folder)?;
     report("dist", &folder.join(format!("{}_bg.wasm", page::MODULE)));
+    for part in parts::later(&folder)? {
+        report("dist", &folder.join(part));
+    }
     report("dist", &folder.join(format!("{}_bg.wasm", page::WORKER)));
     report("dist", &folder.join(format!("{}_bg.wasm", page::CODECS)));
     Ok(())
@@ -151,7 +154,8 @@ pub fn target_directory() -> Outcome<String> {
 fn links_no_engine() -> Outcome {
     let module = format!("{}/{TARGET}/release/sightline-desk.wasm", target_directory()?);
     let bytes = fs::read(&module).map_err(|error| format!("{module}: {error}"))?;
-    let linked = |name: &str| bytes.windows(name.len()).any(|window| window == name.as_bytes());
+    let names = names(&bytes).ok_or_else(|| format!("{module}: it has no names"))?;
+    let linked = |name: &str| names.windows(name.len()).any(|window| window == name.as_bytes());
     let engine = [
         "9sightline6detect",
         "9sightline6decode",
@@ -166,6 +170,34 @@ fn links_no_engine() -> Outcome {
         Some(name) => Err(format!("{module}: the page links {name}, which belongs to the workers")),
         None => Ok(()),
     }
+}
+
+/// Section of a module with the names of its functions: relocations, in another, name what was never linked too.
+fn names(module: &[u8]) -> Option<&[u8]> {
+    // Lengths have seven bits a byte, the lowest first.
+    fn length<'a>(bytes: &mut &'a [u8]) -> Option<&'a [u8]> {
+        let mut length = 0;
+        for shift in (0..32).step_by(7) {
+            let (&byte, rest) = bytes.split_first()?;
+            *bytes = rest;
+            length |= usize::from(byte & 0x7f) << shift;
+            if byte < 0x80 {
+                break;
+            }
+        }
+        let (content, rest) = bytes.split_at_checked(length)?;
+        *bytes = rest;
+        Some(content)
+    }
+    let mut rest = module.get(8..)?;
+    while let Some((&kind, after)) = rest.split_first() {
+        rest = after;
+        let mut content = length(&mut rest)?;
+        if kind == 0 && length(&mut content)? == b"name" {
+            return Some(content);
+        }
+    }
+    None
 }
 
 /// The 3-D view with what it uses of three.js, as one file that the page loads when it is asked for.
@@ -187,11 +219,30 @@ fn view3d(dist: &Path) -> Outcome {
     run(program("npx", &arguments).current_dir(folder).stdout(std::io::stderr()))
 }
 
+/// The page's module; as it is handed out it comes in parts.
+fn desk(profile: Profile, folder: &Path) -> Outcome {
+    let module = linked(profile, "sightline-desk")?;
+    if profile == Profile::Serve {
+        return bind(&module, folder, page::MODULE, false);
+    }
+    bind(&parts::cut(&module, folder, page::MODULE)?, folder, page::MODULE, false)
+}
+
+/// A module as cargo left it.
+fn linked(profile: Profile, module: &str) -> Outcome<PathBuf> {
+    Ok(format!("{}/{TARGET}/{}/{module}.wasm", target_directory()?, profile.name()).into())
+}
+
 fn bindings(profile: Profile, module: &str, folder: &Path, name: &str, typescript: bool) -> Outcome {
-    let wasm = format!("{}/{TARGET}/{}/{module}.wasm", target_directory()?, profile.name());
+    bind(&linked(profile, module)?, folder, name, typescript)
+}
+
+fn bind(wasm: &Path, folder: &Path, name: &str, typescript: bool) -> Outcome {
     let fault = |error| format!("wasm-bindgen: {error:#}");
     let mut bindgen = Bindgen::new();
     bindgen.input_path(wasm).out_name(name).typescript(typescript).web(true).map_err(fault)?;
+    // The parts share the table of functions, which the linker made.
+    bindgen.keep_lld_exports(name == page::MODULE);
     bindgen.remove_name_section(true).remove_producers_section(true);
     bindgen.generate(folder).map_err(fault)
 }
@@ -211,4 +262,16 @@ pub fn write(path: &Path, bytes: &[u8]) -> Outcome {
 fn report(what: &str, wasm: &Path) {
     let size = fs::metadata(wasm).map_or(0, |file| file.len());
     println!("{what}/ is ready ({} of {} kB)", wasm.file_name().unwrap_or_default().to_string_lossy(), size / 1024);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_functions_are_told_from_other_sections() {
+        let module = b"\0asm\x01\0\0\0\x01\x02xy\x00\x08\x04linkabc\x00\x87\x00\x04namef1\x0a\x01z";
+        assert_eq!(names(module), Some(&b"f1"[..]));
+        assert_eq!(names(&module[..12]), None);
+    }
 }

@@ -6,6 +6,7 @@ mod check;
 mod install;
 mod offline;
 mod page;
+mod parts;
 mod process;
 mod serve;
 mod single;

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use crate::Outcome;
 use crate::build::write;
+use crate::parts;
 
 /// Name of the page's own module in dist/.
 pub const MODULE: &str = "desk";
@@ -78,8 +79,13 @@ fn place(root: &Path, dist: &Path, asset: &Asset) -> Outcome<String> {
         // Fetched by the page when it stands.
         "rust" if asset.kind.as_deref() == Some("worker") => Ok(String::new()),
         "rust" => Ok(format!(
-            "<link rel=\"modulepreload\" href=\"{MODULE}.js\">\
-             <link rel=\"preload\" href=\"{MODULE}_bg.wasm\" as=\"fetch\" type=\"application/wasm\" crossorigin>"
+            "<link rel=\"modulepreload\" href=\"{MODULE}.js\">{}\
+             <link rel=\"preload\" href=\"{MODULE}_bg.wasm\" as=\"fetch\" type=\"application/wasm\" crossorigin>",
+            if dist.join(parts::GLUE).exists() {
+                format!("<link rel=\"modulepreload\" href=\"{}\">", parts::GLUE)
+            } else {
+                String::new()
+            }
         )),
         "css" => {
             copy(&source, &folder.join(name))?;

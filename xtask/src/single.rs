@@ -10,6 +10,7 @@ use sha2::{Digest, Sha256};
 use crate::Outcome;
 use crate::build::write;
 use crate::page::{CODECS, MODULE, VIEW3D, WORKER};
+use crate::parts;
 
 /// Name of the file in dist/.
 pub const NAME: &str = "sightline.html";
@@ -29,6 +30,8 @@ self.sightlineFiles = {
   'storage.js': address('storage', 'text/javascript'),
   'sightline-worker_bg.wasm': address('engine', 'application/wasm'),
 };
+// Parts of the page's module, by the names that its glue has for them.
+for (const part of document.querySelectorAll('script[data-part]')) sightlineFiles[part.id] = address(part.id, 'application/wasm');
 const parts = { 'view3d.js': 'view3d' };
 // The same address every time: one at another address would be loaded again.
 self.sightlineLoad = (name) => import((sightlineFiles[name] ??= address(parts[name], 'text/javascript')));
@@ -64,7 +67,7 @@ pub fn write_to(dist: &Path) -> Outcome {
         format!("{decoders}\n{}\n{start}", inlined(&text(&format!("{WORKER}.js"))?)?)
     };
     let style = styles(&page)?.iter().map(|name| text(name)).collect::<Outcome<Vec<_>>>()?.concat();
-    let desk = inlined(&text(&format!("{MODULE}.js"))?)?;
+    let desk = with_parts(&text(&format!("{MODULE}.js"))?, &text(parts::GLUE)?)?;
     let script = format!("{OPENING}{desk}\nawait __wbg_init({{ module_or_path: bytes('desk') }});\n");
     if script.contains("</script") || style.contains("</style") {
         return Err("a part of the page ends the element that it would be in".into());
@@ -76,6 +79,11 @@ pub fn write_to(dist: &Path) -> Outcome {
         digest(&style)
     );
     let data = |id: &str, content: String| format!("<script type=\"text/plain\" id=\"{id}\">{content}</script>\n");
+    let part = |name: String| {
+        let bytes = coded(&name)?;
+        Ok(format!("<script type=\"text/plain\" data-part id=\"{name}\">{bytes}</script>\n"))
+    };
+    let later = parts::later(dist)?.into_iter().map(part).collect::<Outcome<Vec<String>>>()?.concat();
     let html = [
         "<!doctype html>\n<html lang=\"en\" data-theme=\"light\">\n<head>\n<meta charset=\"utf-8\">\n".into(),
         format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n"),
@@ -88,6 +96,7 @@ pub fn write_to(dist: &Path) -> Outcome {
         data("view3d", coded(VIEW3D)?),
         data("engine", coded(&format!("{WORKER}_bg.wasm"))?),
         data("desk", coded(&format!("{MODULE}_bg.wasm"))?),
+        later,
         format!("<script type=\"module\">{script}</script>\n</body>\n</html>\n"),
     ]
     .concat();
@@ -108,6 +117,29 @@ fn styles(page: &str) -> Outcome<Vec<String>> {
         .filter_map(|rest| rest.split_once('"').map(|(name, _)| name.to_owned()))
         .collect();
     if names.is_empty() { Err("index.html names no style sheet".into()) } else { Ok(names) }
+}
+
+/// The glue of the page's module with that of its parts, which refer to each other.
+fn with_parts(glue: &str, parts: &str) -> Outcome<String> {
+    let from = format!(" from \"./{}\"", parts::GLUE);
+    let names =
+        |line: &str| Some(line.strip_prefix("import * as ")?.trim_end_matches(';').strip_suffix(&from)?.to_owned());
+    let names: Vec<String> = glue.lines().filter_map(names).collect();
+    if names.is_empty() {
+        return Err(format!("the glue of the page's module does not import that of its parts{from}"));
+    }
+    let own = |line: &&str| !line.starts_with("import ") || !line.trim_end_matches(';').ends_with(&from);
+    let desk = inlined(&glue.lines().filter(own).map(|line| format!("{line}\n")).collect::<String>())?;
+    // It is part of the same script as what it imports.
+    let import = format!("import {{ initSync }} from \"./{MODULE}.js\";");
+    if !parts.contains(&import) {
+        return Err(format!("the glue of the parts does not import what starts the module by {import}"));
+    }
+    let exported = parts.lines().filter_map(|line| line.strip_prefix("export const ")?.split_once(" = "));
+    let exported = exported.map(|(name, _)| name).collect::<Vec<_>>().join(", ");
+    let parts = inlined(&parts.replace(&import, ""))?;
+    let named: String = names.iter().map(|name| format!("const {name} = sightlineParts;\n")).collect();
+    Ok(format!("const sightlineParts = (() => {{\n{parts}\nreturn {{ {exported} }};\n}})();\n{named}{desk}"))
 }
 
 /// The glue of a module as plain statements: what it exports stays under its own name.
@@ -131,6 +163,16 @@ mod tests {
             "export function work() {}\nconst a = import.meta.url;\nexport { initSync, __wbg_init as default };\n";
         assert_eq!(inlined(glue).as_deref(), Ok("function work() {}\nconst a = location.href;"));
         assert!(inlined("import x from './x.js';").is_err());
+    }
+
+    #[test]
+    fn glue_of_parts_is_there_before_that_of_the_module() {
+        let glue = "import * as import1 from \"./desk-parts.js\"\nexport function initSync() {}\n";
+        let parts = "import { initSync } from \"./desk.js\";\nexport const a = initSync();\nconst b = 1;\nexport const c = b;\n";
+        let all = with_parts(glue, parts).expect("glue");
+        assert!(!all.contains("import ") && !all.contains("export "), "{all}");
+        assert!(all.contains("return { a, c };") && all.contains("const import1 = sightlineParts;"), "{all}");
+        assert!(with_parts("", parts).is_err() && with_parts(glue, "").is_err());
     }
 
     #[test]

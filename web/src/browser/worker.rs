@@ -143,6 +143,11 @@ pub fn engine() -> Promise {
     ENGINE.with_borrow_mut(|engine| engine.get_or_insert_with(|| future_to_promise(compile())).clone())
 }
 
+/// Waits until the engine's module has come, or has not.
+pub async fn engine_is_there() {
+    let _ = JsFuture::from(engine()).await;
+}
+
 /// After a failure (no network, say) the next worker tries again.
 fn forget_engine() {
     ENGINE.with_borrow_mut(|engine| *engine = None);

@@ -349,6 +349,8 @@ declare! { desk {
     space_used(used, all): "{used} of {all} used";
     lasts: "kept when space runs short";
     may_be_cleared: "the browser may clear it when space runs short";
+    part_did_not_come: "This part of the page could not be loaded. Check the network connection.";
+    try_again: "Try again";
     no_network: "No network. Everything on this page works without it.";
     update_ready: "A new version of Sightline is here. Projects stay as they are.";
     take_update: "Reload with it";

@@ -341,6 +341,8 @@ translate! { Korean desk {
     space_used(used, all): "{all} 중 {used} 사용";
     lasts: "공간이 부족해도 보관됨";
     may_be_cleared: "공간이 부족하면 브라우저가 비울 수 있음";
+    part_did_not_come: "페이지의 이 부분을 불러오지 못했습니다. 네트워크 연결을 확인하십시오.";
+    try_again: "다시 시도";
     no_network: "네트워크 없음. 이 페이지의 모든 기능은 그대로 작동합니다.";
     update_ready: "Sightline의 새 버전이 준비되었습니다. 프로젝트는 그대로 남습니다.";
     take_update: "새 버전으로 다시 읽기";

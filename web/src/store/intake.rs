@@ -18,15 +18,33 @@ use crate::browser::picture::Picture;
 use crate::edit::cameras::{self, Signature};
 use crate::edit::{natural, pairs};
 use crate::i18n::text;
+use crate::parts::{Absent, part};
 
 /// Longest side of the small pictures, sharp on twice as dense screens.
 pub const SMALL_SIDE: u32 = 320;
 
 type Taken = Rc<RefCell<Vec<(usize, Result<PhotoFile, Problem>)>>>;
 
+part! { steps, fn sorted_and_taken(desk: Desk, files: Vec<NamedFile>) -> (), {
+    desk.take_now(files);
+} }
+
 impl Desk {
     /// Takes files wherever they were dropped.
     pub fn take(self, files: Vec<NamedFile>) {
+        self.when_it_came(sorted_and_taken(self, files));
+    }
+
+    /// Does what a part of the page does, which may be on its way; where it does not come, that is told.
+    pub(super) fn when_it_came(self, work: impl Future<Output = Result<(), Absent>> + 'static) {
+        spawn_local(async move {
+            if work.await.is_err() {
+                self.say(true, Until::NextWork, || text::part_did_not_come().to_owned());
+            }
+        });
+    }
+
+    fn take_now(self, files: Vec<NamedFile>) {
         if files.is_empty() || !self.may_change() {
             return;
         }

@@ -19,13 +19,18 @@ use crate::browser::picture::Picture;
 use crate::browser::worker::Bytes;
 use crate::edit::targets;
 use crate::i18n::text;
+use crate::parts::part;
 
 type Made = Rc<RefCell<BTreeMap<String, (PhotoFile, Detection)>>>;
+
+part! { steps, fn sample_planned(desk: Desk) -> (), {
+    desk.plan_sample();
+} }
 
 impl Desk {
     /// Opens the sample project and adjusts it.
     pub fn open_sample(self) {
-        self.over_unsaved(move || self.plan_sample());
+        self.over_unsaved(move || self.when_it_came(sample_planned(self)));
     }
 
     /// Has the sample's project made.

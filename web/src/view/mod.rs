@@ -30,6 +30,7 @@ pub mod projects;
 pub mod questions;
 pub mod report;
 pub mod results;
+mod rooms;
 pub mod shell;
 pub mod start;
 pub mod strip;

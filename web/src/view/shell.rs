@@ -7,10 +7,7 @@ use super::changes::change_words;
 use super::icon::{Glyph, Icon};
 use super::projects::{StorageLine, StorageNotices, kept_words};
 use super::results::control_figure;
-use super::{
-    adjust, control, equipment, experiments, help, identities, keys, object, photos, planning, printing, report,
-    results, start, tables, targets,
-};
+use super::{help, keys, rooms};
 use crate::browser::{event, file, page};
 use crate::i18n::{self, errors, experiments as words, planning as plan_words, printing as before, text};
 use crate::store::document::Document;
@@ -61,22 +58,7 @@ pub fn App() -> impl IntoView {
         >
             <Head/>
             <NoticeBar/>
-            {move || match desk.step.get() {
-                Step::Start => view! { <start::Start/> }.into_any(),
-                Step::Photos => view! { <photos::Photos/> }.into_any(),
-                Step::Targets => view! { <targets::Targets/> }.into_any(),
-                Step::Identities => view! { <identities::Identities/> }.into_any(),
-                Step::Control => view! { <control::Control/> }.into_any(),
-                Step::Adjust => view! { <adjust::Adjust/> }.into_any(),
-                Step::Results => view! { <results::Results/> }.into_any(),
-                Step::Object => view! { <object::Object/> }.into_any(),
-                Step::Report => view! { <report::Report/> }.into_any(),
-                Step::Experiments => view! { <experiments::Experiments/> }.into_any(),
-                Step::Tables => view! { <tables::Tables/> }.into_any(),
-                Step::Plan => view! { <planning::Planning/> }.into_any(),
-                Step::Print => view! { <printing::Printing/> }.into_any(),
-                Step::Equipment => view! { <equipment::Equipment/> }.into_any(),
-            }}
+            <rooms::Rooms/>
             <Foot/>
             <help::Help/>
         </div>

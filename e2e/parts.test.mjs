@@ -1,0 +1,57 @@
+// The page's module in parts: what comes first is small and stands without the rest, and a part that does not come is told.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { brotliCompressSync } from 'node:zlib';
+
+import { open } from './browser.mjs';
+
+test('the page stands before the engine is there, and its first part is small', { timeout: 120_000 }, async () => {
+  const { page, errors, url, close } = await open({ serviceWorkers: 'block' });
+  try {
+    let release;
+    const held = new Promise((resolve) => (release = resolve));
+    await page.route('**/sightline-worker_bg.wasm', async (route) => {
+      await held;
+      await route.continue();
+    });
+    await page.reload();
+    // What can be done without the engine: a room beside the path, whose part is not waited for either, until it is asked for.
+    await page.click('[data-open=plan]');
+    await page.getByRole('heading', { name: 'Begin a plan' }).waitFor();
+    const came = () => page.evaluate(() => performance.getEntriesByType('resource').filter(({ responseEnd }) => responseEnd > 0).map(({ name }) => name));
+    assert.ok(!(await came()).some((name) => name.endsWith('sightline-worker_bg.wasm')));
+    release();
+    const first = brotliCompressSync(Buffer.from(await (await fetch(new URL('desk_bg.wasm', url))).arrayBuffer())).length;
+    console.log(`first part: ${Math.round(first / 1000)} kB with brotli`);
+    assert.ok(first <= 650_000, `${first}`);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('a part that does not come is told, and is had when it is asked for again', { timeout: 120_000 }, async () => {
+  const { page, close } = await open({ serviceWorkers: 'block' });
+  try {
+    await page.route('**/split_beside.wasm', (route) => route.abort());
+    await page.reload();
+    await page.click('[data-open=print]');
+    await page.locator('main.absent[role=alert]').waitFor();
+    assert.match(await page.textContent('main.absent'), /could not be loaded/);
+    await page.unroute('**/split_beside.wasm');
+    await page.getByRole('button', { name: 'Try again' }).click();
+    await page.getByRole('heading', { name: 'Targets to print' }).waitFor();
+
+    await page.route('**/split_steps.wasm', (route) => route.abort());
+    await page.reload();
+    await page.evaluate(() => (location.hash = '#start'));
+    await page.click('button.sample');
+    await page.locator('.notice.warning').waitFor();
+    assert.match(await page.textContent('.notice'), /could not be loaded/);
+    await page.unroute('**/split_steps.wasm');
+    await page.click('button.sample');
+    await page.waitForSelector('[data-result=sigma0]', { timeout: 100_000 });
+  } finally {
+    await close();
+  }
+});

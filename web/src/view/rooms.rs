@@ -1,0 +1,136 @@
+//! What the window shows below its head: the start page, which is there from the beginning, or the room of a step, whose part of the
+//! module comes as soon as the window stands, or, for what lies beside the path, when it is asked for.
+
+use std::future::Future;
+use std::pin::pin;
+use std::task::{Context, Poll, Waker};
+
+use leptos::prelude::*;
+use leptos::task::spawn_local;
+
+use super::start::Start;
+use super::{
+    adjust, control, equipment, experiments, identities, object, photos, planning, printing, report, results, tables,
+    targets,
+};
+use crate::browser::worker;
+use crate::i18n::text;
+use crate::parts::{Absent, part};
+use crate::store::{Desk, Step};
+
+part! { steps, fn on_the_path(step: Step) -> AnyView, fetched by fetch_steps, {
+    match step {
+        Step::Photos => view! { <photos::Photos/> }.into_any(),
+        Step::Targets => view! { <targets::Targets/> }.into_any(),
+        Step::Identities => view! { <identities::Identities/> }.into_any(),
+        Step::Control => view! { <control::Control/> }.into_any(),
+        Step::Adjust => view! { <adjust::Adjust/> }.into_any(),
+        _ => view! { <results::Results/> }.into_any(),
+    }
+} }
+
+part! { beside, fn beside_the_path(step: Step) -> AnyView, fetched by fetch_beside, {
+    match step {
+        Step::Object => view! { <object::Object/> }.into_any(),
+        Step::Experiments => view! { <experiments::Experiments/> }.into_any(),
+        Step::Tables => view! { <tables::Tables/> }.into_any(),
+        Step::Plan => view! { <planning::Planning/> }.into_any(),
+        Step::Print => view! { <printing::Printing/> }.into_any(),
+        Step::Equipment => view! { <equipment::Equipment/> }.into_any(),
+        _ => view! { <report::Report/> }.into_any(),
+    }
+} }
+
+/// A part that comes after the first.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Steps,
+    Beside,
+}
+
+impl Part {
+    /// Of a step's room; the start page is there from the beginning.
+    fn of(step: Step) -> Option<Self> {
+        match step {
+            Step::Start => None,
+            Step::Photos | Step::Targets | Step::Identities | Step::Control | Step::Adjust | Step::Results => {
+                Some(Self::Steps)
+            }
+            Step::Object
+            | Step::Report
+            | Step::Experiments
+            | Step::Tables
+            | Step::Plan
+            | Step::Print
+            | Step::Equipment => Some(Self::Beside),
+        }
+    }
+}
+
+/// How far a part is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum State {
+    Unasked,
+    Coming,
+    There,
+    Failed,
+}
+
+/// The room of the step that is shown.
+#[component]
+pub fn Rooms() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let states = [RwSignal::new(State::Unasked), RwSignal::new(State::Unasked)];
+    let ask = move |part: Part| {
+        let state = states[part as usize];
+        if matches!(state.get_untracked(), State::Coming | State::There) {
+            return;
+        }
+        state.set(State::Coming);
+        spawn_local(async move {
+            let came = match part {
+                Part::Steps => fetch_steps().await,
+                Part::Beside => fetch_beside().await,
+            };
+            state.set(if came.is_ok() { State::There } else { State::Failed });
+        });
+    };
+    let wanted = Memo::new(move |_| Part::of(desk.step.get()));
+    // The next that is needed, while nothing is done yet; and when all else is there, the rest: the page goes on without a network.
+    ask(Part::Steps);
+    spawn_local(async move {
+        worker::engine_is_there().await;
+        ask(Part::Beside);
+    });
+    Effect::new(move || {
+        if let Some(part) = wanted.get() {
+            ask(part);
+        }
+    });
+    move || {
+        let step = desk.step.get();
+        let Some(part) = Part::of(step) else { return view! { <Start/> }.into_any() };
+        match states[part as usize].get() {
+            State::There => match part {
+                Part::Steps => at_once(on_the_path(step)),
+                Part::Beside => at_once(beside_the_path(step)),
+            },
+            State::Failed => view! {
+                <main class="absent" role="alert">
+                    <p>{text::part_did_not_come}</p>
+                    <button class="button primary" on:click=move |_| ask(part)>{text::try_again}</button>
+                </main>
+            }
+            .into_any(),
+            State::Unasked | State::Coming => view! { <main class="absent" aria-busy="true"></main> }.into_any(),
+        }
+    }
+}
+
+/// The room of a part that is there: nothing is waited for.
+fn at_once(room: impl Future<Output = Result<AnyView, Absent>>) -> AnyView {
+    match pin!(room).poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(Ok(view)) => view,
+        _ => ().into_any(),
+    }
+}
