@@ -25,7 +25,7 @@ pub(crate) const APART: usize = 5;
 /// What was seen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Character {
-    /// Median undershoot beside steps, as a share of them; 0 where there are too few.
+    /// Median undershoot on that side of steps, dark or bright, that has more of it, as a share of them; 0 where there are too few.
     pub undershoot: f64,
     /// Share of samples at the dark and at the bright end of the scale.
     pub clipped: [f64; 2],
@@ -42,7 +42,7 @@ impl Character {
         let (mut dark, mut bright, mut all) = (0u64, 0u64, 0u64);
         // of each column to the next
         let mut differences = vec![0f64; plane.width.saturating_sub(1)];
-        let mut undershoots = Vec::new();
+        let mut undershoots = [Vec::new(), Vec::new()];
         for row in rows() {
             for sample in row {
                 all += 1;
@@ -54,8 +54,15 @@ impl Character {
             }
             undershoots_of(row, levels, &mut undershoots);
         }
-        undershoots.sort_by(f64::total_cmp);
-        let undershoot = if undershoots.len() < STEPS { 0.0 } else { undershoots[undershoots.len() / 2].max(0.0) };
+        // A tone curve after the sharpening flattens what it did to the bright side of a step, and steepens the dark one: each
+        // side speaks for itself, and both together where there are few of each.
+        let both = undershoots.concat();
+        let median = |mut found: Vec<f64>| {
+            found.sort_by(f64::total_cmp);
+            if found.len() < STEPS { 0.0 } else { found[found.len() / 2].max(0.0) }
+        };
+        let [dark_side, bright_side] = undershoots;
+        let undershoot = median(dark_side).max(median(bright_side)).max(median(both));
         let share = |count: u64| if levels.stairs { 0.0 } else { count as f64 / all.max(1) as f64 };
         Self {
             undershoot,
@@ -101,8 +108,8 @@ fn blocks(differences: &[f64]) -> f64 {
     if count < 4.0 || mean < CERTAIN * error { 0.0 } else { (means[7] / other - 1.0).max(0.0) }
 }
 
-/// Undershoots on the flat sides of a row's steps, as shares of the steps, less what noise does.
-fn undershoots_of<T: Sample>(row: &[T], levels: &Levels, found: &mut Vec<f64>) {
+/// Undershoots on the flat sides of a row's steps, dark ones and bright ones, as shares of the steps, less what noise does.
+fn undershoots_of<T: Sample>(row: &[T], levels: &Levels, found: &mut [Vec<f64>; 2]) {
     const FAR: usize = 8;
     const NEAR: usize = 5;
     let level = |x: usize| f64::from(row[x].level());
@@ -134,9 +141,10 @@ fn undershoots_of<T: Sample>(row: &[T], levels: &Levels, found: &mut Vec<f64>) {
             x += 1;
             continue;
         }
-        for (_, spread, beyond) in sides {
+        let darker = usize::from(sides[0].0 > sides[1].0);
+        for (k, (_, spread, beyond)) in sides.into_iter().enumerate() {
             if spread < 0.1 * contrast + 3.0 * levels.noise {
-                found.push((beyond - levels.noise) / contrast);
+                found[usize::from(k != darker)].push((beyond - levels.noise) / contrast);
             }
         }
         x += NEAR;
