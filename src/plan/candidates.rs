@@ -288,11 +288,12 @@ impl Held {
         }
     }
 
-    /// Sum of squared half axes with a photo more, for the order in which photos are tried.
-    pub fn with(&self, setup: &Setup<'_>, shot: &Shot) -> f64 {
+    /// Sum of squared half axes with a photo more, without the points that are `given` or not asked for: for the order in which
+    /// photos are tried.
+    pub fn with(&self, setup: &Setup<'_>, shot: &Shot, given: &[bool]) -> f64 {
         let mut more = Self { sums: self.sums.clone(), loose: self.loose };
         more.add(setup, shot, 1.0);
-        more.value(&setup.given)
+        more.value(given)
     }
 
     pub fn value(&self, given: &[bool]) -> f64 {

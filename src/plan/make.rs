@@ -88,7 +88,7 @@ impl Search<'_> {
         let held = Held::new(self.setup, &self.shots(chosen));
         let free = self.tied(chosen);
         let mut ranked: Vec<(f64, usize)> =
-            free.into_iter().map(|k| (held.with(self.setup, &self.pool[k]), k)).collect();
+            free.into_iter().map(|k| (held.with(self.setup, &self.pool[k], &self.setup.given), k)).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         ranked.into_iter().take(count).map(|(_, k)| k).collect()
     }

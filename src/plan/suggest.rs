@@ -48,9 +48,17 @@ pub fn suggest(plan: &Plan, criterion: &Criterion, progress: Progress) -> Result
     let rays: usize = now.iter().map(|shot| shot.seen.len()).sum();
     if rays > LARGE && tried.len() > JUDGED_OF_LARGE {
         let held = Held::new(&setup, &now);
-        let mut ordered: Vec<(f64, Shot)> = tried.into_iter().map(|shot| (held.with(&setup, &shot), shot)).collect();
-        ordered.sort_by(|a, b| a.0.total_cmp(&b.0));
-        tried = ordered.into_iter().take(JUDGED_OF_LARGE).map(|(_, shot)| shot).collect();
+        let ordered = |shots: Vec<Shot>, given: &[bool]| {
+            let mut all: Vec<(f64, Shot)> = shots.into_iter().map(|s| (held.with(&setup, &s, given), s)).collect();
+            all.sort_by(|a, b| a.0.total_cmp(&b.0));
+            all.into_iter().map(|(_, shot)| shot).collect::<Vec<_>>()
+        };
+        // What is good for the points that are asked for, and what is good for all of them.
+        let own = not_asked(&setup, criterion);
+        let half = if own == setup.given { 0 } else { JUDGED_OF_LARGE / 2 };
+        let mut first = ordered(tried, &own);
+        let others = first.split_off(half);
+        tried = first.into_iter().chain(ordered(others, &setup.given)).take(JUDGED_OF_LARGE).collect();
     }
     let judge = |shot: &Shot| {
         let with: Vec<&Shot> = now.iter().copied().chain([shot]).collect();
@@ -89,6 +97,16 @@ pub fn suggest(plan: &Plan, criterion: &Criterion, progress: Progress) -> Result
         compared,
     });
     Ok(told.collect())
+}
+
+/// Points that a criterion does not ask for.
+fn not_asked(setup: &Setup<'_>, criterion: &Criterion) -> Vec<bool> {
+    let Criterion::Points { points } = criterion else { return setup.given.clone() };
+    let mut out = vec![true; setup.given.len()];
+    for place in points.iter().filter_map(|id| setup.index.get(id.as_str())) {
+        out[*place] = setup.given[*place];
+    }
+    out
 }
 
 /// The next number that no station has.
