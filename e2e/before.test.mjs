@@ -24,6 +24,14 @@ test('sheets are drawn, follow what is chosen and are handed over', async () => 
     await page.waitForFunction(() => document.querySelector('.told').textContent.includes('0.9960'));
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('[data-action="pdf"]')]);
     assert.ok(readFileSync(await download.path()).subarray(0, 5).toString() === '%PDF-');
+    // Another sheet is chosen by its small picture, which keeps the focus.
+    assert.equal(await page.locator('.sketch svg').count(), 1);
+    await page.fill('input[name="dots"]', '40');
+    await page.press('input[name="dots"]', 'Enter');
+    await page.waitForFunction(() => document.querySelectorAll('.sketch svg').length > 1);
+    await page.click('[data-sketch="1"]');
+    await page.waitForFunction(() => document.querySelector('.sheet-bar b').textContent.includes('2'));
+    assert.equal(await page.evaluate(() => document.activeElement.dataset.sketch), '1');
     const [lists] = await Promise.all([page.waitForEvent('download'), page.click('[data-action="lists"]')]);
     assert.match(readFileSync(await lists.path(), 'utf8'), /9\.9600/);
     assert.deepEqual(errors, []);
@@ -61,6 +69,18 @@ test('a plan is begun, made, changed by dragging, undone and kept', async () => 
     await page.waitForSelector('.station-at.chosen');
     assert.notEqual(await places(), before);
     await page.click('.tools .icon-button >> nth=0');
+    assert.equal(await places(), before);
+
+    // Where nobody can stand is drawn in a view, and nothing is dragged meanwhile.
+    await page.click('[data-action="fence"]');
+    const top = await page.locator('.plan-view[data-view="top"]').boundingBox();
+    await page.mouse.move(top.x + 8, top.y + 8);
+    await page.mouse.down();
+    await page.mouse.move(top.x + 60, top.y + 40, { steps: 4 });
+    await page.mouse.up();
+    await page.waitForSelector('.plan-view[data-view="top"] .forbidden');
+    assert.match(await page.textContent('.regions li'), /^X .* … .*, Y .* … /);
+    assert.equal(await page.getAttribute('[data-action="fence"]', 'aria-pressed'), 'false');
     assert.equal(await places(), before);
 
     await page.click('[data-action="next"]');

@@ -14,10 +14,12 @@ mod layout;
 mod lists;
 mod pdf;
 mod svg;
+mod words;
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Place, Reason, Result};
+use crate::project::ReportLanguage;
 use crate::ring_code::Family;
 
 pub use advice::{AdviceOptions, Advised, BEST_PX, LEAST_PX, advice};
@@ -97,8 +99,10 @@ impl Default for Field {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SheetOptions {
-    /// Stands at the top of every sheet, as far as it is Latin.
+    /// Stands at the top of every sheet.
     pub title: String,
+    /// Language of what is written on the sheets.
+    pub language: ReportLanguage,
     /// Size of the paper.
     pub paper: Paper,
     /// Family of the codes.
@@ -139,6 +143,7 @@ impl Default for SheetOptions {
     fn default() -> Self {
         Self {
             title: String::new(),
+            language: ReportLanguage::default(),
             paper: Paper::default(),
             family: Family::Ring14,
             numbers: String::new(),
@@ -240,6 +245,11 @@ impl Sheets {
     /// A sheet as SVG, counted from 0.
     pub fn svg(&self, page: usize) -> Option<String> {
         self.pages.get(page).map(svg::svg)
+    }
+
+    /// A small picture of a sheet with its targets alone, as SVG, counted from 0.
+    pub fn sketch(&self, page: usize) -> Option<String> {
+        self.pages.get(page).map(svg::sketch)
     }
 
     /// Files that go with the print: diameters, distances and the coordinates of a calibration field, as far as there are any.

@@ -919,8 +919,10 @@ export interface Network {
 
 /** What is printed on sheets of targets. Lengths in mm; places on a sheet from its top left corner, x right, y down. */
 export interface SheetOptions {
-  /** Stands at the top of every sheet, as far as it is Latin. */
+  /** Stands at the top of every sheet. */
   title?: string;
+  /** Language of what is written on the sheets ["en"]. */
+  language?: "en" | "ko";
   /** ["a4"] */
   paper?: "a4" | "a3" | "letter";
   /** ["ring-14"] */
@@ -1189,7 +1191,7 @@ export interface SightlineError extends Error {
 }
 
 /** The papers' experiments. */
-export type ExperimentName = "kang" | "film" | "lee-calibration" | "lee-structure" | "kim";
+export type ExperimentName = "kang" | "film" | "lee-calibration" | "lee-structure" | "kim" | "sensor";
 
 /** What may be varied; what is left out has the paper's value. */
 export interface ExperimentOptions {

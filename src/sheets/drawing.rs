@@ -39,7 +39,7 @@ pub enum Shape {
         /// Its width.
         width: f64,
     },
-    /// Text in Helvetica, of ink.
+    /// Text without serifs, of ink.
     Text {
         /// Left (or middle) end of the base line.
         at: [f64; 2],
@@ -47,7 +47,7 @@ pub enum Shape {
         size: f64,
         /// Whether `at` is the middle of the text, which has digits only.
         middle: bool,
-        /// Printable characters of Latin-1.
+        /// Printable characters.
         text: String,
     },
 }
@@ -83,7 +83,7 @@ impl Page {
     }
 }
 
-/// What the fonts of every reader of PDF have: Latin-1 without its controls; the rest is left out.
+/// Without line breaks and other controls.
 fn printable(text: &str) -> String {
-    text.chars().filter(|c| matches!(u32::from(*c), 0x20..=0x7e | 0xa1..=0xff)).collect()
+    text.chars().filter(|c| !c.is_control()).map(|c| if c == '\u{a0}' { ' ' } else { c }).collect()
 }

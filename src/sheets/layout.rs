@@ -2,6 +2,7 @@
 
 use super::codes::{least_distance, numbers};
 use super::drawing::{Page, Shape};
+use super::words::Words;
 use super::{BarEnds, CLEAR, Ground, Kind, MOST_SHEETS, Pattern, Printed, RULER_MM, SheetOptions, Sheets};
 use crate::error::{Error, Place, Reason, Result};
 use crate::noise::Noise;
@@ -25,6 +26,7 @@ const CODE_EVERY: usize = 3;
 /// The drawing as it grows.
 struct Draft<'a> {
     options: &'a SheetOptions,
+    words: Words,
     pages: Vec<Page>,
     targets: Vec<Printed>,
     scale: [f64; 2],
@@ -46,7 +48,14 @@ pub fn sheets(options: &SheetOptions) -> Result<Sheets> {
     let across = options.measured.map_or(1.0, |measured| measured / RULER_MM);
     let down = options.measured_down.map_or(across, |measured| measured / RULER_MM);
     let measured = options.measured.or(options.measured_down).is_some();
-    let mut draft = Draft { options, pages: Vec::new(), targets: Vec::new(), scale: [across, down], next_dot: 1 };
+    let mut draft = Draft {
+        options,
+        words: Words(options.language),
+        pages: Vec::new(),
+        targets: Vec::new(),
+        scale: [across, down],
+        next_dot: 1,
+    };
     let code_half = outer(Some(options.family.design())) * options.diameter / 2.0;
     let codes = grid(options, code_half)?;
     let fields = options.field.map_or(0, |field| field.columns as usize * field.rows as usize);
@@ -60,8 +69,7 @@ pub fn sheets(options: &SheetOptions) -> Result<Sheets> {
         return Err(Error::Invalid { reason: Reason::SheetTooMany { limit: MOST_SHEETS }, at: Place::field("codes") });
     }
     for part in first.chunks(codes.count()) {
-        let title = format!("{} {}", family_name(options.family), range(part));
-        draft.begin(title);
+        draft.begin(draft.words.codes(&family_name(options.family), part));
         for (cell, number) in codes.cells().zip(part) {
             let at = codes.at(cell);
             draft.target(at, codes.half, Some(*number), Kind::Code, None);
@@ -187,7 +195,7 @@ impl Draft<'_> {
                 if part.is_empty() || codes.count() < 2 {
                     break;
                 }
-                self.begin(format!("ends of scale bars, {} mm", trimmed(length)));
+                self.begin(self.words.bar_ends(&trimmed(length)));
                 for (cell, number) in codes.cells().zip(part) {
                     self.target(codes.at(cell), codes.half, Some(*number), Kind::BarEnd, None);
                 }
@@ -195,7 +203,7 @@ impl Draft<'_> {
             // A sheet with room for a single target has one end.
             if codes.count() < 2 {
                 for number in ends {
-                    self.begin(format!("end of a scale bar, {} mm", trimmed(length)));
+                    self.begin(self.words.bar_end(&trimmed(length)));
                     self.target(codes.at([0, 0]), codes.half, Some(*number), Kind::BarEnd, None);
                 }
             }
@@ -213,7 +221,7 @@ impl Draft<'_> {
         let relative =
             length * options.measured.or(options.measured_down).map_or(0.0, |_| options.measured_sigma / RULER_MM);
         for part in ends.chunks(2 * lanes) {
-            self.begin(format!("scale bars, {} mm", trimmed(length)));
+            self.begin(self.words.bars(&trimmed(length)));
             for (lane, pair) in part.chunks_exact(2).enumerate() {
                 let cell = if across { [0, lane] } else { [lane, 0] };
                 let from = codes.at(cell);
@@ -248,7 +256,8 @@ impl Draft<'_> {
         let mut noise = Noise::new(options.seed, 0);
         let mut left = count;
         while left > 0 {
-            self.begin(format!("dots d{}-d{}", self.next_dot, self.next_dot as usize + left.min(cells.count()) - 1));
+            let last = self.next_dot as usize + left.min(cells.count()) - 1;
+            self.begin(self.words.dots(self.next_dot as usize, last));
             for cell in cells.cells().take(left) {
                 let mut at = cells.at(cell);
                 if jittered {
@@ -270,7 +279,7 @@ impl Draft<'_> {
         let mut numbers = numbers.iter().copied();
         for row in 0..field.rows {
             for column in 0..field.columns {
-                self.begin(format!("calibration field, column {} row {}", column + 1, row + 1));
+                self.begin(self.words.field(column + 1, row + 1));
                 for cell in codes.cells() {
                     let at = codes.at(cell);
                     // A print keeps the sheet's middle; the scale works from there.
@@ -324,13 +333,14 @@ fn finish(page: &mut Page, options: &SheetOptions, number: usize, count: usize) 
     let [width, height] = page.size;
     let dots = format!("\u{d8} {} mm", trimmed(options.diameter));
     let title = if options.title.is_empty() { String::new() } else { format!("{} \u{b7} ", options.title) };
-    let heading = format!("{title}{} \u{b7} {dots} \u{b7} sheet {number} of {count}", page.title);
+    let words = Words(options.language);
+    let heading = format!("{title}{} \u{b7} {dots} \u{b7} {}", page.title, words.sheet(number, count));
     page.text([EDGES[0], 11.0], 2.8, heading);
-    page.text([width - 58.0, 15.5], 2.8, "print at 100 %, without fitting");
+    page.text([width - 58.0, 15.5], 2.8, words.print());
     let left = EDGES[0];
     let base = height - 12.0;
     ruler(page, [left, base], [1.0, 0.0]);
-    page.text([left + RULER_MM + 5.0, base - 0.5], 2.4, "ruler, 100 mm: what does it measure?");
+    page.text([left + RULER_MM + 5.0, base - 0.5], 2.4, words.ruler());
     ruler(page, [width - 10.0, height - 22.0 - RULER_MM], [0.0, 1.0]);
 }
 
@@ -375,14 +385,6 @@ fn short_name(family: Family) -> String {
         Design::Metashape => 'M',
     };
     format!("{letter}{}", family.bits())
-}
-
-fn range(numbers: &[u32]) -> String {
-    match numbers {
-        [] => String::new(),
-        [one] => format!("no. {one}"),
-        [first, .., last] => format!("no. {first} ... {last}"),
-    }
 }
 
 /// A length without needless digits.

@@ -2,31 +2,36 @@
 
 use std::f64::consts::TAU;
 
+use pdf_writer::types::{CidFontType, FontFlags, SystemInfo};
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str};
 
 use super::drawing::{DIGIT, Page, Shape};
 
 /// Points of 1/72 inch in a millimetre.
 const POINTS: f64 = 72.0 / 25.4;
-const FONT: Name = Name(b"F");
+const LATIN: Name = Name(b"F");
+const KOREAN: Name = Name(b"K");
+/// A Gothic that readers replace by their own, as they do Helvetica: nothing is embedded.
+const GOTHIC: &[u8] = b"HYGoThic-Medium";
 
 /// The file.
 pub fn pdf(pages: &[Page]) -> Vec<u8> {
-    let (catalog, tree, font) = (Ref::new(1), Ref::new(2), Ref::new(3));
-    let page_at = |k: usize| Ref::new(4 + 2 * k as i32);
-    let content_at = |k: usize| Ref::new(5 + 2 * k as i32);
+    let (catalog, tree, latin, korean) = (Ref::new(1), Ref::new(2), Ref::new(3), Ref::new(4));
+    let page_at = |k: usize| Ref::new(7 + 2 * k as i32);
+    let content_at = |k: usize| Ref::new(8 + 2 * k as i32);
     let mut pdf = Pdf::new();
     let mut root = pdf.catalog(catalog);
     root.pages(tree);
     root.viewer_preferences().pair(Name(b"PrintScaling"), Name(b"None"));
     root.finish();
     pdf.pages(tree).kids((0..pages.len()).map(page_at)).count(pages.len() as i32);
-    pdf.type1_font(font).base_font(Name(b"Helvetica")).encoding_predefined(Name(b"WinAnsiEncoding"));
+    pdf.type1_font(latin).base_font(Name(b"Helvetica")).encoding_predefined(Name(b"WinAnsiEncoding"));
+    korean_font(&mut pdf, [korean, Ref::new(5), Ref::new(6)]);
     for (k, page) in pages.iter().enumerate() {
         let [width, height] = page.size.map(|side| (side * POINTS) as f32);
         let mut own = pdf.page(page_at(k));
         own.parent(tree).media_box(Rect::new(0.0, 0.0, width, height)).contents(content_at(k));
-        own.resources().fonts().pair(FONT, font);
+        own.resources().fonts().pair(LATIN, latin).pair(KOREAN, korean);
         own.finish();
         pdf.stream(content_at(k), &content(page));
     }
@@ -67,15 +72,56 @@ fn content(page: &Page) -> Vec<u8> {
             }
             Shape::Text { at, size, middle, text } => {
                 let back = if *middle { DIGIT * size * text.len() as f64 / 2.0 } else { 0.0 };
-                content.set_fill_gray(0.0).begin_text().set_font(FONT, *size as f32);
+                content.set_fill_gray(0.0).begin_text();
                 content.set_text_matrix([1.0, 0.0, 0.0, -1.0, (at[0] - back) as f32, at[1] as f32]);
-                // Latin-1 beyond its controls is the same in WinAnsi.
-                let bytes: Vec<u8> = text.chars().filter_map(|c| u8::try_from(u32::from(c)).ok()).collect();
-                content.show(Str(&bytes)).end_text();
+                for (latin, bytes) in runs(text) {
+                    content.set_font(if latin { LATIN } else { KOREAN }, *size as f32).show(Str(&bytes));
+                }
+                content.end_text();
             }
         }
     }
     content.finish().to_vec()
+}
+
+/// A font of Korea's character set by its name, its characters told as UTF-16: the font itself, its glyphs, what it looks like.
+fn korean_font(pdf: &mut Pdf, [font, glyphs, looks]: [Ref; 3]) {
+    pdf.type0_font(font)
+        .base_font(Name(&[GOTHIC, b"-UniKS-UTF16-H"].concat()))
+        .encoding_predefined(Name(b"UniKS-UTF16-H"))
+        .descendant_font(glyphs);
+    pdf.cid_font(glyphs)
+        .subtype(CidFontType::Type0)
+        .base_font(Name(GOTHIC))
+        .system_info(SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Korea1"), supplement: 1 })
+        .font_descriptor(looks)
+        .default_width(1000.0);
+    pdf.font_descriptor(looks)
+        .name(Name(GOTHIC))
+        .flags(FontFlags::SYMBOLIC)
+        .bbox(Rect::new(-6.0, -145.0, 1003.0, 880.0))
+        .italic_angle(0.0)
+        .ascent(752.0)
+        .descent(-271.0)
+        .cap_height(737.0)
+        .stem_v(58.0);
+}
+
+/// Parts of a text that a font has: Latin-1, which beyond its controls is the same in WinAnsi, and everything else as UTF-16.
+fn runs(text: &str) -> Vec<(bool, Vec<u8>)> {
+    let mut runs: Vec<(bool, Vec<u8>)> = Vec::new();
+    for c in text.chars() {
+        let latin = u8::try_from(u32::from(c)).ok();
+        if runs.last().is_none_or(|(last, _)| *last != latin.is_some()) {
+            runs.push((latin.is_some(), Vec::new()));
+        }
+        let Some((_, bytes)) = runs.last_mut() else { continue };
+        match latin {
+            Some(byte) => bytes.push(byte),
+            None => bytes.extend(c.encode_utf16(&mut [0; 2]).iter().flat_map(|unit| unit.to_be_bytes())),
+        }
+    }
+    runs
 }
 
 fn polar(at: [f64; 2], radius: f64, turn: f64) -> [f32; 2] {

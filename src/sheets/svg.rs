@@ -7,12 +7,21 @@ use super::drawing::{Page, Shape};
 
 /// The sheet as a file.
 pub fn svg(page: &Page) -> String {
+    drawn(page, page.shapes.iter())
+}
+
+/// The sheet as a small picture: its targets alone.
+pub fn sketch(page: &Page) -> String {
+    drawn(page, page.shapes.iter().filter(|shape| !matches!(shape, Shape::Line { .. } | Shape::Text { .. })))
+}
+
+fn drawn<'a>(page: &Page, shapes: impl Iterator<Item = &'a Shape>) -> String {
     let [width, height] = page.size;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" viewBox=\"0 0 {width} {height}\">\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n"
     );
-    for shape in &page.shapes {
+    for shape in shapes {
         // Writing into a string does not fail.
         let _ = match shape {
             Shape::Rect { at, size, grey } => writeln!(
@@ -47,7 +56,7 @@ pub fn svg(page: &Page) -> String {
             ),
             Shape::Text { at, size, middle, text } => writeln!(
                 out,
-                "<text x=\"{}\" y=\"{}\" font-size=\"{size}\" font-family=\"Helvetica, Arial, sans-serif\"{}>{}</text>",
+                "<text x=\"{}\" y=\"{}\" font-size=\"{size}\" font-family=\"Helvetica, Arial, 'Malgun Gothic', 'Apple SD Gothic Neo', 'Noto Sans KR', sans-serif\"{}>{}</text>",
                 mm(at[0]),
                 mm(at[1]),
                 if *middle { " text-anchor=\"middle\"" } else { "" },

@@ -119,6 +119,29 @@ test('every field that the engine returns is declared, and every declared field 
   assert.equal(complaints(literals.join('\n')), '');
 });
 
+test('what is done before the photos is declared as it is returned', () => {
+  const sheet = sightline.targetSheet({ codes: 3, dots: 2, bars: 1, bar_length: 100, field: { columns: 1, rows: 1 }, measured: 99.5 });
+  assert.deepEqual(Object.keys(sheet.files).sort(), ['control.csv', 'distances.csv', 'sheets.pdf', 'targets.csv']);
+  const { files, ...drawn } = sheet;
+  const form = { kind: 'plane', width: 2000, height: 1200, columns: 4, rows: 3, upright: true, diameter: 12 };
+  const targets = sightline.targetsOn(form);
+  const example = sightline.planExample('kim');
+  const plan = { ...example, stations: example.stations.slice(0, 2) };
+  const literals = [
+    literal('drawn', "Omit<S.TargetSheet, 'files'>", drawn),
+    literal('counts', 'S.CodeCount[]', sightline.codeCounts('ring-12')),
+    literal('advised', 'S.TargetAdvice[]', sightline.targetAdvice({ c_px: 4000, distances: [1000], angles: [0, 1], diameter: 10 })),
+    literal('targets', 'S.FormTargets', targets),
+    ...['kang', 'lee-calibration', 'lee-structure', 'kim'].map((name, k) => literal(`example${k}`, 'S.Plan', sightline.planExample(name))),
+    literal('again', 'S.Plan', sightline.planOfProject(sightline.simulate(network()))),
+    literal('predicted', 'S.PlanPrediction', sightline.plan(plan)),
+    literal('alone', 'S.PlanPrediction', sightline.plan({ ...plan, stations: plan.stations.slice(0, 1), forbidden: [{ low: [-1e6, -1e6, -1e6], high: [1e6, 1e6, 1e6] }] })),
+    literal('next', 'S.SuggestedPhoto[]', sightline.nextPhoto(plan, { kind: 'mean' })),
+    literal('made', 'S.MadePlan', sightline.makePlan({ ...plan, ...targets, form, stations: [], control: [], distances: [], datum: { kind: 'free' } }, { most: 4 })),
+  ];
+  assert.equal(complaints(literals.join('\n')), '');
+});
+
 test('the comparison notices a field too many and one too few', () => {
   const target = detection().targets[0];
   assert.match(complaints(literal('target', 'S.Target', { ...target, extra: 1 })), /extra/);
@@ -134,6 +157,8 @@ test('the options that are declared are those that exist', () => {
     ['ExperimentOptions', (options) => sightline.runExperiment('film', options)],
     ['NameCodedOptions', (options) => sightline.nameCoded([], options)],
     ['PredictOptions', (options) => sightline.predict(sightline.simulate(network()), 'p1', null, options)],
+    ['SheetOptions', (options) => sightline.targetSheet(options)],
+    ['MakePlanOptions', (options) => sightline.makePlan(sightline.planExample('kim'), options)],
     ['MatchOptions', (options) => sightline.matchUncoded(sightline.simulate(network()), [], options)],
   ]) {
     const body = declared.split(`export interface ${name} {`)[1].split('\n}')[0];

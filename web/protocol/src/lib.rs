@@ -380,6 +380,8 @@ pub enum PlanOf {
 pub struct Drawn {
     /// What each sheet is for.
     pub titles: Vec<String>,
+    /// Small pictures of the first sheets.
+    pub sketches: Vec<String>,
     /// The sheet that is shown, or the last where there are fewer.
     pub svg: String,
     /// Codes on the sheets.

@@ -33,6 +33,8 @@ pub struct Planning {
     pub unit: RwSignal<String>,
     /// Places for the next photo, of the plan as it is.
     pub suggested: RwSignal<Vec<Suggested>>,
+    /// Whether dragging in a view draws where nobody can stand.
+    pub fencing: RwSignal<bool>,
     /// A prediction is under way, and what is to be predicted next.
     busy: StoredValue<bool>,
     next: StoredValue<Option<Plan>>,
@@ -47,6 +49,7 @@ impl Default for Planning {
             criterion: RwSignal::new(Criterion::Worst),
             unit: RwSignal::new("mm".to_owned()),
             suggested: RwSignal::new(Vec::new()),
+            fencing: RwSignal::new(false),
             busy: StoredValue::new(false),
             next: StoredValue::new(None),
         }

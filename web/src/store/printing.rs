@@ -3,13 +3,14 @@
 
 use leptos::prelude::*;
 use sightline::Error;
-use sightline::project::Interior;
+use sightline::project::{Interior, ReportLanguage};
 use sightline::sheets::SheetOptions;
 use sightline_protocol::{DrawSheets, Drawn, WriteSheets, from_text, to_text};
 
 use super::Desk;
 use super::pool::{Failure, Outcome};
 use crate::browser::page;
+use crate::i18n::{Language, language};
 
 const PREFERENCE: &str = "sheets";
 
@@ -51,6 +52,15 @@ impl Desk {
         self.printing.options.with_untracked(|options| page::set_preference(PREFERENCE, &to_text(options)));
     }
 
+    /// What is printed, in the language of the desk.
+    pub fn sheet_options(self) -> SheetOptions {
+        let language = match language() {
+            Language::English => ReportLanguage::English,
+            Language::Korean => ReportLanguage::Korean,
+        };
+        SheetOptions { language, ..self.printing.options.get() }
+    }
+
     /// Has the sheet drawn that is to be shown.
     pub fn draw_sheets(self, options: SheetOptions, sheet: usize) {
         let order = self.printing.order.try_update_value(|n| {
@@ -77,7 +87,7 @@ impl Desk {
 
     /// Hands over the PDF, the SVG of the sheet that is shown, or the lists.
     pub fn save_sheets(self, what: Saved) {
-        let options = self.printing.options.get_untracked();
+        let options = untrack(|| self.sheet_options());
         let sheet = self.printing.sheet.get_untracked();
         let task = match what {
             Saved::Pdf => WriteSheets { options, pdf: true, svg: None },

@@ -21,7 +21,7 @@ const DISTANCES: [f64; 9] = [500.0, 1000.0, 1500.0, 2000.0, 3000.0, 4000.0, 6000
 pub fn Printing() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let printing = desk.printing;
-    Effect::new(move || desk.draw_sheets(printing.options.get(), printing.sheet.get()));
+    Effect::new(move || desk.draw_sheets(desk.sheet_options(), printing.sheet.get()));
     let sheets = Memo::new(move |_| {
         printing.drawn.with(|d| d.as_ref().and_then(|d| d.as_ref().ok()).map_or(0, |d| d.titles.len()))
     });
@@ -48,7 +48,7 @@ pub fn Printing() -> impl IntoView {
         <main class="printing">
             <aside class="scroll"><Wanted/></aside>
             <section class="sheet-view" aria-label=words::preview><Sheet/></section>
-            <aside class="scroll"><Ruler/><Diameters/></aside>
+            <aside class="scroll"><Ruler/><Diameters/><Sketches/></aside>
         </main>
     }
 }
@@ -203,7 +203,7 @@ fn Wanted() -> impl IntoView {
         <div class="fields">
             <Choice label=words::paper name="paper" values=papers read=|o| o.paper write=|o, v| o.paper = v/>
             <label class="field">
-                <span>{words::sheet_title}<small>{words::sheet_title_hint}</small></span>
+                <span>{words::sheet_title}</span>
                 <Field value=title commit=move |typed: String| desk.choose_sheets(|o| o.title = typed) attr:name="title"/>
             </label>
         </div>
@@ -284,6 +284,41 @@ fn Sheet() -> impl IntoView {
         {move || fault().map(|sentence| view! { <p class="note bad" role="alert"><Glyph icon=Icon::Warning/> " " {sentence}</p> })}
         <div class="sheet-shown" class:empty=move || svg.with(String::is_empty) inner_html=move || svg.get()></div>
     }
+}
+
+/// All sheets small, to go to one of them.
+#[component]
+fn Sketches() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let printing = desk.printing;
+    // Another sheet drawn large leaves these as they are, and the focus where it is.
+    let all = Memo::new(move |_| {
+        printing.drawn.with(|drawn| {
+            let drawn = drawn.as_ref()?.as_ref().ok()?;
+            Some((drawn.sketches.clone(), drawn.titles.clone()))
+        })
+    });
+    let rows = move || {
+        let (sketches, titles) = all.get()?;
+        let count = titles.len();
+        let rows = sketches.into_iter().zip(titles).enumerate().map(|(k, (sketch, title))| {
+            let shown = move || printing.sheet.get() == k;
+            view! {
+                <li>
+                    <button class="sketch" class:chosen=shown aria-current=move || shown().then_some("true") data-sketch=k
+                        on:click=move |_| printing.sheet.set(k)>
+                        <span class="paper" aria-hidden="true" inner_html=sketch></span>
+                        <span><b>{k + 1}</b>" "{title}</span>
+                    </button>
+                </li>
+            }
+        });
+        Some(view! {
+            <h2 class="section-head"><span>{words::sheets}</span><span class="aside">{format::count(count)}</span></h2>
+            <ul class="sketches">{rows.collect_view()}</ul>
+        })
+    };
+    view! { <div>{rows}</div> }
 }
 
 /// What the rulers measure, and what follows.

@@ -279,6 +279,9 @@ impl Service<MakePlan> for Engine {
     }
 }
 
+/// More sheets than these are not shown small.
+const MOST_SKETCHES: usize = 60;
+
 impl Service<DrawSheets> for Engine {
     fn serve(&self, task: DrawSheets, _: Files, _: Progress<Nothing>) -> Served<Drawn> {
         let drawn = sheets::target_sheets(&task.options)?;
@@ -286,6 +289,7 @@ impl Service<DrawSheets> for Engine {
         let shown = task.sheet.min(drawn.pages.len().saturating_sub(1));
         let answer = Drawn {
             titles: drawn.pages.iter().map(|page| page.title.clone()).collect(),
+            sketches: (0..drawn.pages.len().min(MOST_SKETCHES)).filter_map(|k| drawn.sketch(k)).collect(),
             svg: drawn.svg(shown).unwrap_or_default(),
             codes: of(Kind::Code),
             dots: of(Kind::Dot),

@@ -38,7 +38,7 @@ declare! { printing {
     small_print: "Number and family in small print";
     paper: "Paper";
     sheet_title: "Title on the sheets";
-    sheet_title_hint: "Latin letters and digits";
+    sheets: "Sheets";
     sheet_of(sheet, all): "Sheet {sheet} of {all}";
     previous_sheet: "Previous sheet";
     next_sheet: "Next sheet";
@@ -120,6 +120,8 @@ declare! { planning {
     datum_control: "control";
     forbidden: "Where nobody can stand";
     forbidden_hint: "two corners: x, y, z, x, y, z";
+    draw_region: "Draw in a view";
+    draw_region_hint: "Drag a rectangle in the view from above or from a side: nobody can stand in it at any height or depth.";
     add_region: "Add";
     side_view: "Elevation Y, Z";
     space_view: "In space";

@@ -37,7 +37,7 @@ translate! { Korean printing {
     small_print: "작은 글씨로 번호와 계열";
     paper: "용지";
     sheet_title: "종이에 적을 제목";
-    sheet_title_hint: "로마자와 숫자";
+    sheets: "인쇄할 장";
     sheet_of(sheet, all): "{all}장 중 {sheet}";
     previous_sheet: "이전 장";
     next_sheet: "다음 장";
@@ -119,6 +119,8 @@ translate! { Korean planning {
     datum_control: "기준점";
     forbidden: "설 수 없는 곳";
     forbidden_hint: "두 모서리: x, y, z, x, y, z";
+    draw_region: "그림에 그리기";
+    draw_region_hint: "평면이나 입면에서 사각형을 끌어 그립니다. 그 안에는 높이나 깊이에 관계없이 설 수 없습니다.";
     add_region: "추가";
     side_view: "입면 Y, Z";
     space_view: "입체";

@@ -81,6 +81,8 @@ enum Dragged {
     Station(String),
     /// The view itself, from this place.
     Space([f64; 2]),
+    /// A region where nobody can stand, from this corner.
+    Region([f64; 2]),
 }
 
 #[component]
@@ -93,6 +95,7 @@ fn Drawing(look: RwSignal<Look>) -> impl IntoView {
         desk.document.with(|d| d.project.plan.as_deref().map(|plan| Frame::of(plan, look)))
     });
     let dragged = StoredValue::new(None::<Dragged>);
+    let fence = RwSignal::new(None::<[[f64; 2]; 2]>);
     let place = move |e: &leptos::ev::PointerEvent| {
         let [x, y] = event::share(e);
         [x * WIDTH, y * HEIGHT]
@@ -100,6 +103,11 @@ fn Drawing(look: RwSignal<Look>) -> impl IntoView {
     let on_down = move |e: leptos::ev::PointerEvent| {
         let (Some(frame), Some(plan)) = (frame.get_untracked(), untrack(|| desk.plan())) else { return };
         let at = place(&e);
+        if planning.fencing.get_untracked() && !matches!(look.get_untracked(), Look::Space(_)) {
+            event::capture(&e);
+            e.prevent_default();
+            return dragged.set_value(Some(Dragged::Region(at)));
+        }
         let far = |xyz: &[f64; 3]| {
             let [x, y] = frame.at(xyz);
             (x - at[0]).hypot(y - at[1])
@@ -136,11 +144,21 @@ fn Drawing(look: RwSignal<Look>) -> impl IntoView {
                 }
                 dragged.set_value(Some(Dragged::Space(to)));
             }
+            Dragged::Region(from) => fence.set(Some([from, to])),
         }
     };
     let on_up = move |_: leptos::ev::PointerEvent| {
         let what = dragged.get_value();
         dragged.set_value(None);
+        if let Some(corners) = fence.get_untracked() {
+            fence.set(None);
+            planning.fencing.set(false);
+            let apart = (corners[0][0] - corners[1][0]).abs().min((corners[0][1] - corners[1][1]).abs());
+            if let Some(region) = frame.get_untracked().and_then(|f| f.region(corners)).filter(|_| apart > 3.0) {
+                desk.edit_plan(Change::PlanEdited, |plan| plan.forbidden.push(region));
+            }
+            return;
+        }
         let (Some(Dragged::Station(id)), Some(live)) = (what, planning.live.get_untracked()) else { return };
         let stations = live.stations.clone();
         desk.edit_plan(Change::StationMoved(id), |plan| plan.stations = stations);
@@ -165,8 +183,15 @@ fn Drawing(look: RwSignal<Look>) -> impl IntoView {
             .with(|d| (d.project.unit.clone(), d.project.plan.as_deref().map_or(1.0, |plan| plan.wanted.precision)));
         Some(rule(&frame, &unit, wanted))
     };
+    let fenced = move || {
+        let [[x, y], [to_x, to_y]] = fence.get()?;
+        Some(view! {
+            <rect class="forbidden" x=x.min(to_x) y=y.min(to_y) width=(x - to_x).abs() height=(y - to_y).abs()></rect>
+        })
+    };
+    let fencing = move || planning.fencing.get() && !matches!(look.get(), Look::Space(_));
     view! {
-        <svg class="plan-view" data-view=move || look.with(|l| l.name()) viewBox=format!("0 0 {WIDTH} {HEIGHT}") role="img"
+        <svg class="plan-view" class:fencing=fencing data-view=move || look.with(|l| l.name()) viewBox=format!("0 0 {WIDTH} {HEIGHT}") role="img"
             aria-label=move || match look.get() {
                 Look::Top => words::top_view(),
                 Look::Front => words::front_view(),
@@ -174,7 +199,7 @@ fn Drawing(look: RwSignal<Look>) -> impl IntoView {
                 Look::Space(_) => words::space_view(),
             }
             on:pointerdown=on_down on:pointermove=on_move on:pointerup=on_up on:pointercancel=on_up>
-            {object}{points}{hints}{stations}{rule}
+            {object}{points}{hints}{stations}{fenced}{rule}
         </svg>
     }
 }

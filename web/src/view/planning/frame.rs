@@ -1,10 +1,13 @@
 //! Where places of the object are in a drawing: seen from above, from two sides, or from anywhere, all without perspective.
 
-use sightline::project::Plan;
+use sightline::project::{Plan, Region};
 
 pub const WIDTH: f64 = 640.0;
 pub const HEIGHT: f64 = 276.0;
 const MARGIN: f64 = 26.0;
+
+/// As far as a place reaches that is forbidden at every height, or every depth of another view.
+pub const ENDLESS: f64 = 1e6;
 
 /// From where a drawing is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +65,8 @@ impl Frame {
     pub fn of(plan: &Plan, look: Look) -> Self {
         let [right, up] = look.axes();
         let points = plan.points.iter().filter_map(|p| p.xyz);
-        let regions = plan.forbidden.iter().flat_map(|r| [r.low, r.high]).filter(|c| c.iter().all(|x| x.abs() < 1e6));
+        let regions =
+            plan.forbidden.iter().flat_map(|r| [r.low, r.high]).filter(|c| c.iter().all(|x| x.abs() < ENDLESS));
         let all: Vec<[f64; 3]> = points.chain(plan.stations.iter().map(|s| s.position)).chain(regions).collect();
         let extent = |axis: &[f64; 3]| {
             let low = all.iter().map(|p| dot(p, axis)).fold(f64::INFINITY, f64::min);
@@ -99,6 +103,20 @@ impl Frame {
         })
     }
 
+    /// The box between two corners of the drawing, endless along its view; none where no axis is seen end on.
+    pub fn region(&self, corners: [[f64; 2]; 2]) -> Option<Region> {
+        let (right, up) = (axis_of(&self.right)?, axis_of(&self.up)?);
+        let mut region = Region { low: [-ENDLESS; 3], high: [ENDLESS; 3] };
+        let sides = [
+            (right, corners.map(|c| self.middle[0] + (c[0] - WIDTH / 2.0) / self.scale)),
+            (up, corners.map(|c| self.middle[1] - (c[1] - HEIGHT / 2.0) / self.scale)),
+        ];
+        for (k, [a, b]) in sides {
+            (region.low[k], region.high[k]) = (rounded(a.min(b)), rounded(a.max(b)));
+        }
+        Some(region)
+    }
+
     /// Half axes of a covariance's ellipse as it is seen, and the angle of the larger one, clockwise from the right, degrees.
     pub fn ellipse(&self, covariance: &[f64; 6]) -> [f64; 3] {
         let [xx, xy, xz, yy, yz, zz] = *covariance;
@@ -114,6 +132,11 @@ impl Frame {
         let angle = 0.5 * (2.0 * b).atan2(a - c);
         [(mean + apart).max(0.0).sqrt(), (mean - apart).max(0.0).sqrt(), -angle.to_degrees()]
     }
+}
+
+/// The axis of coordinates that a unit vector is.
+fn axis_of(vector: &[f64; 3]) -> Option<usize> {
+    vector.iter().position(|x| *x == 1.0)
 }
 
 /// A coordinate to four digits.
@@ -150,6 +173,19 @@ mod tests {
         }
         assert_eq!(Frame::of(&plan, Look::Top).moved(&from, [1.0, 2.0])[2], from[2]);
         assert_eq!(Frame::of(&plan, Look::Side).moved(&from, [1.0, 2.0])[0], from[0]);
+    }
+
+    #[test]
+    fn regions_are_endless_along_the_view() {
+        let frame = Frame::of(&planned(), Look::Front);
+        let [low, high] = [[-100.0, 0.0, 200.0], [300.0, 0.0, 500.0]].map(|xyz| frame.at(&xyz));
+        let region = frame.region([[high[0], low[1]], [low[0], high[1]]]).expect("a region");
+        assert_eq!((region.low, region.high), ([-100.0, -ENDLESS, 200.0], [300.0, ENDLESS, 500.0]));
+        assert!(Frame::of(&planned(), Look::Space([0.6, 0.4])).region([[0.0; 2], [9.0; 2]]).is_none());
+        // It does not make the drawing small.
+        let mut plan = planned();
+        plan.forbidden.push(region);
+        assert_eq!(Frame::of(&plan, Look::Front), frame);
     }
 
     #[test]

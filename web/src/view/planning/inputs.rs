@@ -5,6 +5,7 @@ use sightline::project::{Camera, DatumKind, Form, Interior, Parameter, Plan};
 use sightline_protocol::PlanOf;
 
 use super::camera::KnownCameras;
+use super::frame::ENDLESS;
 use super::object::{Control, Faces, Points, Targets, choose_points, numbers};
 use crate::browser::event;
 use crate::edit::control::{UNITS, has_lengths};
@@ -348,7 +349,22 @@ fn Regions() -> impl IntoView {
         let regions = desk.document.with(|d| d.project.plan.as_ref().map_or(Vec::new(), |p| p.forbidden.clone()));
         let row = |region: sightline::project::Region| {
             let corner = |c: [f64; 3]| c.map(format::compact).join(", ");
-            let told = format!("{} … {}", corner(region.low), corner(region.high));
+            // Drawn in one view, it reaches from end to end of the others.
+            let bounded: Vec<usize> =
+                (0..3).filter(|k| region.high[*k] < ENDLESS || region.low[*k] > -ENDLESS).collect();
+            let told = if bounded.len() == 3 {
+                format!("{} … {}", corner(region.low), corner(region.high))
+            } else {
+                let side = |k: &usize| {
+                    format!(
+                        "{} {} … {}",
+                        ["X", "Y", "Z"][*k],
+                        format::compact(region.low[*k]),
+                        format::compact(region.high[*k])
+                    )
+                };
+                bounded.iter().map(side).collect::<Vec<_>>().join(", ")
+            };
             view! {
                 <li>
                     <span>{told}</span>
@@ -372,6 +388,10 @@ fn Regions() -> impl IntoView {
             <label class="field"><span>{words::add_region}</span>
                 <Field value=Signal::derive(String::new) commit attr:name="region" attr:placeholder=words::forbidden_hint/>
             </label>
+            <button class="button" data-action="fence" class:chosen=move || desk.planning.fencing.get()
+                aria-pressed=move || desk.planning.fencing.get().to_string()
+                on:click=move |_| desk.planning.fencing.update(|on| *on = !*on)>{words::draw_region}</button>
+            <Show when=move || desk.planning.fencing.get()><p class="note">{words::draw_region_hint}</p></Show>
         </div>
     }
 }
