@@ -58,6 +58,8 @@ test('points are chosen in space and in tables alike, features have their sigmas
     await page.press('[name=chosen-points]', 'Enter');
     await page.click('[data-make=plane]');
     await page.waitForFunction(() => document.querySelector('[data-feature=A] .value')?.textContent !== undefined);
+    // How far its points lie from it is drawn over the plane.
+    await page.waitForFunction(() => document.querySelector('.detail .drawing')?.shadowRoot?.querySelector('.stick-a, .stick-b'));
     await page.fill('[name=chosen-points]', points.slice(0, 2).join(' '));
     await page.press('[name=chosen-points]', 'Enter');
     await page.click('[data-feature=A]');
@@ -122,6 +124,14 @@ test('points are chosen in space and in tables alike, features have their sigmas
       assert.ok(drawn > 0.01 && drawn < 0.5, `${drawn} of the view is drawn on`);
       await page.click('[aria-label*="theme" i]');
     }
+
+    // The whole screen, and back.
+    await page.click('[data-action=full-screen]');
+    await page.waitForFunction(() => document.fullscreenElement?.querySelector('.space-host'));
+    const whole = await page.locator('.space-host').boundingBox();
+    assert.ok(whole.width > box.width, `${whole.width} of ${box.width}`);
+    await page.click('[data-action=full-screen]');
+    await page.waitForFunction(() => !document.fullscreenElement);
 
     const picture = await downloads(page, 1, () => page.click('[data-action=picture]'));
     const [png] = Object.values(picture);

@@ -6,6 +6,7 @@
 mod chart;
 mod comparison;
 mod convergence;
+mod deviations;
 mod distortion;
 mod histogram;
 mod network;
@@ -40,6 +41,8 @@ pub enum Group {
     Statistics,
     /// Residuals.
     Residuals,
+    /// Forms measured on the object.
+    Features,
 }
 
 /// A plot.
@@ -83,6 +86,7 @@ pub(super) fn all(context: &Context) -> Vec<Plot> {
     all.extend(residuals::all_in_one(context));
     all.extend(radius::plots(context));
     all.extend(redundancy::plots(context));
+    all.extend(deviations::plots(context));
     all.extend(residuals::plots(context));
     all
 }
@@ -106,6 +110,11 @@ pub fn comparison(project: &Project, adjustment: Option<&Adjustment>, found: &Co
 /// Standard error of the radial distortion of a brown camera at an image radius, in photo units; none without statistics.
 pub fn radial_sigma(camera: &crate::adjustment::AdjustedCamera, radius: f64) -> Option<f64> {
     distortion::radial_sigma(camera, radius)
+}
+
+/// Name of the plot of a feature's deviations.
+pub fn deviations_name(feature: &str) -> String {
+    format!("deviations-{}", file_name(feature))
 }
 
 /// A name as a file has it.

@@ -56,6 +56,7 @@ fn group(section: Section) -> Option<Group> {
         Section::Points => Some(Group::Points),
         Section::Statistics => Some(Group::Statistics),
         Section::Residuals => Some(Group::Residuals),
+        Section::Features => Some(Group::Features),
         _ => None,
     }
 }

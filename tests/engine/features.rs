@@ -385,3 +385,52 @@ fn what_cannot_be_measured_says_why_and_the_rest_goes_on() {
 fn points_of(range: std::ops::Range<usize>) -> FeatureKind {
     FeatureKind::Plane { points: named(range) }
 }
+
+/// The pipe's points were set every 0.7 radians and 9 units along it: unrolled, they lie so.
+#[test]
+fn deviations_are_drawn_where_the_points_lie_on_the_form_laid_flat() {
+    let mut project = network(DatumKind::Free, 0);
+    project.features = vec![
+        feature("A", FeatureKind::Plane { points: named(0..16) }),
+        feature("B", FeatureKind::Cylinder { points: named(28..46) }),
+        feature("C", FeatureKind::Deviations { feature: Some("A".into()), points: named(16..28), given: Vec::new() }),
+        feature("D", FeatureKind::Circle { points: named(16..28) }),
+        feature("E", FeatureKind::Distance { from: End::Point("p0".into()), to: End::Point("p1".into()) }),
+    ];
+    let adjustment = adjust(&project, &AdjustOptions::default(), &mut |_| true).expect("adjusts");
+    let plots = sightline::report::plots::plots(&project, Some(&adjustment)).expect("plots");
+    let of = |id: &str| {
+        let name = sightline::report::plots::deviations_name(id);
+        plots.iter().find(|plot| plot.name == name).map(|plot| plot.svg.as_str())
+    };
+    assert!(of("E").is_none(), "a distance has no deviations");
+    let path = |svg: &str, class: &str| {
+        let element = svg.split(&format!("<path class=\"{class}\"")).nth(1).unwrap_or_default();
+        element.split(" d=\"").nth(1).and_then(|d| d.split('"').next()).unwrap_or_default().to_owned()
+    };
+    for (id, points) in [("A", 16), ("B", 18), ("C", 12), ("D", 12)] {
+        let svg = of(id).unwrap_or_else(|| panic!("no plot of {id}"));
+        let sticks: usize = ["stick-a", "stick-b"].iter().map(|class| path(svg, class).matches('M').count()).sum();
+        assert_eq!(sticks, points, "{id}");
+    }
+    let feet = path(of("B").expect("a plot"), "dot-c");
+    let places: Vec<[f64; 2]> = feet
+        .split('M')
+        .filter(|foot| !foot.is_empty())
+        .map(|foot| {
+            let numbers: Vec<f64> = foot
+                .split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'))
+                .filter_map(|number| number.parse().ok())
+                .collect();
+            [numbers[0], numbers[1]]
+        })
+        .collect();
+    assert_eq!(places.len(), 18, "{feet}");
+    let turn = 0.7 / std::f64::consts::TAU * 448.0;
+    let step = |k: usize| (places[k + 1][0] - places[k][0]).rem_euclid(448.0);
+    let forwards = (0..17).all(|k| (step(k) - turn).abs() < 2.0);
+    let backwards = (0..17).all(|k| (448.0 - step(k) - turn).abs() < 2.0);
+    assert!(forwards || backwards, "{places:?}");
+    let up: Vec<f64> = (0..17).map(|k| places[k + 1][1] - places[k][1]).collect();
+    assert!(up.iter().all(|u| (u - up[0]).abs() < 1.0 && u.abs() > 5.0), "{up:?}");
+}

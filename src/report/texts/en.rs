@@ -299,6 +299,13 @@ declare! {
     normal_quantile: "normal quantile";
     plot_convergence: "Convergence";
     plot_convergence_says(n, sigma0): "σ₀ over {n} {n:iteration|iterations}; it ends at {sigma0}.";
+    plot_deviations(id): "Deviations from {id}";
+    plot_deviations_says(n, rms, low, high, unit): "{n} {n:point|points}: rms {rms}, from {low} to {high} {unit}, each drawn upwards where it is positive.";
+    laid_plane: "The plane is seen along its normal.";
+    laid_cylinder: "The cylinder is unrolled: height along its axis against the angle about it.";
+    laid_sphere: "The sphere is laid flat: latitude against longitude.";
+    laid_circle: "Over the angle about the circle's centre.";
+    laid_line: "Along the line; a distance from a line has no sign.";
     plot_radius: "Residuals against the radius";
     plot_radius_clean(worst, unit): "Radial part of the residuals over the image radius, and its mean by classes: the means stay within 3 σ of 0 (largest {worst} {unit}), the distortion model leaves nothing over.";
     plot_radius_says(n, worst, unit): "Radial part of the residuals over the image radius, and its mean by classes: in {n} {n:class|classes} the mean is beyond 3 σ of 0 (largest {worst} {unit}). The distortion model leaves something over: free a further parameter of it.";

@@ -296,6 +296,13 @@ translate! { Korean {
     normal_quantile: "정규 분위수";
     plot_convergence: "수렴";
     plot_convergence_says(n, sigma0): "반복 {n}회의 σ₀이며, {sigma0}에서 끝났습니다.";
+    plot_deviations(id): "편차: {id}";
+    plot_deviations_says(n, rms, low, high, unit): "점 {n}개: RMS {rms}, {low}에서 {high} {unit}까지. 양이면 위로 그렸습니다.";
+    laid_plane: "평면을 법선 방향에서 본 것입니다.";
+    laid_cylinder: "원통을 펼친 것입니다: 축 둘레의 각에 대한 축 방향 높이.";
+    laid_sphere: "구를 펼친 것입니다: 경도에 대한 위도.";
+    laid_circle: "원의 중심 둘레의 각에 따른 것입니다.";
+    laid_line: "직선을 따른 것이며, 직선에서의 거리에는 부호가 없습니다.";
     plot_radius: "반지름에 따른 잔차";
     plot_radius_clean(worst, unit): "영상 반지름에 따른 잔차의 방사 성분과 구간 평균. 평균은 0에서 3σ 이내이며(최대 {worst} {unit}) 왜곡 모형이 남긴 것이 없습니다.";
     plot_radius_says(n, worst, unit): "영상 반지름에 따른 잔차의 방사 성분과 구간 평균. {n}개 구간의 평균이 0에서 3σ 밖에 있습니다(최대 {worst} {unit}). 왜곡 모형이 남긴 것이 있으니 왜곡 매개변수를 더 추정하십시오.";

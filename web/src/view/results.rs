@@ -2,7 +2,7 @@
 
 mod cameras;
 mod compared;
-mod drawings;
+pub mod drawings;
 mod given;
 mod meanings;
 mod tables;

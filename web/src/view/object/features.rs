@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 use sightline::adjustment::{MeasuredFeature, MeasuredSystem, Quantity};
 use sightline::project::{FeatureKind, SystemKind};
+use sightline::report::plots::deviations_name;
 
 use super::Chosen;
 use crate::browser::event;
@@ -12,6 +13,7 @@ use crate::i18n::{Text, errors, object as words, text};
 use crate::store::Desk;
 use crate::store::selection::Kind;
 use crate::view::icon::{Glyph, Icon};
+use crate::view::results::drawings::Drawing;
 use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 
 const KINDS: [(&str, Text); 8] = [
@@ -294,6 +296,16 @@ fn Detail() -> impl IntoView {
     };
     let point = Signal::derive(move || desk.selection.with(|s| s.point.clone()));
     let on_choose = Callback::new(move |id: String| desk.select_point(&id));
+    let deviates = Memo::new(move |_| rows.with(|rows| rows.len() >= 3));
+    Effect::new(move || {
+        if deviates.get() {
+            desk.make_plots();
+        }
+    });
+    let plot = Memo::new(move |_| {
+        let name = feature.with(|f| f.as_ref().map(|line| deviations_name(&line.id)))?;
+        desk.reports.plots.with(|all| all.iter().find(|plot| plot.name == name).cloned())
+    });
     view! {
         {move || feature.with(|f| f.as_ref().map(|line| line.id.clone())).map(|id| {
             let (from, gone) = (id.clone(), id.clone());
@@ -324,6 +336,7 @@ fn Detail() -> impl IntoView {
                         {move || direction().map(|d| view! { <dt>{words::direction}</dt><dd>{d}</dd> })}
                         {move || range().map(|r| view! { <dt>{words::form}  " " <u>{unit}</u></dt><dd>{r}</dd> })}
                     </dl>
+                    {move || plot.get().map(|plot| view! { <div class="drawings"><Drawing plot/></div> })}
                     <Show when=move || !rows.with(Vec::is_empty)>
                         <NumberTable label=words::show_deviations columns rows chosen=point on_choose sorting/>
                     </Show>

@@ -23,8 +23,9 @@ pub(super) fn Drawings() -> impl IntoView {
     }
 }
 
+/// A plot with its title, its sentence and its file.
 #[component]
-fn Drawing(plot: Plot) -> impl IntoView {
+pub fn Drawing(plot: Plot) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let host = NodeRef::<Div>::new();
     let svg = plot.svg.clone();
