@@ -33,6 +33,18 @@ test('HEIC and RAW are opened and measured, and without one no decoder is fetche
     await page.waitForSelector('.problems li');
     assert.match(await page.textContent('.problems li'), /photo\.dng.*same shot as photo\.heic/);
     assert.equal(await page.locator('.tile').count(), 1);
+    // The user chooses: the RAW in its place, back again by undo, and the other one by another click.
+    const shown = () => page.$$eval('.tile', (all) => all.map((tile) => tile.textContent).join());
+    await page.click('[data-action="swap"]');
+    await page.waitForFunction(() => document.querySelector('.tile').textContent.includes('photo.dng'));
+    assert.match(await page.textContent('.problems li'), /photo\.heic.*same shot as photo\.dng/);
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => document.querySelector('.tile').textContent.includes('photo.heic'));
+    await page.keyboard.press('Control+Shift+Z');
+    await page.waitForFunction(() => document.querySelector('.tile').textContent.includes('photo.dng'));
+    await page.click('[data-action="swap"]');
+    await page.waitForFunction(() => document.querySelector('.tile').textContent.includes('photo.heic'));
+    assert.ok(!(await shown()).includes('photo.dng'));
     // The picture of a RAW that has no preview comes from its samples.
     copyFileSync(join(folder, 'photo.dng'), join(folder, 'other.dng'));
     await drop(page, [join(folder, 'other.dng')]);

@@ -1,4 +1,4 @@
-//! The three papers as runnable experiments: the same networks, simulated and adjusted here, with the papers' own
+//! The three papers as runnable experiments, and one of our own: the same networks, simulated and adjusted here, with the papers' own
 //! figures beside ours.
 //!
 //! | name | paper | question |
@@ -8,6 +8,7 @@
 //! | `lee-calibration` | Lee 1996, chapter 4 | How well does a camera calibrate itself, from the pixels on? |
 //! | `lee-structure` | Lee 1996, chapter 5 | What do convergent photos and a free network give? |
 //! | `kim` | Kim, Hwang and Yun 2015 | How near does a pair of photos come, from DLT to intersected points? |
+//! | `sensor` | none | What do centres and coordinates lose between the sensor's samples and a camera's JPEG? |
 //!
 //! Results are data: identifiers, numbers and units, no sentences. Whoever shows them names things in their language.
 
@@ -18,6 +19,7 @@ mod kim;
 mod lee_calibration;
 mod lee_structure;
 mod outcome;
+mod sensor;
 
 use serde::{Deserialize, Serialize};
 
@@ -31,7 +33,7 @@ pub use film::description as film_description;
 pub use outcome::{Assumption, Axis, Cell, Chart, Column, Drawing, Drawn, Experiment, Figure, Series, Table, Tick};
 
 /// Names of the experiments.
-pub const NAMES: [&str; 5] = ["kang", "film", "lee-calibration", "lee-structure", "kim"];
+pub const NAMES: [&str; 6] = ["kang", "film", "lee-calibration", "lee-structure", "kim", "sensor"];
 
 /// What may be varied. Whatever is none has the paper's value; what an experiment does not know it ignores.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,7 +43,7 @@ pub struct ExperimentOptions {
     pub seed: u64,
     /// Standard deviation of image coordinates, µm (kang, film, lee-structure).
     pub image_sigma_um: Option<f64>,
-    /// Standard deviation of the pixels' noise, share of full scale (lee-calibration, kim).
+    /// Standard deviation of the pixels' noise, share of full scale (lee-calibration, kim, sensor).
     pub pixel_noise: Option<f64>,
     /// Standard error of control coordinates, mm (kang, lee-structure, kim).
     pub control_sigma_mm: Option<f64>,
@@ -86,6 +88,7 @@ pub fn run(name: &str, options: &ExperimentOptions, progress: Progress) -> Resul
         "lee-calibration" => lee_calibration::run(options, progress),
         "lee-structure" => lee_structure::run(options, progress),
         "kim" => kim::run(options, progress),
+        "sensor" => sensor::run(options, progress),
         _ => Err(Error::Unknown { kind: Thing::Experiment, name: name.into(), at: Place::default() }),
     }
 }
@@ -102,6 +105,7 @@ pub fn drawings(name: &str, options: &ExperimentOptions) -> Result<Vec<Drawing>>
         "lee-calibration" => Ok(lee_calibration::drawings(options)),
         "lee-structure" => lee_structure::drawings(options),
         "kim" => Ok(kim::drawings(options)),
+        "sensor" => Ok(sensor::drawings(options)),
         _ => Err(Error::Unknown { kind: Thing::Experiment, name: name.into(), at: Place::default() }),
     }
 }

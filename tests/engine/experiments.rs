@@ -150,3 +150,33 @@ fn names_options_and_stopping() {
     let nowhere = ExperimentOptions { network: Some("9.9-2A".into()), rounds: Some(0), ..ExperimentOptions::default() };
     assert_eq!(run("kang", &nowhere, &mut |_, _| true).expect_err("network").code(), "unknown");
 }
+
+/// Every step from the sensor's samples to a JPEG is measured, all that is in sight, with standard errors that are not too small; what the camera
+/// does after demosaicing costs coordinates. (A colourless scene tells red and blue sites as much as green ones: demosaiced linearly, it has
+/// twice the samples.)
+#[test]
+fn sensor() {
+    let sensor = result("sensor");
+    well_formed(&sensor);
+    let [table] = sensor.tables.as_slice() else { panic!("one table") };
+    assert_eq!(table.rows.len(), 6);
+    let number = |row: usize, id: &str| {
+        let column = table.columns.iter().position(|c| c.id == id).unwrap_or_else(|| panic!("no column {id}"));
+        match table.rows[row][column] {
+            sightline::experiments::Cell::Number(value) => value,
+            ref other => panic!("{id}: {other:?}"),
+        }
+    };
+    let visible = figure(&sensor, "visible");
+    for row in 0..6 {
+        println!("{:?}", table.rows[row]);
+        assert!(number(row, "found") >= 0.98 * visible, "row {row}");
+        assert!(number(row, "error_over_sigma") < 1.15, "row {row}");
+        let (rms, sigma) = (number(row, "object_rms"), number(row, "object_sigma"));
+        assert!((0.7..1.4).contains(&(rms / sigma)), "row {row}: {rms} of {sigma}");
+    }
+    assert!((0.93..1.07).contains(&number(0, "error_over_sigma")));
+    for row in 3..6 {
+        assert!(number(row, "over_sites") > 1.2, "row {row}: {}", number(row, "over_sites"));
+    }
+}

@@ -56,7 +56,14 @@ pub fn camera(signature: &Signature, info: &PhotoInfo, project: &Project) -> Cam
 }
 
 /// Adds a photo: with the camera of a photo that `shares` its signature, or one of its own. Its identifier.
-pub fn add_photo(project: &mut Project, file: &str, info: &PhotoInfo, size: [u32; 2], shares: Option<&str>) -> String {
+pub fn add_photo(
+    project: &mut Project,
+    file: &str,
+    info: &PhotoInfo,
+    size: [u32; 2],
+    shares: Option<&str>,
+    taken: &dyn Fn(&str) -> bool,
+) -> String {
     let camera = match project.photos.iter().find(|p| Some(p.id.as_str()) == shares) {
         Some(photo) => photo.camera.clone(),
         None => {
@@ -67,7 +74,9 @@ pub fn add_photo(project: &mut Project, file: &str, info: &PhotoInfo, size: [u32
         }
     };
     let largest = project.photos.iter().filter_map(|p| p.id.parse::<u32>().ok()).max().unwrap_or(0);
-    let id = largest.saturating_add(1).to_string();
+    // Undo may bring back a photo whose file is kept under its identifier: that one is not given away.
+    let free = (1..).map(|k| largest.saturating_add(k).to_string()).find(|id| !taken(id) || largest == u32::MAX);
+    let id = free.unwrap_or_default();
     project.photos.push(Photo { id: id.clone(), camera, file: file.to_owned(), enabled: true, ..Photo::default() });
     id
 }
@@ -276,8 +285,8 @@ mod tests {
 
     fn project() -> Project {
         let mut project = Project::default();
-        add_photo(&mut project, "a.jpg", &info(), SIZE, None);
-        add_photo(&mut project, "b.jpg", &info(), SIZE, Some("1"));
+        add_photo(&mut project, "a.jpg", &info(), SIZE, None, &|_| false);
+        add_photo(&mut project, "b.jpg", &info(), SIZE, Some("1"), &|_| false);
         project
     }
 
@@ -302,7 +311,7 @@ mod tests {
         assert_eq!((project.cameras.len(), project.photos[1].camera.as_str()), (1, "X"));
         let first = project.cameras[0].clone();
         assert!(matches!(first.interior, Interior::Brown { c: Some(c), .. } if (c - 24.0).abs() < 1e-12));
-        add_photo(&mut project, "c.jpg", &info(), SIZE, None);
+        add_photo(&mut project, "c.jpg", &info(), SIZE, None, &|_| false);
         assert_eq!(project.cameras[1].id, "X 2");
         let pixels = with_pitch(&first, None);
         assert!(matches!(pixels.interior, Interior::Brown { c: Some(c), .. } if (c - 2400.0).abs() < 1e-9));

@@ -125,7 +125,7 @@ fn rename(d: &mut Document, names: BTreeMap<String, String>) {
 /// The kinds of action.
 const ACTIONS: [(&str, Action); 52] = [
     ("photos added", |d| {
-        cameras::add_photo(d.project_mut(), "new.jpg", &PhotoInfo::default(), [100, 80], None);
+        cameras::add_photo(d.project_mut(), "new.jpg", &PhotoInfo::default(), [100, 80], None, &|_| false);
     }),
     ("photo removed", |d| cameras::remove_photos(d, &keys(&["2"]))),
     ("photo switched", |d| cameras::switch_photos(d.project_mut(), &keys(&["1"]), false)),

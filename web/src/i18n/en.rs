@@ -61,10 +61,10 @@ declare! { desk {
     photo_file_missing(file): "The file {file} is not here. Drop it on this page to see it.";
     not_taken: "Not taken";
     duplicate_of(file): "the same content as {file}, which is here already";
-    developed_of(file):
-        "the same shot as {file}, which is measured instead, on the sensor's own samples: to measure this one, remove {file} and drop it again";
-    raw_of(file):
-        "the same shot as {file}, which is here already: to measure the sensor's own samples, remove {file} and drop this again";
+    developed_of(file): "the same shot as {file}, which is measured, on the sensor's own samples";
+    raw_of(file): "the same shot as {file}, which is here already; in the RAW file the sensor's own samples are measured";
+    measure_raw: "Measure the RAW files instead";
+    measure_developed: "Measure the developed photos instead";
     unreadable(detail): "the browser could not read the file: {detail}";
     cameras: "Cameras";
     camera: "Camera";
@@ -731,6 +731,7 @@ declare! { desk {
 
     // Changes
     change_photos_added(n): "{n} {n:photo|photos} added";
+    change_shots_swapped(n): "{n} {n:shot|shots} measured in the other file";
     change_photo_removed(id): "photo {id} removed";
     change_photo_switched(id): "photo {id} excluded or included";
     change_camera_edited(id): "camera {id} changed";
@@ -862,6 +863,25 @@ declare! { experiments {
         "Lee, J. D. (1996), Effective Application of Close-Range Photogrammetry with Digital Images in Industrial Precise Measurement.";
     lee_structure: "Lee 1996, structure";
     lee_structure_question: "What do convergent photos and a free network give?";
+    sensor: "Sensor or JPEG";
+    sensor_question: "What do centres and coordinates lose between the sensor and a camera's JPEG?";
+    sensor_source: "An experiment of our own: one exposure each, rendered through lens and colour filters with the noise of its photons, then taken through the steps of a camera. Six photos, self-calibrated in a free network, against the true centres and coordinates.";
+    step_sites: "RAW, green sites";
+    step_demosaiced: "demosaiced";
+    step_sharpened: "sharpened";
+    step_toned: "tone curve";
+    step_jpeg_92: "JPEG, quality 92";
+    step_jpeg_75: "JPEG, quality 75";
+    step_of_camera: "measured on";
+    error_over_sigma: "error / σ";
+    object_rms: "coordinate errors, rms";
+    object_sigma: "stated σ, rms";
+    over_sites: "over RAW";
+    visible: "centres in sight";
+    t_sensor_steps: "What every step costs";
+    c_sensor_centres: "Errors of the centres";
+    c_sensor_objects: "Errors and stated standard errors of the coordinates";
+    a_sharpening(v): "Sharpening adds {v} % of the difference to the binomial mean of 3 × 3 pixels.";
     kim: "Kim, Hwang & Yun 2015";
     kim_question: "How near does a pair of photos come, from DLT to intersected points?";
     kim_source:

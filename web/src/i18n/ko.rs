@@ -55,10 +55,10 @@ translate! { Korean desk {
     photo_file_missing(file): "{file} 파일이 없습니다. 보려면 이 페이지에 놓으십시오.";
     not_taken: "받지 않은 파일";
     duplicate_of(file): "이미 있는 {file} 파일과 내용이 같습니다";
-    developed_of(file):
-        "{file} 파일과 같은 촬영이므로 센서 값을 담은 {file} 파일에서 측정합니다. 이 파일을 측정하려면 {file} 파일을 빼고 다시 놓으십시오";
-    raw_of(file):
-        "이미 있는 {file} 파일과 같은 촬영입니다. 센서 값에서 측정하려면 {file} 파일을 빼고 이 파일을 다시 놓으십시오";
+    developed_of(file): "센서 값을 담은 {file} 파일과 같은 촬영이므로 그 파일에서 측정합니다";
+    raw_of(file): "이미 있는 {file} 파일과 같은 촬영입니다. RAW 파일에서는 센서 값을 그대로 측정합니다";
+    measure_raw: "RAW 파일에서 측정";
+    measure_developed: "현상된 사진에서 측정";
     unreadable(detail): "브라우저가 파일을 읽지 못했습니다: {detail}";
     cameras: "카메라";
     camera: "카메라";
@@ -708,6 +708,7 @@ translate! { Korean desk {
 
     // Changes
     change_photos_added(n): "사진 {n}매 추가";
+    change_shots_swapped(n): "촬영 {n}건의 측정 파일을 바꿈";
     change_photo_removed(id): "사진 {id} 제거";
     change_photo_switched(id): "사진 {id} 제외 또는 포함";
     change_camera_edited(id): "카메라 {id} 변경";
@@ -834,6 +835,25 @@ translate! { Korean experiments {
     lee_source: "이진덕 (1996), 산업정밀측정에서 수치영상을 이용한 근접사진측량의 효율적 응용.";
     lee_structure: "이진덕 1996, 구조물";
     lee_structure_question: "수렴 촬영과 자유망은 무엇을 더해 주는가?";
+    sensor: "센서와 JPEG";
+    sensor_question: "센서에서 카메라의 JPEG까지 가는 동안 중심과 좌표는 무엇을 잃는가?";
+    sensor_source: "자체 실험: 렌즈와 색 필터를 거쳐 광자 잡음과 함께 렌더링한 한 번의 노출을 카메라의 처리 단계마다 측정합니다. 사진 6매를 자유망에서 자체검정하여 참 중심, 참 좌표와 비교합니다.";
+    step_sites: "RAW, 녹색 화소";
+    step_demosaiced: "색 보간";
+    step_sharpened: "선명화";
+    step_toned: "톤 곡선";
+    step_jpeg_92: "JPEG, 품질 92";
+    step_jpeg_75: "JPEG, 품질 75";
+    step_of_camera: "측정 단계";
+    error_over_sigma: "오차 / σ";
+    object_rms: "좌표 오차, RMS";
+    object_sigma: "제시된 σ, RMS";
+    over_sites: "RAW 대비";
+    visible: "보이는 중심";
+    t_sensor_steps: "단계마다 드는 대가";
+    c_sensor_centres: "중심의 오차";
+    c_sensor_objects: "좌표의 오차와 제시된 표준오차";
+    a_sharpening(v): "선명화는 3 × 3 화소 이항 평균과의 차이를 {v} % 더합니다.";
     kim: "김혁길·황진상·윤홍식 2015";
     kim_question: "사진 두 매는 DLT에서 전방교회까지 얼마나 정확한가?";
     kim_source: "김혁길, 황진상, 윤홍식 (2015), DLT와 부가변수에 의한 광속조정법을 활용한 근접사진측량의 3차원 위치정확도 분석.";

@@ -91,6 +91,7 @@ impl Document {
 pub enum Change {
     PhotosAdded(usize),
     PhotoRemoved(String),
+    ShotsSwapped(usize),
     PhotoSwitched(String),
     CameraEdited(String),
     CameraAssigned { photos: usize, camera: String },

@@ -1,6 +1,7 @@
 //! Files that come in: photos are looked into by the workers, and what cannot be used is named while the rest goes on.
 
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use leptos::prelude::*;
@@ -145,7 +146,11 @@ impl Desk {
                 Some(id) => id,
                 None => {
                     if let Some(reason) = self.other_of_the_shot(&project, &file, &raws) {
-                        problems.push(Problem { file: file.name, reason });
+                        problems.push(Problem { file: file.name.clone(), reason });
+                        self.others.update_value(|others| {
+                            others.retain(|other| other.digest != file.digest);
+                            others.push(file);
+                        });
                         continue;
                     }
                     added += 1;
@@ -200,6 +205,66 @@ impl Desk {
         }
     }
 
+    /// Measures the other file of every shot that is here twice, RAW in place of what was developed from it or the other way round, as
+    /// one change: the photos are new ones, since nothing that was measured in the one holds in the other.
+    pub fn swap_shots(self) {
+        let others = self.others.get_value();
+        let mut swapped: Vec<(String, PhotoFile)> = Vec::new();
+        let mut left = Vec::new();
+        for other in others {
+            let of_the_shot = self.files.with_untracked(|files| {
+                self.document.with_untracked(|d| {
+                    let same = |photo: &&Photo| {
+                        let info = files.get(&photo.id).map(|file| file.info.clone()).unwrap_or_default();
+                        pairs::same_shot((&other.name, &other.info), (&photo.file, &info))
+                    };
+                    d.project.photos.iter().find(same).map(|photo| photo.id.clone())
+                })
+            });
+            match of_the_shot {
+                Some(id) => swapped.push((id, other)),
+                None => left.push(other),
+            }
+        }
+        if swapped.is_empty() {
+            return;
+        }
+        let replaced: BTreeSet<String> = swapped.iter().map(|(id, _)| id.clone()).collect();
+        let before: Vec<PhotoFile> =
+            self.files.with_untracked(|files| replaced.iter().filter_map(|id| files.get(id).cloned()).collect());
+        let mut project = self.document.with_untracked(|d| (*d.project).clone());
+        let mut problems: Vec<Problem> = self.problems.get_untracked();
+        let mut fresh = Vec::new();
+        for (old, file) in &swapped {
+            let id = self.add_photo(&mut project, file);
+            // In the place of the one that it replaces.
+            if let (Some(new), Some(place)) =
+                (project.photos.pop(), project.photos.iter().position(|photo| photo.id == *old))
+            {
+                project.photos.insert(place, new);
+            }
+            problems.retain(|problem| problem.file != file.name);
+            let of = file.name.clone();
+            if let Some(other) = before.iter().find(|b| pairs::same_shot((&file.name, &file.info), (&b.name, &b.info)))
+            {
+                let reason = if pairs::is_raw(&other.name) { Reason::RawOf { of } } else { Reason::Developed { of } };
+                problems.push(Problem { file: other.name.clone(), reason });
+            }
+            fresh.push((id, file.clone()));
+        }
+        self.change(Change::ShotsSwapped(fresh.len()), |document| {
+            *document.project_mut() = project;
+            cameras::remove_photos(document, &replaced);
+        });
+        self.problems.set(problems);
+        self.others.set_value(left.into_iter().chain(before).collect());
+        let first = fresh.first().map(|(id, _)| id.clone());
+        self.files.update(|files| files.extend(fresh));
+        if let Some(first) = first {
+            self.select_photo(&first);
+        }
+    }
+
     fn add_photo(self, project: &mut Project, file: &PhotoFile) -> String {
         let signature = Signature::of(&file.name, &file.info, file.size);
         let shares = self.files.with_untracked(|files| {
@@ -208,7 +273,10 @@ impl Desk {
             };
             project.photos.iter().rev().find(shares).map(|photo| photo.id.clone())
         });
-        let id = cameras::add_photo(project, &file.name, &file.info, file.size, shares.as_deref());
+        let id = self.files.with_untracked(|files| {
+            let taken = |id: &str| files.get(id).is_some_and(|known| known.digest != file.digest);
+            cameras::add_photo(project, &file.name, &file.info, file.size, shares.as_deref(), &taken)
+        });
         if let Some(photo) = project.photos.iter_mut().find(|photo| photo.id == id) {
             photo.sha256.clone_from(&file.sha256);
         }

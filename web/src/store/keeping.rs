@@ -438,6 +438,7 @@ impl Desk {
             self.kept.set(Kept::At(page::clock()));
         }
         self.files.set(BTreeMap::new());
+        self.others.set_value(Vec::new());
         self.history.set(History::default());
         self.document.set(document);
         if let Some(name) = left.filter(|name| !name.is_empty()) {
@@ -535,6 +536,7 @@ impl Desk {
         self.kept.set(if opened.following { Kept::Following } else { Kept::At(page::clock()) });
         self.history.set(history);
         self.files.set(here);
+        self.others.set_value(Vec::new());
         self.iterations.set(document.result.as_ref().map(|r| r.adjustment.iterations.clone()).unwrap_or_default());
         if !same {
             self.forget_waiting();
@@ -599,6 +601,7 @@ impl Desk {
         });
         self.forget_waiting();
         self.files.set(BTreeMap::new());
+        self.others.set_value(Vec::new());
         self.history.set(History::default());
         self.document.set(Document::default());
         self.selection.set(Selection::default());

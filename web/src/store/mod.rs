@@ -344,6 +344,8 @@ pub struct Desk {
     apart: RwSignal<Vec<apart::Apart>>,
     values: RwSignal<values::Asked>,
     pub problems: RwSignal<Vec<Problem>>,
+    /// Files of shots whose other file is measured: RAW beside what was developed from it.
+    pub others: StoredValue<Vec<PhotoFile>>,
     pub notice: RwSignal<Option<Notice>>,
     pub asking: RwSignal<Option<Asking>, LocalStorage>,
     /// The document as it came, where nobody has worked on it: a sample, an experiment.
@@ -415,6 +417,7 @@ impl Desk {
             apart: RwSignal::default(),
             values: RwSignal::default(),
             problems: RwSignal::default(),
+            others: StoredValue::default(),
             notice: RwSignal::default(),
             asking: RwSignal::new_local(None),
             pristine: RwSignal::default(),

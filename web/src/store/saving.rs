@@ -167,6 +167,7 @@ impl Desk {
         );
         self.forget_waiting();
         self.files.set(BTreeMap::new());
+        self.others.set_value(Vec::new());
         self.selection.set(super::Selection { photo: first, ..Default::default() });
         self.go(if adjusted { Step::Results } else { Step::Photos });
         if !photos.is_empty() {

@@ -7,6 +7,7 @@ use crate::store::document::Change;
 pub fn change_words(change: &Change) -> String {
     match change {
         Change::PhotosAdded(n) => text::change_photos_added(n),
+        Change::ShotsSwapped(n) => text::change_shots_swapped(n),
         Change::PhotoRemoved(id) => text::change_photo_removed(id),
         Change::PhotoSwitched(id) => text::change_photo_switched(id),
         Change::CameraEdited(id) => text::change_camera_edited(id),

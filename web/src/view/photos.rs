@@ -14,7 +14,7 @@ use crate::browser::event;
 use crate::edit::cameras::distance_parameter;
 use crate::format;
 use crate::i18n::{equipment, planning, text};
-use crate::store::{Desk, Problem, Step};
+use crate::store::{Desk, Problem, Reason, Step};
 
 #[component]
 pub fn Photos() -> impl IntoView {
@@ -250,6 +250,10 @@ fn pitch_text([x, y]: [f64; 2]) -> String {
     if (x - y).abs() < 1e-12 { um(x) } else { format!("{} × {}", um(x), um(y)) }
 }
 
+fn is_other_of_a_shot(problem: &Problem) -> bool {
+    matches!(problem.reason, Reason::RawOf { .. } | Reason::Developed { .. })
+}
+
 /// Files that were not taken, each with its reason.
 #[component]
 pub fn Problems() -> impl IntoView {
@@ -258,6 +262,14 @@ pub fn Problems() -> impl IntoView {
         <Show when=move || desk.problems.with(|p| !p.is_empty())>
             <h2 class="section-head">
                 <span>{text::not_taken}</span>
+                <Show when=move || desk.problems.with(|all| all.iter().any(is_other_of_a_shot))>
+                    <button class="link" data-action="swap" on:click=move |_| desk.swap_shots()>
+                        {move || match desk.problems.with(|all| all.iter().any(|p| matches!(p.reason, Reason::RawOf { .. }))) {
+                            true => text::measure_raw(),
+                            false => text::measure_developed(),
+                        }}
+                    </button>
+                </Show>
                 <button class="link" on:click=move |_| desk.problems.set(Vec::new())>{text::dismiss}</button>
             </h2>
             <ul class="problems">

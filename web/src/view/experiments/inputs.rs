@@ -64,7 +64,7 @@ pub fn Inputs(name: &'static str) -> impl IntoView {
     let fields: &[Field] = match name {
         "kang" => &[IMAGE_SIGMA, const { control_sigma(0.001) }, ROUNDS, SEED],
         "film" => &[IMAGE_SIGMA, SEED],
-        "lee-calibration" => &[PIXEL_NOISE, SEED],
+        "lee-calibration" | "sensor" => &[PIXEL_NOISE, SEED],
         "lee-structure" => &[IMAGE_SIGMA, const { control_sigma(0.01) }, SEED],
         _ => &[PIXEL_NOISE, const { control_sigma(0.3) }, SEED],
     };

@@ -1,4 +1,4 @@
-//! The papers' experiments, a page each: the question, the network, what may be varied, and our figures beside theirs.
+//! The papers' experiments and one of our own, a page each: the question, the network, what may be varied, and our figures beside theirs.
 
 mod chart;
 mod drawing;
@@ -30,6 +30,7 @@ fn described(name: &str) -> [Text; 3] {
         "film" => [words::film, words::film_question, words::film_source],
         "lee-calibration" => [words::lee_calibration, words::lee_calibration_question, words::lee_source],
         "lee-structure" => [words::lee_structure, words::lee_structure_question, words::lee_source],
+        "sensor" => [words::sensor, words::sensor_question, words::sensor_source],
         _ => [words::kim, words::kim_question, words::kim_source],
     }
 }
