@@ -13,6 +13,9 @@ const FINE: f64 = 128.0;
 /// Iterations of the inverse: at k = 2 what is left is 2^-7 of the sharpening.
 const ITERATIONS: usize = 7;
 
+/// Rows of a strip, in those that are read beyond it on each side: a third of all is read twice.
+const STRIP: usize = 6;
+
 /// A picture of 16 bits made of another one.
 pub(crate) struct Softened {
     samples: Vec<u16>,
@@ -24,29 +27,49 @@ pub(crate) struct Softened {
 
 impl Softened {
     /// The picture with its sharpening undone, if there is one, and then a Gaussian mean of this sigma in pixels.
+    ///
+    /// Strip by strip: in fractions a large picture would take several times its own memory. A strip reads as many rows beyond its own
+    /// as the means reach, so that every sample is that of the picture taken whole.
     pub fn of<T: Sample>(plane: &Plane<T>, sharpening: Option<Sharpening>, sigma: f64) -> Self {
+        let reach = reach(sharpening, sigma);
+        Self::in_strips(plane, sharpening, sigma, (STRIP * reach).max(1))
+    }
+
+    fn in_strips<T: Sample>(plane: &Plane<T>, sharpening: Option<Sharpening>, sigma: f64, rows: usize) -> Self {
         let (width, height) = (plane.width, plane.height);
+        let reach = reach(sharpening, sigma);
         let scale = if T::MAX < 256 { FINE } else { 1.0 };
-        let mut levels: Vec<f32> = Vec::with_capacity(width * height);
-        (0..height).for_each(|y| levels.extend(plane.row(y).iter().map(|sample| sample.level() as f32)));
-        if let Some(Sharpening { amount, radius }) = sharpening {
-            let (amount, kernel) = (amount as f32, kernel(radius));
-            let step = 2.0 / (2.0 + amount);
-            let sharpened = levels.clone();
-            for _ in 0..ITERATIONS {
-                let mut mean = levels.clone();
-                convolve(&mut mean, width, &kernel);
-                for ((level, mean), sharpened) in levels.iter_mut().zip(&mean).zip(&sharpened) {
-                    *level += step * (sharpened - *level - amount * (*level - mean));
+        let most = (f64::from(T::MAX) * scale) as f32;
+        let mut samples = Vec::with_capacity(width * height);
+        let (mut levels, mut mean) = (Vec::new(), Vec::new());
+        for top in (0..height).step_by(rows) {
+            let bottom = (top + rows).min(height);
+            let read = top.saturating_sub(reach)..(bottom + reach).min(height);
+            levels.clear();
+            for y in read.clone() {
+                levels.extend(plane.row(y).iter().map(|sample| sample.level() as f32));
+            }
+            if let Some(Sharpening { amount, radius }) = sharpening {
+                let (amount, kernel) = (amount as f32, kernel(radius));
+                let step = 2.0 / (2.0 + amount);
+                for _ in 0..ITERATIONS {
+                    mean.clone_from(&levels);
+                    convolve(&mut mean, width, &kernel);
+                    let rows = levels.chunks_exact_mut(width).zip(mean.chunks_exact(width));
+                    for ((levels, mean), y) in rows.zip(read.clone()) {
+                        for ((level, mean), sharpened) in levels.iter_mut().zip(mean).zip(plane.row(y)) {
+                            *level += step * (sharpened.level() as f32 - *level - amount * (*level - mean));
+                        }
+                    }
                 }
             }
+            if sigma > 0.0 {
+                convolve(&mut levels, width, &kernel(sigma));
+            }
+            // to the nearest whole number; the rounding of the language is a call for every sample
+            let own = &levels[(top - read.start) * width..(bottom - read.start) * width];
+            samples.extend(own.iter().map(|level| ((level * scale as f32).clamp(0.0, most) + 0.5) as u16));
         }
-        if sigma > 0.0 {
-            convolve(&mut levels, width, &kernel(sigma));
-        }
-        let most = (f64::from(T::MAX) * scale) as f32;
-        // to the nearest whole number; the rounding of the language is a call for every sample
-        let samples = levels.iter().map(|level| ((level * scale as f32).clamp(0.0, most) + 0.5) as u16).collect();
         Self { samples, width, height, scale }
     }
 
@@ -56,9 +79,19 @@ impl Softened {
     }
 }
 
+/// How many samples a Gaussian mean takes on each side.
+fn side(sigma: f64) -> usize {
+    (3.5 * sigma).ceil() as usize
+}
+
+/// How far a sample depends on others.
+fn reach(sharpening: Option<Sharpening>, sigma: f64) -> usize {
+    side(sigma) + sharpening.map_or(0, |sharpening| ITERATIONS * side(sharpening.radius))
+}
+
 /// Weights of a Gaussian mean from the middle on.
 fn kernel(sigma: f64) -> Vec<f32> {
-    let side = (3.5 * sigma).ceil() as i32;
+    let side = side(sigma) as i32;
     let weight = |t: i32| (-0.5 * (f64::from(t) / sigma).powi(2)).exp();
     let sum: f64 = (-side..=side).map(weight).sum();
     (0..=side).map(|t| (weight(t) / sum) as f32).collect()
@@ -125,6 +158,18 @@ mod tests {
         let mut flat = vec![7f32; 12 * 5];
         convolve(&mut flat, 12, &kernel(3.0));
         assert!(flat.iter().all(|level| (level - 7.0).abs() < 1e-4));
+    }
+
+    #[test]
+    fn strips_are_the_picture_taken_whole() {
+        let noise: Vec<u8> = (0..37u32 * 90).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+        let plane = Plane::new(37, 90, &noise);
+        for sharpening in [None, Some(Sharpening { amount: 1.2, radius: 0.5 })] {
+            let whole = Softened::in_strips(&plane, sharpening, 0.7, 90);
+            for rows in [1, 16, 41] {
+                assert!(Softened::in_strips(&plane, sharpening, 0.7, rows).samples == whole.samples, "{rows} rows");
+            }
+        }
     }
 
     #[test]
