@@ -10,7 +10,7 @@ import { adjust, downloads, drop, figure, idle, notice, rows, scratch, unzipped 
 
 sightline.initSync({ module: readFileSync(fileURLToPath(new URL('../pkg/sightline_bg.wasm', import.meta.url))) });
 
-const NAMES = ['kang', 'film', 'lee-calibration', 'lee-structure', 'kim'];
+const NAMES = ['kang', 'film', 'lee-calibration', 'lee-structure', 'kim', 'sensor'];
 const show = (page, name) => page.click(`.tabs [data-experiment=${name}]`);
 
 /** Runs the experiment that is shown; how long it took and the longest time in which the page drew no frame, in ms. */

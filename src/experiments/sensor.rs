@@ -132,13 +132,13 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
         )
         .named(STEPS),
     ];
-    let figures = vec![
-        Figure::new("visible", "", visible as f64, None),
-        Figure::new("centre_rms/sites", "px", centre(&measured[0]), None),
-        Figure::new("centre_rms/jpeg-92", "px", centre(&measured[4]), None),
-        Figure::new("object_rms/sites", "mm", errors[0][0], None),
-        Figure::new("object_rms/jpeg-92", "mm", errors[4][0], None),
-    ];
+    let mut figures = vec![Figure::new("visible", "", visible as f64, None)];
+    for k in [0, 4, 5] {
+        figures.push(Figure::new(format!("centre_rms/{}", STEPS[k]), "px", centre(&measured[k]), None));
+    }
+    for k in [0, 4, 5] {
+        figures.push(Figure::new(format!("object_rms/{}", STEPS[k]), "mm", errors[k][0], None));
+    }
     Ok(Experiment {
         name: "sensor".into(),
         drawings: drawings(options),
