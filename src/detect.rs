@@ -249,7 +249,8 @@ fn soften<T: Sample>(
     (softened, Some((undone, restored)))
 }
 
-/// Amount of a sharpening from which the rims of what was found say that there may be more: half of what cameras do by default.
+/// Amount of a sharpening from which the rims of what was found say that there may be more: twice what a fit
+/// takes for a lens.
 const BY_RIMS: f64 = 0.3;
 /// Sigma in pixels of the mean in which what is sharpened is searched: the middle of the range in which webcam pictures of dots
 /// show all of them.

@@ -1199,7 +1199,7 @@ export interface ExperimentOptions {
   seed?: number;
   /** Standard deviation of image coordinates, µm (kang, film, lee-structure). */
   image_sigma_um?: number | null;
-  /** Standard deviation of the pixels' noise, share of full scale (lee-calibration, kim). */
+  /** Standard deviation of the pixels' noise, share of full scale (lee-calibration, kim, sensor). */
   pixel_noise?: number | null;
   /** Standard error of control coordinates, mm (kang, lee-structure, kim). */
   control_sigma_mm?: number | null;

@@ -55,10 +55,14 @@ pub fn suggest(plan: &Plan, criterion: &Criterion, progress: Progress) -> Result
         };
         // What is good for the points that are asked for, and what is good for all of them.
         let own = not_asked(&setup, criterion);
-        let half = if own == setup.given { 0 } else { JUDGED_OF_LARGE / 2 };
-        let mut first = ordered(tried, &own);
-        let others = first.split_off(half);
-        tried = first.into_iter().chain(ordered(others, &setup.given)).take(JUDGED_OF_LARGE).collect();
+        let mut first = Vec::new();
+        if own != setup.given {
+            first = ordered(tried, &own);
+            tried = first.split_off(JUDGED_OF_LARGE / 2);
+        }
+        first.extend(ordered(tried, &setup.given));
+        first.truncate(JUDGED_OF_LARGE);
+        tried = first;
     }
     let judge = |shot: &Shot| {
         let with: Vec<&Shot> = now.iter().copied().chain([shot]).collect();

@@ -313,6 +313,8 @@ mod tests {
         assert!(matches!(first.interior, Interior::Brown { c: Some(c), .. } if (c - 24.0).abs() < 1e-12));
         add_photo(&mut project, "c.jpg", &info(), SIZE, None, &|_| false);
         assert_eq!(project.cameras[1].id, "X 2");
+        // Undo may bring 4 and 5 back, whose files are kept.
+        assert_eq!(add_photo(&mut project, "d.jpg", &info(), SIZE, Some("1"), &|id| ["4", "5"].contains(&id)), "6");
         let pixels = with_pitch(&first, None);
         assert!(matches!(pixels.interior, Interior::Brown { c: Some(c), .. } if (c - 2400.0).abs() < 1e-9));
     }

@@ -208,6 +208,9 @@ impl Desk {
     /// Measures the other file of every shot that is here twice, RAW in place of what was developed from it or the other way round, as
     /// one change: the photos are new ones, since nothing that was measured in the one holds in the other.
     pub fn swap_shots(self) {
+        if !self.may_change() {
+            return;
+        }
         let others = self.others.get_value();
         let mut swapped: Vec<(String, PhotoFile)> = Vec::new();
         let mut left = Vec::new();
@@ -221,7 +224,8 @@ impl Desk {
                     d.project.photos.iter().find(same).map(|photo| photo.id.clone())
                 })
             });
-            match of_the_shot {
+            // Of three files of a shot still one is measured.
+            match of_the_shot.filter(|id| !swapped.iter().any(|(taken, _)| taken == id)) {
                 Some(id) => swapped.push((id, other)),
                 None => left.push(other),
             }
@@ -257,7 +261,10 @@ impl Desk {
             cameras::remove_photos(document, &replaced);
         });
         self.problems.set(problems);
-        self.others.set_value(left.into_iter().chain(before).collect());
+        // Those that are measured now too: undo makes them the others again.
+        let mut others: Vec<PhotoFile> = left.into_iter().chain(before).collect();
+        others.extend(fresh.iter().map(|(_, file)| file.clone()));
+        self.others.set_value(others);
         let first = fresh.first().map(|(id, _)| id.clone());
         self.files.update(|files| files.extend(fresh));
         if let Some(first) = first {
