@@ -866,12 +866,12 @@ declare! { experiments {
     sensor: "Sensor or JPEG";
     sensor_question: "What do centres and coordinates lose between the sensor and a camera's JPEG?";
     sensor_source: "An experiment of our own: one exposure each, rendered through lens and colour filters with the noise of its photons, then taken through the steps of a camera. Six photos, self-calibrated in a free network, against the true centres and coordinates.";
-    step_sites: "RAW, green sites";
+    step_sites: "RAW";
     step_demosaiced: "demosaiced";
     step_sharpened: "sharpened";
-    step_toned: "tone curve";
-    step_jpeg_92: "JPEG, quality 92";
-    step_jpeg_75: "JPEG, quality 75";
+    step_toned: "toned";
+    step_jpeg_92: "JPEG 92";
+    step_jpeg_75: "JPEG 75";
     step_of_camera: "measured on";
     error_over_sigma: "error / σ";
     object_rms: "coordinate errors, rms";

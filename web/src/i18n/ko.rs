@@ -838,12 +838,12 @@ translate! { Korean experiments {
     sensor: "센서와 JPEG";
     sensor_question: "센서에서 카메라의 JPEG까지 가는 동안 중심과 좌표는 무엇을 잃는가?";
     sensor_source: "자체 실험: 렌즈와 색 필터를 거쳐 광자 잡음과 함께 렌더링한 한 번의 노출을 카메라의 처리 단계마다 측정합니다. 사진 6매를 자유망에서 자체검정하여 참 중심, 참 좌표와 비교합니다.";
-    step_sites: "RAW, 녹색 화소";
+    step_sites: "RAW";
     step_demosaiced: "색 보간";
     step_sharpened: "선명화";
     step_toned: "톤 곡선";
-    step_jpeg_92: "JPEG, 품질 92";
-    step_jpeg_75: "JPEG, 품질 75";
+    step_jpeg_92: "JPEG 92";
+    step_jpeg_75: "JPEG 75";
     step_of_camera: "측정 단계";
     error_over_sigma: "오차 / σ";
     object_rms: "좌표 오차, RMS";
