@@ -7,7 +7,7 @@ use super::declare;
 mod before;
 mod beside;
 pub use before::{planning, printing};
-pub use beside::{comparing, equipment};
+pub use beside::{comparing, equipment, lasting};
 
 /// This language.
 pub struct English;

@@ -12,7 +12,7 @@ pub mod text;
 
 use leptos::prelude::*;
 
-pub use en::{comparing, equipment, experiments, object, planning, printing};
+pub use en::{comparing, equipment, experiments, lasting, object, planning, printing};
 
 use crate::browser::page;
 
@@ -89,8 +89,6 @@ type Declared = (&'static str, &'static [&'static str], &'static str);
 macro_rules! declare {
     ($part:ident { $($name:ident $(($($value:ident),+))? : $text:literal;)+ }) => {
         pub mod $part {
-            use std::fmt::Display;
-
             /// What every language says.
             // A text's name may begin with any word.
             #[allow(clippy::wrong_self_convention)]
@@ -110,14 +108,14 @@ macro_rules! declare {
         $crate::i18n::translate! { English $part { $($name $(($($value),+))? : $text;)+ } }
     };
     (@method $name:ident) => { fn $name(&self) -> &'static str; };
-    (@method $name:ident ($($value:ident),+)) => { fn $name(&self, $($value: &dyn Display),+) -> String; };
+    (@method $name:ident ($($value:ident),+)) => { fn $name(&self, $($value: &dyn std::fmt::Display),+) -> String; };
     (@function $name:ident) => {
         pub fn $name() -> &'static str {
             words($crate::i18n::language()).$name()
         }
     };
     (@function $name:ident ($($value:ident),+)) => {
-        pub fn $name($($value: impl Display),+) -> String {
+        pub fn $name($($value: impl std::fmt::Display),+) -> String {
             words($crate::i18n::language()).$name($(&$value),+)
         }
     };
@@ -168,6 +166,7 @@ mod tests {
                 object::words(language).every_text(),
                 comparing::words(language).every_text(),
                 equipment::words(language).every_text(),
+                lasting::words(language).every_text(),
             ];
             parts.into_iter().flatten().map(move |text| (language, text))
         };

@@ -6,8 +6,10 @@ use leptos::prelude::*;
 use sightline::detection::{ColoursApart, DetectOptions};
 use sightline_protocol::MeasureColours;
 
+use super::lasting::Stop;
 use super::pool::{Failure, Outcome};
 use super::{Desk, Until};
+use crate::i18n::lasting as words;
 use crate::i18n::{errors, text};
 
 /// Photos kept.
@@ -66,9 +68,8 @@ impl Desk {
                 }
             }
         };
-        self.pool.with_value(|pool| {
-            let batch = pool.batch();
-            pool.submit(batch, task, vec![file], on_outcome);
-        });
+        let stopped =
+            move || self.apart.update(|all| all.retain(|apart| apart.digest != digest || apart.found.is_some()));
+        self.ask_in_turn(Stop(words::colours, stopped), task, vec![file], on_outcome);
     }
 }

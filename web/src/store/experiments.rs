@@ -9,10 +9,12 @@ use sightline::project::Project;
 use sightline_protocol::{ExportExperiment, RunExperiment};
 
 use super::document::Document;
+use super::lasting::Stop;
 use super::plates::Plates;
 use super::pool::Outcome;
 use super::{Desk, JobKind, Selection, Step};
 use crate::browser::page;
+use crate::i18n::lasting;
 
 /// What an experiment gave, with what it was run on.
 #[derive(Clone, Debug)]
@@ -144,6 +146,6 @@ impl Desk {
             Outcome::Failed(failure) => self.tell_failure(failure),
             Outcome::Progress(nothing) => match nothing {},
         };
-        self.pool.with_value(|pool| pool.submit_first(task, Vec::new(), on_outcome));
+        self.ask(Stop(lasting::file, || ()), task, Vec::new(), on_outcome);
     }
 }

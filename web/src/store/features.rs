@@ -10,8 +10,10 @@ use sightline_protocol::MeasureFeatures;
 
 use super::Desk;
 use super::document::{Change, Document, Outcome as Result};
+use super::lasting::Stop;
 use super::pool::Outcome;
 use crate::edit::features::{self, Lacks};
+use crate::i18n::lasting;
 use crate::i18n::object as words;
 
 impl Document {
@@ -138,7 +140,7 @@ impl Desk {
             Outcome::Failed(failure) => self.tell_failure(failure),
             Outcome::Progress(nothing) => match nothing {},
         };
-        self.pool.with_value(|pool| pool.submit_first(task, Vec::new(), on_outcome));
+        self.ask(Stop(lasting::features, || ()), task, Vec::new(), on_outcome);
     }
 }
 

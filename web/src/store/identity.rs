@@ -10,11 +10,13 @@ use sightline::project::{Observation, Sigma};
 use sightline_protocol::Measure;
 
 use super::document::Change;
+use super::lasting::Stop;
 use super::pool::Outcome;
 use super::{Desk, Kind};
 use crate::edit::points::{self, Naming, Renamed};
 use crate::edit::targets;
 use crate::format;
+use crate::i18n::lasting as words;
 use crate::i18n::text;
 
 /// Marks of an earlier measurement, waiting to be taken.
@@ -85,7 +87,8 @@ impl Desk {
             Outcome::Failed(failure) => self.tell_failure(failure),
             Outcome::Progress(nothing) => match nothing {},
         };
-        self.pool.with_value(|pool| pool.submit_first(Measure { digest, u, v, options }, vec![file], on_outcome));
+        let stop = Stop(words::target, || ());
+        self.ask(stop, Measure { digest, u, v, options }, vec![file], on_outcome);
     }
 
     /// A target measured on request joins the photo's list and is chosen: with its code for a name, or to be named.

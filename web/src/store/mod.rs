@@ -15,6 +15,7 @@ pub mod identity;
 pub mod intake;
 pub mod keeping;
 pub mod kept;
+mod lasting;
 pub mod marking;
 pub mod parts;
 pub mod pictures;
@@ -369,6 +370,7 @@ pub struct Desk {
     /// The project that was deleted last, while it can be got back: its key and its name.
     pub deleted: RwSignal<Option<(String, String)>>,
     pub job: RwSignal<Option<Job>, LocalStorage>,
+    pub lasting: RwSignal<Vec<lasting::Lasting>, LocalStorage>,
     pub pool: StoredValue<Pool, LocalStorage>,
     pub experiments: Experiments,
     pub reports: report::Reports,
@@ -432,6 +434,7 @@ impl Desk {
             offline: RwSignal::new(page::is_offline()),
             deleted: RwSignal::default(),
             job: RwSignal::new_local(None),
+            lasting: RwSignal::new_local(Vec::new()),
             pool: StoredValue::new_local(Pool::default()),
             experiments: Experiments::default(),
             reports: report::Reports::default(),

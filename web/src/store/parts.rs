@@ -5,8 +5,10 @@ use leptos::task::spawn_local;
 use sightline_protocol::{ShowPart, Shown};
 
 use super::Desk;
+use super::lasting::Stop;
 use super::pool::Outcome;
 use crate::browser::picture::Picture;
+use crate::i18n::lasting as words;
 
 /// Parts kept.
 const KEPT: usize = 96;
@@ -76,9 +78,11 @@ impl Desk {
             }
         };
         let task = ShowPart { digest, left, top, side };
-        self.pool.with_value(|pool| {
-            let batch = pool.batch();
-            pool.submit(batch, task, vec![file], on_outcome);
-        });
+        // Asked for again when it is wanted again.
+        let stopped = move || {
+            let is = |p: &Part| (p.digest, p.left, p.top, p.side) == (digest, left, top, side);
+            self.parts.update_untracked(|all| all.retain(|part| !is(part)));
+        };
+        self.ask_in_turn(Stop(words::photo, stopped), task, vec![file], on_outcome);
     }
 }

@@ -4,9 +4,11 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline_protocol::ShowPhoto;
 
+use super::lasting::Stop;
 use super::pool::{Failure, Outcome};
 use super::{Desk, Until};
 use crate::browser::picture::Pyramid;
+use crate::i18n::lasting as words;
 use crate::i18n::{errors, text};
 
 /// Decoded pictures kept: a photo of 24 megapixels takes 128 MB with its levels.
@@ -67,6 +69,9 @@ impl Desk {
             }
             Outcome::Progress(nothing) => match nothing {},
         };
-        self.pool.with_value(|pool| pool.submit_first(ShowPhoto {}, vec![file], on_outcome));
+        // Asked for again when the photo is shown again.
+        let stopped =
+            move || self.pictures.update_untracked(|all| all.retain(|s| s.digest != digest || s.picture.is_some()));
+        self.ask(Stop(words::photo, stopped), ShowPhoto {}, vec![file], on_outcome);
     }
 }

@@ -11,12 +11,14 @@ use sightline_protocol::{BeginPlan, MakePlan, Open, PlanOf, PredictPlan, Suggest
 
 use super::document::Change;
 use super::intake::SMALL_SIDE;
+use super::lasting::Stop;
 use super::pool::{Failure, Outcome};
 use super::{Desk, JobKind};
 use crate::browser::file::NamedFile;
 use crate::edit::cameras::{self, Signature};
 use crate::edit::control::{UNITS, has_lengths};
 use crate::edit::plan;
+use crate::i18n::lasting;
 use crate::i18n::planning as words;
 
 /// What is known of the plan.
@@ -137,7 +139,8 @@ impl Desk {
             Outcome::Failed(failure) => self.tell_failure(failure),
             Outcome::Progress(nothing) => match nothing {},
         };
-        self.pool.with_value(|pool| pool.submit_first(Open { max_side: SMALL_SIDE }, vec![content], on_outcome));
+        let stop = Stop(lasting::photo, || ());
+        self.ask(stop, Open { max_side: SMALL_SIDE }, vec![content], on_outcome);
     }
 
     /// Begins a plan from one of the papers' networks, or from the project as it was measured.
@@ -161,7 +164,7 @@ impl Desk {
             Outcome::Failed(failure) => self.tell_failure(failure),
             Outcome::Progress(nothing) => match nothing {},
         };
-        self.pool.with_value(|pool| pool.submit_first(BeginPlan { of }, Vec::new(), on_outcome));
+        self.ask(Stop(lasting::plan, || ()), BeginPlan { of }, Vec::new(), on_outcome);
     }
 
     /// Changes the plan so that it can be undone.
@@ -204,7 +207,11 @@ impl Desk {
                 self.predict_plan(plan);
             }
         };
-        self.pool.with_value(|pool| pool.submit_first(PredictPlan { plan }, Vec::new(), on_outcome));
+        let stopped = move || {
+            self.planning.next.set_value(None);
+            self.planning.busy.set_value(false);
+        };
+        self.ask(Stop(lasting::plan, stopped), PredictPlan { plan }, Vec::new(), on_outcome);
     }
 
     /// Looks for the next photo.

@@ -10,9 +10,11 @@ use sightline::project::{Point, Project};
 use sightline_protocol::{Predict, Situate, Situated};
 
 use super::document::Outcome as Result;
+use super::lasting::Stop;
 use super::pool::Outcome;
 use super::{Desk, Step};
 use crate::browser::page;
+use crate::i18n::lasting as words;
 
 /// Measurements of a photo below which it is not looked whether it can be oriented.
 const ENOUGH: usize = 5;
@@ -118,6 +120,7 @@ impl Desk {
 
     fn situate(self) {
         let (project, options) = self.document.with_untracked(|d| (d.project.clone(), d.options.clone()));
+        let of = project.clone();
         let task = Situate { project: (*project).clone(), options };
         let on_outcome = move |outcome: Outcome<Situate>| {
             let situated = match outcome {
@@ -130,10 +133,12 @@ impl Desk {
             self.predicting.situation.set(Some(Situation { source, situated }));
             self.predicting.situating.set(false);
         };
-        self.pool.with_value(|pool| {
-            let batch = pool.batch();
-            pool.submit(batch, task, Vec::new(), on_outcome);
-        });
+        // Not asked for again until something else is measured.
+        let stopped = move || {
+            self.predicting.situation.set(Some(Situation { source: Source::Measured(of.clone()), situated: None }));
+            self.predicting.situating.set(false);
+        };
+        self.ask_in_turn(Stop(words::situation, stopped), task, Vec::new(), on_outcome);
     }
 
     fn follow_point(self) {
@@ -184,7 +189,18 @@ impl Desk {
             self.predicting.prediction.set(prediction);
             self.predicting.asking.set(false);
         };
-        self.pool.with_value(|pool| pool.submit_first(task, Vec::new(), on_outcome));
+        // Nor is it asked for the photo that was chosen meanwhile: it is the point that was given up.
+        let stopped = move || {
+            let photo = self.selection.with_untracked(|s| s.photo.clone());
+            self.predicting.asked.update_value(|asked| {
+                if let Some((.., of)) = asked {
+                    *of = photo;
+                }
+            });
+            self.predicting.prediction.set(None);
+            self.predicting.asking.set(false);
+        };
+        self.ask(Stop(words::situation, stopped), task, Vec::new(), on_outcome);
     }
 
     /// Where the chosen point should be.

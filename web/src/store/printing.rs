@@ -8,9 +8,10 @@ use sightline::sheets::SheetOptions;
 use sightline_protocol::{DrawSheets, Drawn, WriteSheets, from_text, to_text};
 
 use super::Desk;
+use super::lasting::Stop;
 use super::pool::{Failure, Outcome};
 use crate::browser::page;
-use crate::i18n::{Language, language};
+use crate::i18n::{Language, language, lasting as words};
 
 const PREFERENCE: &str = "sheets";
 
@@ -82,7 +83,7 @@ impl Desk {
             Outcome::Done(..) | Outcome::Failed(_) => {}
             Outcome::Progress(nothing) => match nothing {},
         };
-        self.pool.with_value(|pool| pool.submit_first(DrawSheets { options, sheet }, Vec::new(), on_outcome));
+        self.ask(Stop(words::sheets, || ()), DrawSheets { options, sheet }, Vec::new(), on_outcome);
     }
 
     /// Hands over the PDF, the SVG of the sheet that is shown, or the lists.
@@ -108,7 +109,7 @@ impl Desk {
             Outcome::Failed(failure) => self.tell_failure(failure),
             Outcome::Progress(nothing) => match nothing {},
         };
-        self.pool.with_value(|pool| pool.submit_first(task, Vec::new(), on_outcome));
+        self.ask(Stop(words::sheets, || ()), task, Vec::new(), on_outcome);
     }
 
     /// The project's camera as diameters are advised for, or a common one.

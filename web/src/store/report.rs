@@ -10,6 +10,7 @@ use sightline::report::plots::Plot;
 use sightline_protocol::{CompareResults, Export, MakePlots, MakeReport, ReportMade};
 
 use super::document::Change;
+use super::lasting::Stop;
 use super::pool::Outcome;
 use super::saving::file_stem;
 use super::{Desk, JobKind, Until};
@@ -17,6 +18,7 @@ use crate::browser::file::{self, NamedFile};
 use crate::browser::page;
 use crate::edit::report::{self, LogoFault};
 use crate::format;
+use crate::i18n::lasting as words;
 use crate::i18n::{Language, errors, language, text};
 
 /// The report as it is shown.
@@ -85,7 +87,11 @@ impl Desk {
                 Outcome::Progress(nothing) => match nothing {},
             }
         };
-        self.pool.with_value(|pool| pool.submit_first(task, Vec::new(), on_outcome));
+        let stopped = move || {
+            self.reports.made.set(None);
+            self.reports.failure.set(Some(words::report_stopped().to_owned()));
+        };
+        self.ask(Stop(words::report, stopped), task, Vec::new(), on_outcome);
     }
 
     /// Has the plots of the present result drawn, in the desk's language.
@@ -113,7 +119,7 @@ impl Desk {
                 Outcome::Progress(nothing) => match nothing {},
             }
         };
-        self.pool.with_value(|pool| pool.submit_first(task, Vec::new(), on_outcome));
+        self.ask(Stop(words::plots, || ()), task, Vec::new(), on_outcome);
     }
 
     /// Has the present result set beside the one before, where there is one.
@@ -139,7 +145,7 @@ impl Desk {
                 Outcome::Progress(nothing) => match nothing {},
             }
         };
-        self.pool.with_value(|pool| pool.submit_first(task, Vec::new(), on_outcome));
+        self.ask(Stop(words::comparison, || ()), task, Vec::new(), on_outcome);
     }
 
     /// Hands a plot over as a file.

@@ -10,11 +10,13 @@ use sightline::project::Project;
 use sightline_protocol::{Content, Export, Pack, Unpack, Unpacked};
 
 use super::document::{self, Document};
+use super::lasting::Stop;
 use super::pool::{Failure, Outcome};
 use super::{Asking, Desk, JobKind, Step, Until};
 use crate::browser::file::{self, Blob, NamedFile};
 use crate::browser::page;
 use crate::browser::worker::Bytes;
+use crate::i18n::lasting as words;
 use crate::i18n::{Text, errors, text};
 
 /// Ending of project files.
@@ -203,7 +205,7 @@ impl Desk {
             Outcome::Failed(failure) => self.tell_failure(failure),
             Outcome::Progress(nothing) => match nothing {},
         };
-        self.pool.with_value(|pool| pool.submit_first(task, Vec::new(), on_outcome));
+        self.ask(Stop(words::file, || ()), task, Vec::new(), on_outcome);
     }
 
     /// Gives a file to the browser to save.

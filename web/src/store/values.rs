@@ -6,7 +6,9 @@ use leptos::prelude::*;
 use sightline_protocol::{ShowValues, Values};
 
 use super::Desk;
+use super::lasting::Stop;
 use super::pool::Outcome;
+use crate::i18n::lasting as words;
 
 /// Rectangles begin and end at multiples of this, so that a small move asks for nothing new.
 const GRID: u32 = 16;
@@ -50,6 +52,7 @@ impl Desk {
                 }
             }
         };
-        self.pool.with_value(|pool| pool.submit_first(ShowValues { digest, place }, vec![file], on_outcome));
+        let stop = Stop(words::pixels, move || self.values.update_untracked(|asked| *asked = Asked::default()));
+        self.ask(stop, ShowValues { digest, place }, vec![file], on_outcome);
     }
 }

@@ -136,6 +136,7 @@ fn ProjectRow(
 pub fn StorageNotices() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let follows = Memo::new(move |_| desk.kept.with(|kept| *kept == Kept::Following));
+    let lasts = Memo::new(move |_| desk.lasts());
     view! {
         <Show when=move || follows.get()>
             <div class="notice warning" role="status">
@@ -155,6 +156,12 @@ pub fn StorageNotices() -> impl IntoView {
                 </button>
             </div>
         </Show>
+        {move || lasts.get().map(|words| view! {
+            <div class="notice lasting" role="status">
+                <p>{words}</p>
+                <button class="button small" on:click=move |_| desk.stop_lasting()>{text::cancel}</button>
+            </div>
+        })}
         {move || desk.deleted.get().map(|(_, name)| view! {
             <div class="notice" role="status">
                 <Glyph icon=Icon::Check/>

@@ -1,4 +1,4 @@
-//! Texts of what stands beside the path: the comparison with the result before, equipment that outlives a project.
+//! Texts of what stands beside the path: the comparison with the result before, equipment that outlives a project, work that lasts.
 
 use super::{English, choose};
 use crate::i18n::declare;
@@ -72,4 +72,20 @@ declare! { equipment {
     bars_taken(bars): "Scale bars seen in the photos gave their distances: {bars}.";
     change_calibration(camera): "calibration of {camera} taken";
     change_bars(n): "{n} {n:distance|distances} from scale bars";
+}}
+
+declare! { lasting {
+    photo: "A photo is being read";
+    pixels: "The samples of a photo are being read";
+    target: "A target is being measured";
+    colours: "The colours of a photo are being measured";
+    situation: "Photos are being oriented, to show where points should be";
+    features: "Forms and systems are being measured";
+    report: "The report is being made";
+    report_stopped: "The report was stopped. It is made again after the next change.";
+    plots: "Plots are being drawn";
+    comparison: "The results are being compared";
+    sheets: "Targets are being drawn";
+    file: "A file is being written";
+    plan: "The plan is being computed";
 }}

@@ -1,4 +1,4 @@
-//! 작업 단계 옆에 있는 것의 글: 이전 결과와의 비교, 프로젝트를 넘어 쓰는 장비.
+//! 작업 단계 옆에 있는 것의 글: 이전 결과와의 비교, 프로젝트를 넘어 쓰는 장비, 오래 걸리는 일.
 
 use super::{Korean, choose};
 use crate::i18n::translate;
@@ -70,4 +70,20 @@ translate! { Korean equipment {
     bars_taken(bars): "사진에 보이는 축척 막대의 거리를 넣었습니다: {bars}.";
     change_calibration(camera): "{camera} 검정 값 사용";
     change_bars(n): "축척 막대 거리 {n}개";
+}}
+
+translate! { Korean lasting {
+    photo: "사진을 읽는 중";
+    pixels: "사진의 화소값을 읽는 중";
+    target: "타겟을 측정하는 중";
+    colours: "사진의 색별 위치를 측정하는 중";
+    situation: "점의 예상 위치를 보이려고 사진 표정을 구하는 중";
+    features: "형상과 좌표계를 측정하는 중";
+    report: "보고서를 만드는 중";
+    report_stopped: "보고서 작성을 멈췄습니다. 다음 변경 후 다시 만듭니다.";
+    plots: "그림을 그리는 중";
+    comparison: "결과를 비교하는 중";
+    sheets: "타겟을 그리는 중";
+    file: "파일을 쓰는 중";
+    plan: "계획을 계산하는 중";
 }}

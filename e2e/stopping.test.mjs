@@ -1,0 +1,172 @@
+// Whatever lasts can be stopped: every task of the workers is held back until its button is pressed, and the desk works on.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { open } from './browser.mjs';
+import { choosePoint, downloads, drop, figure, go, idle, notice, sample, scratch, unzipped } from './desk.mjs';
+
+/** Before the worker's own script: each task waits until it may begin. */
+const PATIENT = `
+{
+  const { set } = Object.getOwnPropertyDescriptor(self, 'onmessage');
+  Object.defineProperty(self, 'onmessage', { set: (handler) => set.call(self, (event) => fetch('held').then(() => handler(event))) });
+}
+`;
+
+/** The page with workers that begin nothing between \`hold\` and \`release\`. */
+async function openHeld() {
+  const opened = await open({ width: 1366, height: 768, cores: 4, serviceWorkers: 'block' });
+  let [gate, release] = [Promise.resolve(), () => {}];
+  const hold = () => (gate = new Promise((done) => (release = done)));
+  await opened.context.route('**/worker.js', async (route) => {
+    const answer = await route.fetch();
+    await route.fulfill({ response: answer, body: `${PATIENT}\n${await answer.text()}` });
+  });
+  await opened.context.route('**/held', async (route) => {
+    await gate;
+    // Who asked may have been ended meanwhile.
+    await route.fulfill({ body: '' }).catch(() => {});
+  });
+  await opened.page.reload();
+  return { ...opened, hold, release: () => release() };
+}
+
+/** Stops what has taken the slot of the action. */
+async function cancel(page, kind) {
+  const bar = page.locator('.progress');
+  await bar.waitFor({ timeout: 20_000 });
+  assert.equal(await bar.getAttribute('aria-label'), kind);
+  await bar.locator('xpath=following-sibling::button').click();
+  await bar.waitFor({ state: 'detached' });
+}
+
+/** Stops what is done by the way and lasts: what was asked last stands first, and is stopped on the way. */
+async function cancelLasting(page, kind) {
+  for (let tries = 0; tries < 5; tries++) {
+    await page.click('.lasting .button', { trial: true });
+    // In one go: what stands there may be another thing a moment later.
+    const stopped = await page.evaluate(() => {
+      const row = document.querySelector('.lasting');
+      row?.querySelector('button').click();
+      return row?.querySelector('p').textContent;
+    });
+    await page.waitForFunction((words) => document.querySelector('.lasting p')?.textContent !== words, stopped);
+    if (stopped === kind) return;
+  }
+  assert.fail(`${kind} is not told of`);
+}
+
+test('every long job has a cancel, and nothing is the worse for it', { timeout: 900_000 }, async () => {
+  const { page, errors, hold, release, close } = await openHeld();
+  try {
+    await page.waitForSelector('.sample');
+    hold();
+    await page.click('.sample');
+    await cancel(page, 'Rendering, measuring and adjusting the sample');
+    release();
+    await sample(page);
+    const sigma0 = await figure(page, 'sigma0');
+    const whole = Object.values(await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click()))[0];
+    const entries = unzipped(whole);
+    const [photo] = Object.keys(entries).filter((name) => name.startsWith('photos/'));
+    await idle(page);
+
+    await go(page, 'targets');
+    await page.click('[data-photo="sample-5"]');
+    hold();
+    await page.click('[data-photo="sample-2"]');
+    await cancelLasting(page, 'A photo is being read');
+
+    await page.click('[data-action=detect]');
+    await cancel(page, 'Detecting');
+    await go(page, 'adjust');
+    await page.click('.action .button');
+    await cancel(page, 'Adjusting');
+    assert.match(await notice(page), /Cancelled/);
+    await go(page, 'identities');
+    await page.getByRole('button', { name: 'Match uncoded targets', exact: true }).click();
+    await cancel(page, 'Matching');
+    await choosePoint(page, '11');
+    await cancelLasting(page, 'Photos are being oriented, to show where points should be');
+    await page.getByRole('button', { name: 'Save with photos', exact: true }).click();
+    await cancel(page, 'Saving');
+
+    await go(page, 'report');
+    await cancelLasting(page, 'The report is being made');
+    assert.match(await page.textContent('.note.bad'), /stopped/);
+    release();
+    await go(page, 'results');
+    await go(page, 'report');
+    const saving = page.getByRole('button', { name: 'Save HTML', exact: true });
+    await page.waitForFunction(() => document.querySelector('.note.bad') === null);
+    await saving.and(page.locator(':enabled')).waitFor();
+    hold();
+    await saving.click();
+    await cancel(page, 'Writing the report');
+    await go(page, 'results');
+    await page.click('[data-shown=plots]');
+    await cancelLasting(page, 'Plots are being drawn');
+
+    await page.click('.mark');
+    await page.click('[data-open="print"]');
+    await cancelLasting(page, 'Targets are being drawn');
+    await page.click('.mark');
+    await drop(page, [scratch(photo.slice(7), Buffer.concat([entries[photo], Buffer.from('another')]))]);
+    await cancel(page, 'Opening photos');
+    await drop(page, [scratch('own.sightline', whole)]);
+    await cancel(page, 'Opening the project');
+
+    // What was stopped can be done after all, with what it gave before.
+    release();
+    await go(page, 'adjust');
+    await page.click('.action .button');
+    await idle(page);
+    await go(page, 'results');
+    assert.equal(await figure(page, 'sigma0'), sigma0);
+    await go(page, 'report');
+    await page.waitForFunction(() => document.querySelector('.note.bad') === null);
+    assert.deepEqual(errors, []);
+  } finally {
+    release();
+    await close();
+  }
+});
+
+test('plans and experiments can be stopped', { timeout: 600_000 }, async () => {
+  const { page, errors, hold, release, close } = await openHeld();
+  try {
+    await page.click('[data-open="plan"]');
+    await page.click('[data-form="plane"]');
+    await page.waitForSelector('.plan-view .point-at');
+    await page.fill('input[name="precision"]', '0.03');
+    await page.press('input[name="precision"]', 'Enter');
+    await page.click('[data-action="make"]');
+    await page.waitForSelector('.verdict [data-reached="true"]', { timeout: 60_000 });
+    await idle(page);
+    const count = await page.locator('.stations tbody tr').count();
+    hold();
+    for (const action of ['next', 'make']) {
+      await page.click(`[data-action="${action}"]`);
+      await cancel(page, 'Looking for photos');
+    }
+    assert.equal(await page.locator('.stations tbody tr').count(), count);
+    await page.fill('input[name="precision"]', '0.04');
+    await page.press('input[name="precision"]', 'Enter');
+    await cancelLasting(page, 'The plan is being computed');
+    release();
+    await page.fill('input[name="precision"]', '0.05');
+    await page.press('input[name="precision"]', 'Enter');
+    await page.click('[data-action="next"]');
+    await page.waitForSelector('[data-take="0"]', { timeout: 60_000 });
+
+    await page.click('.mark');
+    await page.click('.experiments-entry');
+    hold();
+    await page.click('.action .run');
+    await cancel(page, 'Running the experiment');
+    assert.deepEqual(errors, []);
+  } finally {
+    release();
+    await close();
+  }
+});
