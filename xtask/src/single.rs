@@ -67,7 +67,9 @@ pub fn write_to(dist: &Path) -> Outcome {
         format!("{decoders}\n{}\n{start}", inlined(&text(&format!("{WORKER}.js"))?)?)
     };
     let style = styles(&page)?.iter().map(|name| text(name)).collect::<Outcome<Vec<_>>>()?.concat();
-    let desk = with_parts(&text(&format!("{MODULE}.js"))?, &text(parts::GLUE)?)?;
+    let glue = text(&format!("{MODULE}.js"))?;
+    // While the page is worked on, its module is whole.
+    let desk = if dist.join(parts::GLUE).exists() { with_parts(&glue, &text(parts::GLUE)?)? } else { inlined(&glue)? };
     let script = format!("{OPENING}{desk}\nawait __wbg_init({{ module_or_path: bytes('desk') }});\n");
     if script.contains("</script") || style.contains("</style") {
         return Err("a part of the page ends the element that it would be in".into());
