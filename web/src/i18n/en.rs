@@ -272,6 +272,7 @@ declare! { desk {
     // Project
     project_name: "Project name";
     saved_at(clock): "saved {clock}";
+    saved_without_photos(clock, n): "saved {clock}, {n} {n:photo|photos} not";
     changed_after(clock): "changed since {clock}";
     save: "Save";
     save_all: "Save with photos";

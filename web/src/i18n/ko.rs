@@ -264,6 +264,7 @@ translate! { Korean desk {
     // Project
     project_name: "프로젝트 이름";
     saved_at(clock): "{clock} 저장됨";
+    saved_without_photos(clock, n): "{clock} 저장됨, 사진 {n}매 제외";
     changed_after(clock): "{clock} 이후 변경됨";
     save: "저장";
     save_all: "사진과 함께 저장";

@@ -50,9 +50,11 @@ pub struct Keeper {
     /// What is not written yet, in its order.
     pub(super) backlog: VecDeque<Append>,
     pub(super) sending: bool,
-    /// Photos that are kept, or that could not be.
+    /// Photos that are kept, or that could not be (`Desk::uncopied`).
     pub(super) photos: HashSet<String>,
     pub(super) copying: bool,
+    /// When a photo found no room, in milliseconds.
+    pub(super) missed_at: f64,
     /// Whether a worker is being started in the place of one whose storage was cleared.
     pub(super) anew: bool,
     /// Notes written, ever.
@@ -115,9 +117,9 @@ struct Opened {
 }
 
 #[derive(Deserialize)]
-struct Copied {
-    missed: Vec<String>,
-    failure: Option<String>,
+pub(super) struct Copied {
+    pub(super) missed: Vec<String>,
+    pub(super) failure: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -148,8 +150,8 @@ pub(super) struct Ids<'a> {
 }
 
 #[derive(Serialize)]
-struct Keys<'a> {
-    keys: &'a [String],
+pub(super) struct Keys<'a> {
+    pub(super) keys: &'a [String],
 }
 
 /// A call that names a project.
@@ -164,7 +166,7 @@ impl PhotoFile {
     }
 
     /// Names it in the storage, by what is in it.
-    fn key(&self) -> String {
+    pub(super) fn key(&self) -> String {
         format!("{:016x}-{}", self.digest, self.content.size())
     }
 
@@ -299,6 +301,7 @@ impl Desk {
             return;
         }
         self.keeper.update_value(|keeper| keeper.sending = true);
+        let room_came = self.kept.with_untracked(|kept| matches!(kept, Kept::Failed(..)));
         self.kept.set(Kept::Writing);
         spawn_local(async move {
             let mut outcome = Ok(());
@@ -323,6 +326,7 @@ impl Desk {
                 Ok(()) => {
                     self.kept.set(Kept::At(page::clock()));
                     self.measure_space();
+                    self.copy_after_writing(room_came);
                 }
                 Err(Fault { name, .. }) if name == "GoneError" => self.keep_anew("noticed").await,
                 // Another worker takes this one's place, and everything is written again.
@@ -353,72 +357,6 @@ impl Desk {
     /// Whether something that was done is in this page alone.
     pub(super) fn unwritten(self) -> bool {
         self.keeper.with_value(|keeper| keeper.sending || !keeper.backlog.is_empty())
-    }
-
-    /// Copies photos that are not kept yet, one after the other; then works on the copies, which nobody can unplug.
-    fn copy_photos(self) {
-        let Some(storage) = self.storage() else { return };
-        if self.keeper.with_value(|keeper| keeper.copying) || self.next_to_copy().is_none() {
-            return;
-        }
-        self.keeper.update_value(|keeper| keeper.copying = true);
-        spawn_local(async move {
-            let (mut kept, mut missed, mut why) = (Vec::new(), 0, None);
-            while let Some((key, file)) = self.next_to_copy() {
-                self.to_copy.set(self.left_to_copy());
-                let extras = vec![Extra::Blob(file.content.clone()), Extra::Picture(file.small.clone())];
-                let asked = Keys { keys: std::slice::from_ref(&key) };
-                let (failed, failure) = match storage.call::<Copied>("keep", &asked, extras).await {
-                    Ok((Copied { missed, failure }, _)) => (!missed.is_empty(), failure),
-                    // Its place is taken by another worker, which copies all of them.
-                    Err(fault) if fault.name == LOST => break,
-                    Err(fault) => (true, Some(fault.detail)),
-                };
-                missed += usize::from(failed);
-                why = why.or(failure);
-                self.keeper.update_value(|keeper| {
-                    keeper.photos.insert(key.clone());
-                });
-                if !failed {
-                    kept.push(key);
-                }
-            }
-            self.to_copy.set(0);
-            self.keeper.update_value(|keeper| keeper.copying = false);
-            if let Ok((_, copies)) = storage.call::<IgnoredAny>("photos", &Keys { keys: &kept }, Vec::new()).await {
-                let copies = copies.into_iter().step_by(2).map(Extra::blob);
-                let copies = kept.into_iter().zip(copies).filter_map(|(key, blob)| Some((key, blob?)));
-                let copies = copies.collect::<HashMap<String, Blob>>();
-                self.files.update(|files| {
-                    for file in files.values_mut() {
-                        if let Some(copy) = copies.get(&file.key()) {
-                            let before = std::mem::replace(&mut file.content, copy.clone());
-                            file.original = Some(before).filter(Blob::is_own_file).or(file.original.take());
-                        }
-                    }
-                });
-            }
-            if missed > 0 {
-                let why = why.unwrap_or_default();
-                self.say(true, Until::NextWork, move || text::photos_not_copied(missed, &why));
-            }
-            self.measure_space();
-        });
-    }
-
-    fn next_to_copy(self) -> Option<(String, PhotoFile)> {
-        self.files.with_untracked(|files| {
-            self.keeper.with_value(|keeper| {
-                let keyed = files.values().map(|file| (file.key(), file));
-                keyed.into_iter().find(|(key, _)| !keeper.photos.contains(key)).map(|(key, file)| (key, file.clone()))
-            })
-        })
-    }
-
-    fn left_to_copy(self) -> usize {
-        self.files.with_untracked(|files| {
-            self.keeper.with_value(|keeper| files.values().filter(|file| !keeper.photos.contains(&file.key())).count())
-        })
     }
 
     /// Puts another project in the place of this one, with a history of its own. Where nothing is kept the one before can be

@@ -6,6 +6,7 @@ pub mod cameras;
 mod cleared;
 pub mod condensing;
 pub mod control;
+mod copying;
 pub mod detection;
 pub mod document;
 pub mod equipment;
@@ -34,7 +35,7 @@ pub mod tables;
 pub mod texts;
 pub mod values;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -358,6 +359,8 @@ pub struct Desk {
     keeper: StoredValue<Keeper, LocalStorage>,
     /// Photos whose copy is still to be made.
     pub to_copy: RwSignal<usize>,
+    /// Photos that found no room in the browser's storage, by their keys, and why.
+    uncopied: RwSignal<HashMap<String, String>>,
     /// Bytes used and in all, where the browser says so.
     pub space: RwSignal<Option<(f64, f64)>>,
     /// Whether the browser keeps what is stored when space runs short.
@@ -427,6 +430,7 @@ impl Desk {
             kept: RwSignal::default(),
             keeper: StoredValue::new_local(Keeper::default()),
             to_copy: RwSignal::default(),
+            uncopied: RwSignal::default(),
             space: RwSignal::default(),
             persistent: RwSignal::default(),
             shelf: RwSignal::new_local(None),

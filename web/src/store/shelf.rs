@@ -145,6 +145,7 @@ impl Desk {
         spawn_local(async move {
             let _ = call::<IgnoredAny>(&storage, "purge", &Of { id: &id }).await;
             self.measure_space();
+            self.copy_again();
         });
     }
 

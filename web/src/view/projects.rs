@@ -177,7 +177,10 @@ pub fn kept_words(desk: Desk) -> String {
     match desk.kept.get() {
         Kept::At(_) if desk.to_copy.get() > 0 => text::copying_photos(desk.to_copy.get()),
         Kept::At(clock) if clock.is_empty() => text::not_saved().to_owned(),
-        Kept::At(clock) => text::saved_at(clock),
+        Kept::At(clock) => match desk.not_copied() {
+            Some((missed, _)) => text::saved_without_photos(clock, missed),
+            None => text::saved_at(clock),
+        },
         Kept::Writing => text::writing().to_owned(),
         Kept::Failed(..) => text::not_written().to_owned(),
         Kept::Following => text::following().to_owned(),
@@ -197,15 +200,17 @@ pub fn StorageLine() -> impl IntoView {
         Kept::Starting => String::new(),
         Kept::Nowhere => text::keeps_nothing().to_owned(),
         Kept::Failed(name, detail) => unkept_words(&name, &detail),
-        _ => match desk.space.get() {
-            Some((used, all)) => {
+        _ => match (desk.not_copied(), desk.space.get()) {
+            (Some((missed, why)), _) => text::photos_not_copied(missed, &why),
+            (None, Some((used, all))) => {
                 let lasts = if desk.persistent.get() { text::lasts() } else { text::may_be_cleared() };
                 format!("{} · {lasts}", text::space_used(bytes_words(used), bytes_words(all)))
             }
-            None => String::new(),
+            (None, None) => String::new(),
         },
     };
-    let alarm = move || desk.kept.with(|kept| matches!(kept, Kept::Nowhere | Kept::Failed(..)));
+    let alarm =
+        move || desk.kept.with(|kept| matches!(kept, Kept::Nowhere | Kept::Failed(..))) || desk.not_copied().is_some();
     view! {
         <Show when=move || desk.offline.get()><div class="offline"><b>{text::no_network}</b></div></Show>
         <div class="storage" class:warn=alarm>{words}</div>

@@ -1,0 +1,116 @@
+//! Copies of the photos in the browser's storage: what found no room there is said for as long as it is so.
+
+use std::collections::HashMap;
+
+use leptos::prelude::*;
+use leptos::task::spawn_local;
+use serde::de::IgnoredAny;
+
+use super::keeping::{Copied, Keys};
+use super::{Desk, PhotoFile, Until};
+use crate::browser::file::Blob;
+use crate::browser::page;
+use crate::browser::storage::{Extra, LOST};
+use crate::i18n::text;
+
+/// Time, in milliseconds, after which photos that found no room are tried again.
+const AGAIN_MS: f64 = 60_000.0;
+
+impl Desk {
+    /// Copies photos that are not kept yet, one after the other; then works on the copies, which nobody can unplug.
+    pub(super) fn copy_photos(self) {
+        let Some(storage) = self.storage() else { return };
+        if self.keeper.with_value(|keeper| keeper.copying) || self.next_to_copy().is_none() {
+            return;
+        }
+        self.keeper.update_value(|keeper| keeper.copying = true);
+        spawn_local(async move {
+            let (mut kept, mut missed) = (Vec::new(), Vec::new());
+            while let Some((key, file)) = self.next_to_copy() {
+                self.to_copy.set(self.left_to_copy());
+                let extras = vec![Extra::Blob(file.content.clone()), Extra::Picture(file.small.clone())];
+                let asked = Keys { keys: std::slice::from_ref(&key) };
+                let failure = match storage.call::<Copied>("keep", &asked, extras).await {
+                    Ok((Copied { missed, failure }, _)) => (!missed.is_empty()).then(|| failure.unwrap_or_default()),
+                    // Its place is taken by another worker, which copies all of them.
+                    Err(fault) if fault.name == LOST => break,
+                    Err(fault) => Some(fault.detail),
+                };
+                self.keeper.update_value(|keeper| {
+                    keeper.photos.insert(key.clone());
+                });
+                match failure {
+                    Some(why) => missed.push((key, why)),
+                    None => kept.push(key),
+                }
+            }
+            self.to_copy.set(0);
+            self.keeper.update_value(|keeper| keeper.copying = false);
+            if let Ok((_, copies)) = storage.call::<IgnoredAny>("photos", &Keys { keys: &kept }, Vec::new()).await {
+                let copies = copies.into_iter().step_by(2).map(Extra::blob);
+                let copies = kept.iter().cloned().zip(copies).filter_map(|(key, blob)| Some((key, blob?)));
+                let copies = copies.collect::<HashMap<String, Blob>>();
+                self.files.update(|files| {
+                    for file in files.values_mut() {
+                        if let Some(copy) = copies.get(&file.key()) {
+                            let before = std::mem::replace(&mut file.content, copy.clone());
+                            file.original = Some(before).filter(Blob::is_own_file).or(file.original.take());
+                        }
+                    }
+                });
+            }
+            let told =
+                missed.iter().all(|(key, _)| self.uncopied.with_untracked(|uncopied| uncopied.contains_key(key)));
+            self.keeper.update_value(|keeper| keeper.missed_at = page::now());
+            self.uncopied.update(|uncopied| {
+                uncopied.retain(|key, _| !kept.contains(key));
+                uncopied.extend(missed.iter().cloned());
+            });
+            if let Some((_, why)) = missed.first().cloned().filter(|_| !told) {
+                self.say(true, Until::NextWork, move || text::photos_not_copied(missed.len(), &why));
+            }
+            self.measure_space();
+        });
+    }
+
+    /// Tries again with photos that found no room: what browsers say of free space is no guide.
+    pub(super) fn copy_again(self) {
+        let missed = self.uncopied.get_untracked();
+        if !missed.is_empty() {
+            self.keeper.update_value(|keeper| keeper.photos.retain(|key| !missed.contains_key(key)));
+            self.copy_photos();
+        }
+    }
+
+    /// Something was written: after a while, or where it could not be before, there may be room for photos.
+    pub(super) fn copy_after_writing(self, room_came: bool) {
+        let waited = self.keeper.with_value(|keeper| page::now() - keeper.missed_at > AGAIN_MS);
+        if room_came || waited {
+            self.copy_again();
+        }
+    }
+
+    /// How many photos of the project are in this page alone, and why.
+    pub fn not_copied(self) -> Option<(usize, String)> {
+        let uncopied = self.uncopied.get();
+        let missed = self
+            .files
+            .with(|files| files.values().filter_map(|file| uncopied.get(&file.key()).cloned()).collect::<Vec<_>>());
+        Some((missed.len(), missed.first()?.clone()))
+    }
+
+    fn next_to_copy(self) -> Option<(String, PhotoFile)> {
+        self.files.with_untracked(|files| {
+            self.keeper.with_value(|keeper| {
+                let keyed = files.values().map(|file| (file.key(), file));
+                keyed.into_iter().find(|(key, _)| !keeper.photos.contains(key)).map(|(key, file)| (key, file.clone()))
+            })
+        })
+    }
+
+    fn left_to_copy(self) -> usize {
+        self.files.with_untracked(|files| {
+            self.keeper.with_value(|keeper| files.values().filter(|file| !keeper.photos.contains(&file.key())).count())
+        })
+    }
+}
