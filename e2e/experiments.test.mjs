@@ -55,6 +55,7 @@ test('every experiment runs beside the page, within ten seconds, with the figure
       assert.ok(longest < Math.max(500, took / 4), `${name} held the page for ${longest} ms of ${took}`);
       assert.ok((await page.locator('.chart path.way').count()) > 1, `${name}: charts`);
       assert.ok((await page.locator('[data-figure]').count()) >= 7, `${name}: figures`);
+      assert.ok((await page.locator('.keys [data-key]').count()) >= 4, `${name}: key figures`);
       assert.ok((await page.locator('.assumed li').count()) >= 3, `${name}: assumptions`);
       assert.doesNotMatch(await page.textContent('.outcome'), /NaN|Infinity|undefined/);
 

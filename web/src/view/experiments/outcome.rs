@@ -24,6 +24,9 @@ fn key_figures(name: &str) -> &'static [&'static str] {
         "lee-calibration" => {
             &["relative/reduced", "residual_px_x/reduced", "residual_px_y/reduced", "centre_rms/least_squares"]
         }
+        "sensor" => {
+            &["centre_rms/sites", "centre_rms/jpeg-92", "object_rms/sites", "object_rms/jpeg-92", "object_rms/jpeg-75"]
+        }
         "lee-structure" => &["sy/I-free", "sy/II-free", "sy/III-free", "gain_y/I", "gain_y/III"],
         _ => &["iterations", "rms/x", "rms/y", "rms/z"],
     }
@@ -32,10 +35,12 @@ fn key_figures(name: &str) -> &'static [&'static str] {
 #[component]
 pub fn Outcome(ran: Arc<Ran>) -> impl IntoView {
     let experiment: &Experiment = &ran.experiment;
+    // What no paper has is compared with none.
+    let of_paper = experiment.figures.iter().any(|figure| figure.paper.is_some());
     let keys = key_figures(&experiment.name)
         .iter()
         .filter_map(|id| experiment.figures.iter().find(|f| f.id == *id))
-        .map(|figure| view! { <KeyFigure figure=figure.clone()/> })
+        .map(|figure| view! { <KeyFigure figure=figure.clone() of_paper=of_paper/> })
         .collect_view();
     let charts = experiment.charts.iter().map(|chart| view! { <LineChart chart=chart.clone()/> }).collect_view();
     let tables = experiment.tables.iter().map(|table| view! { <Numbers table=table.clone()/> }).collect_view();
@@ -43,7 +48,7 @@ pub fn Outcome(ran: Arc<Ran>) -> impl IntoView {
     view! {
         <div class="hero keys">{keys}</div>
         <div class="charts">{charts}</div>
-        <Assumed assumptions=experiment.assumptions.clone()/>
+        <Assumed assumptions=experiment.assumptions.clone() of_paper=of_paper/>
         <Figures figures=experiment.figures.clone()/>
         {tables}
         <p class="note ran">{move || words::ran_in(format::fixed(seconds, 1))}</p>
@@ -73,7 +78,7 @@ fn with_unit(value: f64, figure: &Figure) -> String {
 }
 
 #[component]
-fn KeyFigure(figure: Figure) -> impl IntoView {
+fn KeyFigure(figure: Figure, of_paper: bool) -> impl IntoView {
     let named = figure.clone();
     let ours = with_unit(figure.ours, &figure);
     let paper = figure.paper.map(|value| with_unit(value, &figure));
@@ -81,13 +86,13 @@ fn KeyFigure(figure: Figure) -> impl IntoView {
         <div data-key=figure.id.clone()>
             <span>{move || names::figure(&named)}</span>
             <b>{ours}</b>
-            <small>{move || paper.as_ref().map_or(words::no_paper_figure().to_owned(), |p| format!("{} {p}", words::paper()))}</small>
+            {of_paper.then(|| view! { <small>{move || paper.as_ref().map_or(words::no_paper_figure().to_owned(), |p| format!("{} {p}", words::paper()))}</small> })}
         </div>
     }
 }
 
 #[component]
-fn Assumed(assumptions: Vec<Assumption>) -> impl IntoView {
+fn Assumed(assumptions: Vec<Assumption>, of_paper: bool) -> impl IntoView {
     let sentences = assumptions
         .into_iter()
         .map(|a| {
@@ -96,7 +101,8 @@ fn Assumed(assumptions: Vec<Assumption>) -> impl IntoView {
         })
         .collect_view();
     view! {
-        <h2 class="section-head"><span>{words::assumed}</span><span class="aside">{words::assumed_aside}</span></h2>
+        <h2 class="section-head"><span>{words::assumed}</span>
+            {of_paper.then(|| view! { <span class="aside">{words::assumed_aside}</span> })}</h2>
         <ul class="assumed">{sentences}</ul>
     }
 }
@@ -104,6 +110,7 @@ fn Assumed(assumptions: Vec<Assumption>) -> impl IntoView {
 #[component]
 fn Figures(figures: Vec<Figure>) -> impl IntoView {
     let independent = figures.iter().any(|f| f.independent.is_some());
+    let of_paper = figures.iter().any(|f| f.paper.is_some());
     let rows = figures
         .into_iter()
         .map(|f| {
@@ -115,8 +122,7 @@ fn Figures(figures: Vec<Figure>) -> impl IntoView {
                 <tr data-figure=id>
                     <td class="left">{move || names::figure(&f)}</td>
                     <td><b>{ours}</b></td>
-                    <td class="of-paper">{paper}</td>
-                    <td>{difference}</td>
+                    {of_paper.then(|| view! { <td class="of-paper">{paper}</td><td>{difference}</td> })}
                     {independent.then_some(view! { <td>{other}</td> })}
                 </tr>
             }
@@ -129,8 +135,7 @@ fn Figures(figures: Vec<Figure>) -> impl IntoView {
                 <thead><tr>
                     <th class="left">{words::figure}</th>
                     <th>{words::ours}</th>
-                    <th class="of-paper">{words::paper}</th>
-                    <th>{words::difference}</th>
+                    {of_paper.then(|| view! { <th class="of-paper">{words::paper}</th><th>{words::difference}</th> })}
                     {independent.then(|| view! { <th>{words::independent}</th> })}
                 </tr></thead>
                 <tbody>{rows}</tbody>
