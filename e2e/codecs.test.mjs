@@ -40,6 +40,7 @@ test('HEIC and RAW are opened and measured, and without one no decoder is fetche
     assert.match(await page.textContent('.problems li'), /photo\.heic.*same shot as photo\.dng/);
     await page.keyboard.press('Control+z');
     await page.waitForFunction(() => document.querySelector('.tile').textContent.includes('photo.heic'));
+    assert.match(await page.textContent('.problems li'), /photo\.dng.*same shot as photo\.heic/);
     await page.keyboard.press('Control+Shift+Z');
     await page.waitForFunction(() => document.querySelector('.tile').textContent.includes('photo.dng'));
     await page.click('[data-action="swap"]');

@@ -272,6 +272,22 @@ impl Desk {
         }
     }
 
+    /// Files that were not taken. Of two files of a shot it is the one that is not measured in the project as it is: undo changes which.
+    pub fn left_out(self) -> Vec<Problem> {
+        let measured: BTreeSet<String> =
+            self.document.with(|d| d.project.photos.iter().map(|photo| photo.file.clone()).collect());
+        let now = |Problem { file, reason }: Problem| match reason {
+            Reason::RawOf { of } if measured.contains(&file) && !measured.contains(&of) => {
+                Problem { file: of, reason: Reason::Developed { of: file } }
+            }
+            Reason::Developed { of } if measured.contains(&file) && !measured.contains(&of) => {
+                Problem { file: of, reason: Reason::RawOf { of: file } }
+            }
+            reason => Problem { file, reason },
+        };
+        self.problems.get().into_iter().map(now).collect()
+    }
+
     fn add_photo(self, project: &mut Project, file: &PhotoFile) -> String {
         let signature = Signature::of(&file.name, &file.info, file.size);
         let shares = self.files.with_untracked(|files| {

@@ -262,9 +262,9 @@ pub fn Problems() -> impl IntoView {
         <Show when=move || desk.problems.with(|p| !p.is_empty())>
             <h2 class="section-head">
                 <span>{text::not_taken}</span>
-                <Show when=move || desk.problems.with(|all| all.iter().any(is_other_of_a_shot))>
+                <Show when=move || desk.left_out().iter().any(is_other_of_a_shot)>
                     <button class="link" data-action="swap" on:click=move |_| desk.swap_shots()>
-                        {move || match desk.problems.with(|all| all.iter().any(|p| matches!(p.reason, Reason::RawOf { .. }))) {
+                        {move || match desk.left_out().iter().any(|p| matches!(p.reason, Reason::RawOf { .. })) {
                             true => text::measure_raw(),
                             false => text::measure_developed(),
                         }}
@@ -273,7 +273,7 @@ pub fn Problems() -> impl IntoView {
                 <button class="link" on:click=move |_| desk.problems.set(Vec::new())>{text::dismiss}</button>
             </h2>
             <ul class="problems">
-                {move || desk.problems.get().into_iter().map(|Problem { file, reason }| view! {
+                {move || desk.left_out().into_iter().map(|Problem { file, reason }| view! {
                     <li><Glyph icon=Icon::Warning/><b>{file}</b><span>{move || problem_sentence(&reason)}</span></li>
                 }).collect_view()}
             </ul>

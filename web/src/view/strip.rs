@@ -63,7 +63,7 @@ pub fn Strip() -> impl IntoView {
                 })
             }).collect_view()}
             <ul>
-                {move || desk.problems.get().into_iter().map(|problem| view! { <StripProblem problem/> }).collect_view()}
+                {move || desk.left_out().into_iter().map(|problem| view! { <StripProblem problem/> }).collect_view()}
             </ul>
         </nav>
     }
