@@ -235,7 +235,8 @@ fn object(frame: &Frame, plan: &Plan) -> impl IntoView + use<> {
 fn points(frame: &Frame, plan: &Plan, prediction: Option<&Prediction>) -> impl IntoView + use<> {
     // As large as is wanted, with the wanted probability, is as large everywhere.
     let times = prediction.map_or(1.0, |p| p.factor) * WANTED / plan.wanted.precision;
-    let mut ellipses = Vec::new();
+    // One path for all of a colour: elements by the hundred cost more than what they show while a station is dragged.
+    let mut ellipses = [String::new(), String::new()];
     let signs = (0..plan.points.len()).filter_map(|k| {
         let [x, y] = frame.at(&plan.points[k].xyz?);
         let class = class_of(plan, prediction, k);
@@ -243,11 +244,12 @@ fn points(frame: &Frame, plan: &Plan, prediction: Option<&Prediction>) -> impl I
         if let Some(covariance) = predicted.and_then(|p| p.covariance).filter(|_| class != "given") {
             let [large, small, angle] = frame.ellipse(&covariance);
             let [large, small] = [large, small].map(|axis| (axis * times).min(LARGEST));
-            let turned = format!("rotate({angle:.1} {x:.1} {y:.1})");
-            ellipses.push(view! {
-                <ellipse class="ellipse" class:beyond=class == "beyond" cx=format!("{x:.1}") cy=format!("{y:.1}")
-                    rx=format!("{large:.1}") ry=format!("{small:.1}") transform=turned></ellipse>
-            });
+            // From one end of the larger axis over the other and back.
+            let (sin, cos) = angle.to_radians().sin_cos();
+            let (dx, dy) = (large * cos, large * sin);
+            let turn = |to: f64| format!("a{large:.2} {small:.2} {angle:.1} 1 0 {:.2} {:.2}", to * dx, to * dy);
+            let outline = format!("M{:.2} {:.2}{}{}", x - dx, y - dy, turn(2.0), turn(-2.0));
+            ellipses[usize::from(class == "beyond")].push_str(&outline);
         }
         let id = &plan.points[k].id;
         let told = predicted
@@ -263,7 +265,8 @@ fn points(frame: &Frame, plan: &Plan, prediction: Option<&Prediction>) -> impl I
         })
     });
     let signs = signs.collect_view();
-    view! { {ellipses}{signs} }
+    let [within, beyond] = ellipses;
+    view! { <path class="ellipse" d=within></path><path class="ellipse beyond" d=beyond></path>{signs} }
 }
 
 /// Places for the next photo.

@@ -1,6 +1,9 @@
 //! The shooting plan on paper: stations with places, aims and rolls, and a checklist in both languages.
 
+use std::sync::Arc;
+
 use leptos::prelude::*;
+use sightline::plan::Prediction;
 
 use super::predicted;
 use crate::format;
@@ -16,9 +19,21 @@ fn both(say: fn(&dyn Words) -> &'static str) -> String {
 #[component]
 pub fn ShootingPlan() -> impl IntoView {
     let desk = expect_context::<Desk>();
+    // Nobody prints while a station is dragged.
+    let settled = Memo::new_with_compare(
+        move |before: Option<&Option<Arc<Prediction>>>| match before {
+            Some(before) if desk.planning.live.with(Option::is_some) => before.clone(),
+            _ => predicted(desk),
+        },
+        |a, b| match (a.cloned().flatten(), b.cloned().flatten()) {
+            (Some(a), Some(b)) => !Arc::ptr_eq(&a, &b),
+            (None, None) => false,
+            _ => true,
+        },
+    );
     let rows = move || {
         let plan = desk.plan().unwrap_or_default();
-        let prediction = predicted(desk);
+        let prediction = settled.get();
         let row = |(k, station): (usize, sightline::project::PlanStation)| {
             let sight = prediction.as_ref().and_then(|p| p.stations.get(k));
             let place = station.position.map(format::compact);

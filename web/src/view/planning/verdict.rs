@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use sightline::Error;
 use sightline::adjustment::Advice;
 use sightline::plan::{Criterion, Lacking, Prediction};
-use sightline::project::{Parameter, Plan};
+use sightline::project::{Parameter, Wanted};
 
 use super::predicted;
 use crate::browser::event;
@@ -63,7 +63,8 @@ fn advice_words(advice: &Advice) -> Option<String> {
 pub fn Verdict() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let told = move || {
-        let plan = desk.shown_plan()?;
+        // What is wanted does not change while a station is dragged.
+        let (wanted, points) = desk.document.with(|d| d.project.plan.as_deref().map(|p| (p.wanted, p.points.len())))?;
         let failure = desk.planning.predicted.with(|p| p.as_ref().and_then(|p| p.as_ref().err()).map(errors::sentence));
         if let Some(sentence) = failure {
             return Some(
@@ -73,15 +74,15 @@ pub fn Verdict() -> impl IntoView {
         let Some(prediction) = predicted(desk) else {
             return Some(view! { <p class="note">{words::predicting}</p> }.into_any());
         };
-        Some(verdict(desk, &plan, &prediction).into_any())
+        Some(verdict(desk, wanted, points, &prediction).into_any())
     };
     view! { <div class="verdict" aria-live="polite">{told}</div> }
 }
 
-fn verdict(desk: Desk, plan: &Plan, prediction: &Prediction) -> impl IntoView + use<> {
+fn verdict(desk: Desk, wanted: Wanted, points: usize, prediction: &Prediction) -> impl IntoView + use<> {
     let unit = unit(desk);
     let k = prediction.factor;
-    let level = format::editable((1e5 * plan.wanted.probability).round() / 1e3);
+    let level = format::editable((1e5 * wanted.probability).round() / 1e3);
     let beyond = prediction
         .lacks
         .iter()
@@ -90,12 +91,9 @@ fn verdict(desk: Desk, plan: &Plan, prediction: &Prediction) -> impl IntoView + 
     let reached = prediction.reached;
     let head = match (&largest, beyond) {
         (Some(largest), _) if reached => words::reached(largest, &unit, &level),
-        (Some(_), Some(count)) => words::missed(
-            format::count(count),
-            format::count(plan.points.len()),
-            format::compact(plan.wanted.precision),
-            &unit,
-        ),
+        (Some(_), Some(count)) => {
+            words::missed(format::count(count), format::count(points), format::compact(wanted.precision), &unit)
+        }
         _ => words::not_yet().to_owned(),
     };
     let worst = prediction.worst.as_ref().and_then(|id| {
@@ -215,7 +213,7 @@ pub fn Next() -> impl IntoView {
 pub fn Compared() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let table = move || {
-        let plan = desk.shown_plan()?;
+        let plan = desk.plan()?;
         let predictions = desk.planning.predicted.with(|p| p.as_ref()?.as_ref().ok().cloned())?;
         if predictions.len() != plan.variants.len() + 1 {
             return None;
