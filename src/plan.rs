@@ -9,6 +9,7 @@ mod form;
 mod judgement;
 mod make;
 mod origin;
+mod parts;
 mod setup;
 mod sight;
 mod suggest;
@@ -19,7 +20,7 @@ use crate::adjustment::{AdjustedCamera, Advice};
 use crate::error::{Defect, Result};
 use crate::project::{Parameter, Plan, PlanStation};
 
-pub use form::targets_on;
+pub use form::{least_diameter, targets_on};
 pub use make::{Made, MakeOptions, make};
 pub use origin::{from_network, from_project};
 pub use suggest::{Suggested, suggest};

@@ -6,7 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::project::{PlanStation, Point};
 
-use super::setup::{Setup, Shot, principal_distance_px};
+use super::parts::parts;
+use super::setup::{Setup, Shot, fill_distance, principal_distance_px};
 
 /// Mean of the normals' directions above which an object is seen from one side.
 const ONE_SIDED: f64 = 0.35;
@@ -14,8 +15,6 @@ const ONE_SIDED: f64 = 0.35;
 const FANS: [(f64, usize); 4] = [(0.0, 1), (22.0, 6), (42.0, 8), (58.0, 8)];
 /// Elevations, degrees, with so many directions around each, of an object that is seen from all sides.
 const LEVELS: [(f64, usize); 4] = [(2.0, 12), (28.0, 12), (55.0, 8), (88.0, 1)];
-/// Room between the object and the border of the picture.
-const ROOM: f64 = 1.04;
 /// Distances as shares of that at which the object fills the picture.
 const SHARES: [f64; 4] = [1.0, 0.72, 0.52, 1.4];
 /// How far behind the middle photos stand that look at the opposite wall, as shares of the object's radius.
@@ -139,15 +138,18 @@ fn edges(setup: &Setup<'_>) -> Vec<Vector3<f64>> {
     found
 }
 
-/// Distances that are tried: at which the object fills the picture, nearer for parts of it, farther; as far as targets are large enough.
-fn distances(setup: &Setup<'_>, frame: &Frame) -> Vec<f64> {
+/// The distance from which the object fills the picture, and that from which the smallest target is just large enough.
+fn limits(setup: &Setup<'_>, frame: &Frame) -> (f64, f64) {
     let camera = &setup.plan.cameras[0];
     let c = principal_distance_px(camera).unwrap_or(1.0);
-    let short = f64::from(camera.width.min(camera.height)) / 2.0 - setup.plan.margin;
-    let half = (short.max(1.0) / c).atan();
-    let fill = ROOM * frame.radius / half.sin();
     let smallest = setup.plan.points.iter().filter_map(|p| p.diameter).fold(f64::INFINITY, f64::min);
     let far = if setup.plan.least_px > 0.0 { smallest * c / setup.plan.least_px } else { f64::INFINITY };
+    (fill_distance(camera, setup.plan.margin, frame.radius), far)
+}
+
+/// Distances that are tried: at which the object fills the picture, nearer for parts of it, farther; as far as targets are large enough.
+fn distances(setup: &Setup<'_>, frame: &Frame) -> Vec<f64> {
+    let (fill, far) = limits(setup, frame);
     let mut all: Vec<f64> = SHARES.iter().map(|share| share * fill).filter(|d| *d < far).collect();
     if far < fill {
         // Seen at a slant, targets are smaller.
@@ -209,9 +211,37 @@ pub fn candidates(setup: &Setup<'_>, most: usize, sees: usize) -> Vec<Shot> {
             }
         }
     }
+    // Where targets are too small for a picture of the whole, photos of its parts are most of them.
+    if !frame.inward && limited(setup, &frame) {
+        let left = most - tying.len();
+        tying.extend(parts(setup, left * 2 / 3, sees));
+    }
     let left = most - tying.len();
     tying.extend(spread(shots, left));
     tying
+}
+
+/// Whether targets are too small from where the object fills the picture.
+fn limited(setup: &Setup<'_>, frame: &Frame) -> bool {
+    let (fill, far) = limits(setup, frame);
+    far < fill
+}
+
+/// Photos of one place of the object from all sides, with it in the middle of the picture or between there and the border.
+pub fn about(setup: &Setup<'_>, place: Vector3<f64>, sees: usize) -> Vec<Shot> {
+    let frame = Frame::of(setup);
+    let distances = distances(setup, &frame);
+    let mut shots = Vec::new();
+    for direction in frame.directions() {
+        for &distance in &distances {
+            for aim in [place, 0.5 * (place + frame.centre)] {
+                for &roll in rolls(setup) {
+                    shots.extend(allowed(setup, aim + distance * direction, aim, roll, sees));
+                }
+            }
+        }
+    }
+    shots
 }
 
 /// At most so many of them, evenly taken.

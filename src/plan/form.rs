@@ -2,10 +2,28 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::project::{Form, PlanFace, Point};
+use nalgebra::Vector3;
+
+use crate::project::{Form, Plan, PlanFace, Point};
+
+use super::setup::{fill_distance, principal_distance_px};
 
 /// Facets that stand for a cylinder.
 const FACETS: usize = 24;
+/// Largest angle, radians, at which targets are still to be large enough; the plan's largest incidence where that is less.
+const SLANT: f64 = PI / 3.0;
+
+/// The smallest diameter of targets that are large enough in a photo of the whole object, also on faces that are seen at a slant, in the
+/// plan's unit: D·l/(c·cos i), where D is the distance from which the object fills the picture, l the smallest axis wanted and c the
+/// principal distance, both in pixels, and i the largest incidence, at most 60°. None without points or without a camera whose principal distance is known.
+pub fn least_diameter(plan: &Plan) -> Option<f64> {
+    let camera = plan.cameras.first()?;
+    let places: Vec<Vector3<f64>> = plan.points.iter().filter_map(|p| p.xyz.map(Vector3::from)).collect();
+    let centre = places.iter().sum::<Vector3<f64>>() / places.len() as f64;
+    let radius = places.iter().map(|p| (p - centre).norm()).reduce(f64::max)?;
+    let slant = plan.max_incidence.min(SLANT);
+    Some(fill_distance(camera, plan.margin, radius) * plan.least_px / (principal_distance_px(camera)? * slant.cos()))
+}
 
 /// Points and faces of a form; counts are at least 1.
 pub fn targets_on(form: &Form) -> (Vec<Point>, Vec<PlanFace>) {

@@ -18,8 +18,10 @@ const POOL: usize = 240;
 /// Of them, those that are judged exactly when one is added or exchanged.
 const ADDED: usize = 24;
 const EXCHANGED: usize = 8;
-/// Points that a photo shares with the others at least, so that one hangs together with the next.
-const SHARED: usize = 5;
+/// Points that a photo shares with the others at least, so that one hangs together with the next; fewer where none shares as many.
+const SHARED: [usize; 3] = [5, 4, 3];
+/// Photos that may be added without any gain before the search ends.
+const PATIENCE: usize = 6;
 /// Rounds of exchange with one number of photos.
 const ROUNDS: usize = 4;
 /// Work that may be spent, in rays times photos judged: about eight seconds in a worker.
@@ -103,9 +105,9 @@ impl Search<'_> {
         }
         let mut known = vec![false; self.setup.places.len()];
         shots.iter().flat_map(|shot| &shot.seen).for_each(|(k, _)| known[*k] = true);
-        let shares = |k: &usize| self.pool[*k].seen.iter().filter(|(point, _)| known[*point]).count() >= SHARED;
-        let tied: Vec<usize> = free.iter().copied().filter(shares).collect();
-        if tied.is_empty() { free } else { tied }
+        let shared = |k: &usize| self.pool[*k].seen.iter().filter(|(point, _)| known[*point]).count();
+        let tied = SHARED.map(|least| free.iter().copied().filter(|k| shared(k) >= least).collect::<Vec<_>>());
+        tied.into_iter().find(|tied| !tied.is_empty()).unwrap_or(free)
     }
 
     /// Exchanges single photos until the goal is reached or nothing gets better.
@@ -153,6 +155,7 @@ pub fn make(plan: &Plan, options: &MakeOptions, progress: Progress) -> Result<Ma
     let most = options.most.clamp(2, MOST);
     let mut chosen: Vec<usize> = Vec::new();
     let mut best = search.judge(&chosen);
+    let (mut least, mut of) = (best, 0);
     while best > goal && chosen.len() < most && !search.spent() {
         if !progress(chosen.len(), 2 * most) {
             return Err(Error::Cancelled);
@@ -177,6 +180,16 @@ pub fn make(plan: &Plan, options: &MakeOptions, progress: Progress) -> Result<Ma
         let Some((value, other)) = added else { break };
         chosen.push(other);
         best = value;
+        if best < least {
+            (least, of) = (best, chosen.len());
+        } else if chosen.len() >= of + PATIENCE {
+            break;
+        }
+    }
+    // What gained nothing in the end is not asked of anybody.
+    if best > goal && of > 0 {
+        chosen.truncate(of);
+        best = least;
     }
     // Fewer: without the photo that is missed least, the others exchanged.
     let reached = best <= goal;

@@ -184,6 +184,16 @@ pub fn principal_distance_px(camera: &Camera) -> Option<f64> {
     }
 }
 
+/// Room between the object and the border of the picture.
+const ROOM: f64 = 1.04;
+
+/// The distance from which an object of this radius fills the picture, with its margin.
+pub fn fill_distance(camera: &Camera, margin: f64, radius: f64) -> f64 {
+    let c = principal_distance_px(camera).unwrap_or(1.0);
+    let short = f64::from(camera.width.min(camera.height)) / 2.0 - margin;
+    ROOM * radius / (short.max(1.0) / c).atan().sin()
+}
+
 fn check(plan: &Plan) -> Result<()> {
     let invalid = |reason, field: &str| Err(Error::Invalid { reason, at: Place::field(field) });
     if plan.cameras.is_empty() {

@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::candidates::{Frame, Held, LEAST_KNOWN, allowed, candidates, rolls};
+use super::candidates::{Frame, Held, LEAST_KNOWN, about, allowed, candidates, rolls};
 use super::judgement::value;
 use super::setup::{Setup, Shot};
 use super::{Criterion, Progress};
@@ -16,6 +16,8 @@ const MOST: usize = 900;
 const JUDGED_OF_LARGE: usize = 150;
 /// A network of more rays is large.
 const LARGE: usize = 3000;
+/// Points asked for that are looked at by themselves.
+const ASKED: usize = 3;
 /// So many of the best are moved.
 const MOVED: usize = 4;
 /// Steps: angle in radians, share of the distance, share of the object's radius.
@@ -45,6 +47,11 @@ pub fn suggest(plan: &Plan, criterion: &Criterion, progress: Progress) -> Result
     let present = plan.stations.iter().map(|station| setup.shot(station)).collect::<Result<Vec<_>>>()?;
     let now: Vec<&Shot> = present.iter().collect();
     let mut tried = candidates(&setup, MOST, LEAST_KNOWN);
+    if let Criterion::Points { points } = criterion {
+        // What shows them best may be none of the photos that show as much as possible.
+        let asked = points.iter().filter_map(|id| setup.index.get(id.as_str())).take(ASKED);
+        tried.extend(asked.flat_map(|k| about(&setup, setup.places[*k], LEAST_KNOWN)));
+    }
     let rays: usize = now.iter().map(|shot| shot.seen.len()).sum();
     if rays > LARGE && tried.len() > JUDGED_OF_LARGE {
         let held = Held::new(&setup, &now);

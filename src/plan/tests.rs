@@ -224,6 +224,62 @@ fn a_made_plan_reaches_what_is_wanted_where_one_can_stand() {
     assert!(!made.prediction.reached && made.stations.len() <= 5);
 }
 
+/// Two megapixels behind eight millimetres.
+fn small_camera() -> Camera {
+    Camera { pixel_pitch: Some([0.0045; 2]), ..Camera::new("s", 1632, 1224, Interior::brown(8.0)) }
+}
+
+#[test]
+fn targets_of_the_least_diameter_make_a_plan_of_a_small_camera() {
+    let form = |diameter| Form::Box { size: [1000.0, 800.0, 600.0], columns: 3, rows: 2, diameter };
+    let plan = |diameter| {
+        let (points, faces) = targets_on(&form(diameter));
+        let wanted = Wanted { precision: 0.4, probability: 0.95 };
+        Plan { cameras: vec![small_camera()], form: Some(form(diameter)), points, faces, wanted, ..Plan::default() }
+    };
+    let least = least_diameter(&plan(10.0)).expect("a camera and points");
+    assert!(least > 15.0 && least < 22.0, "{least}");
+    let made = make(&plan(least), &MakeOptions::default(), &mut |_, _| true).expect("a plan");
+    assert!(made.prediction.reached, "{:?}", made.prediction.lacks);
+    // Targets too small to tie faces together are not made better by forty photos.
+    let made = make(&plan(10.0), &MakeOptions::default(), &mut |_, _| true).expect("a plan");
+    assert!(!made.prediction.reached && made.stations.len() < 12, "{} photos", made.stations.len());
+    assert!(least_diameter(&Plan { cameras: vec![Camera::new("u", 10, 10, unknown())], ..plan(1.0) }).is_none());
+}
+
+#[test]
+fn where_targets_are_too_small_for_a_picture_of_all_its_parts_are_photographed() {
+    let form = Form::Cylinder {
+        radius: 1000.0,
+        height: 2000.0,
+        sweep: std::f64::consts::TAU,
+        columns: 16,
+        rows: 4,
+        inside: false,
+        diameter: 12.0,
+    };
+    let (points, faces) = targets_on(&form);
+    let plan = Plan { cameras: vec![small_camera()], form: Some(form), points, faces, ..Plan::default() };
+    let setup = Setup::new(&plan).expect("a plan");
+    let pool = candidates::candidates(&setup, 240, candidates::LEAST_SEEN);
+    assert!(pool.len() <= 240);
+    let mut rays = vec![0; plan.points.len()];
+    pool.iter().flat_map(|shot| &shot.seen).for_each(|(k, _)| rays[*k] += 1);
+    assert!(rays.iter().all(|rays| *rays >= 4), "{rays:?}");
+    // They overlap: from any of them one comes to all others by photos that share five points.
+    let mut known: Vec<bool> = vec![false; plan.points.len()];
+    pool[0].seen.iter().for_each(|(k, _)| known[*k] = true);
+    for _ in 0..pool.len() {
+        let next = pool.iter().find(|shot| {
+            let shared = shot.seen.iter().filter(|(k, _)| known[*k]).count();
+            shared >= 5 && shared < shot.seen.len()
+        });
+        let Some(next) = next else { break };
+        next.seen.iter().for_each(|(k, _)| known[*k] = true);
+    }
+    assert!(known.iter().all(|known| *known), "{known:?}");
+}
+
 /// An interior orientation whose principal distance is not known.
 fn unknown() -> Interior {
     match Interior::brown(28.0) {

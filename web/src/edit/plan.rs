@@ -69,7 +69,34 @@ fn empty(project: &Project, mm: f64) -> Plan {
 pub fn begin(project: &mut Project, form: Form, mm: f64) {
     let mut plan = empty(project, mm);
     set_form(&mut plan, form);
+    // Targets that the camera cannot measure are no beginning.
+    let wanted = sightline::plan::least_diameter(&plan).map(|least| round_up(least * mm) / mm);
+    if let Some(wanted) = wanted.filter(|wanted| *wanted > diameter_of(&form)) {
+        set_form(&mut plan, with_diameter(form, wanted));
+    }
     project.plan = Some(Box::new(plan));
+}
+
+/// The next of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten.
+fn round_up(value: f64) -> f64 {
+    let power = 10f64.powf(value.log10().floor());
+    let steps = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    steps.iter().map(|step| step * power).find(|rounded| *rounded >= 0.999 * value).unwrap_or(value)
+}
+
+fn diameter_of(form: &Form) -> f64 {
+    match *form {
+        Form::Plane { diameter, .. } | Form::Box { diameter, .. } | Form::Cylinder { diameter, .. } => diameter,
+    }
+}
+
+fn with_diameter(mut form: Form, wanted: f64) -> Form {
+    match &mut form {
+        Form::Plane { diameter, .. } | Form::Box { diameter, .. } | Form::Cylinder { diameter, .. } => {
+            *diameter = wanted;
+        }
+    }
+    form
 }
 
 /// Takes points into the plan, or begins one of them. What is known of a point's target stays with its name.
@@ -402,6 +429,24 @@ mod tests {
             assert!(is_form(&first_form(kind, 1000.0)));
         }
         assert!(!is_form(&Form::Box { size: [1.0; 3], columns: 100, rows: 100, diameter: 1.0 }));
+    }
+
+    #[test]
+    fn targets_to_begin_with_can_be_measured_by_the_camera() {
+        for (kind, least, most) in [("plane", 12.0, 12.0), ("box", 10.0, 10.0), ("cylinder", 12.0, 15.0)] {
+            let diameter =
+                |project: &Project| project.plan.as_ref().expect("a plan").points[0].diameter.expect("a diameter");
+            let mut project = Project::default();
+            begin(&mut project, first_form(kind, 1.0), 1.0);
+            assert!((least..=most).contains(&diameter(&project)), "{kind} {}", diameter(&project));
+            // A small camera of two megapixels.
+            let camera =
+                Camera { pixel_pitch: Some([0.0045; 2]), ..Camera::new("s", 1632, 1224, Interior::brown(8.0)) };
+            let mut project = Project { cameras: vec![camera], ..Project::default() };
+            begin(&mut project, first_form(kind, 1000.0), 1000.0);
+            assert!(diameter(&project) >= 0.0149 && diameter(&project) < 0.05, "{kind} {}", diameter(&project));
+        }
+        assert_eq!([0.9, 1.0, 11.0, 18.3, 250.0].map(round_up), [1.0, 1.0, 12.0, 20.0, 250.0]);
     }
 
     #[test]

@@ -250,7 +250,7 @@ pub fn Compared() -> impl IntoView {
             }
         });
         Some(view! {
-            <table class="table compared"><thead><tr><th></th>{heads}</tr></thead><tbody>{rows}</tbody></table>
+            <table class="table variants"><thead><tr><th></th>{heads}</tr></thead><tbody>{rows}</tbody></table>
             <div class="row actions">{actions.collect_view()}</div>
         })
     };
