@@ -8,19 +8,23 @@ fn window() -> Option<Window> {
     web_sys::window()
 }
 
-/// A number of workers that leaves the machine usable, each of them busy with a photo of so many pixels.
-pub fn worker_count(pixels: f64) -> usize {
+/// A number of workers that leaves the machine usable, each of them busy with a photo of so many pixels, where the largest has taken so
+/// many bytes.
+pub fn worker_count(pixels: f64, taken: f64) -> usize {
     let Some(navigator) = window().map(|w| w.navigator()) else { return 1 };
     // Browsers that do not say are taken for a plain laptop.
     let gigabytes = js_sys::Reflect::get(&navigator, &"deviceMemory".into()).ok().and_then(|m| m.as_f64());
-    workers_for(navigator.hardware_concurrency(), gigabytes.unwrap_or(4.0), pixels)
+    workers_for(navigator.hardware_concurrency(), gigabytes.unwrap_or(4.0), pixels, taken)
 }
 
+/// What a worker takes before it has done anything.
+const MODULE: f64 = 40e6;
+
 /// Processors less those that memory has no room for: a worker has its module and its heap, the file, its luma and what detection
-/// takes of it, about five bytes a pixel; a quarter of the memory, and never more than 0.9 GB, is for all of them.
-fn workers_for(cores: f64, gigabytes: f64, pixels: f64) -> usize {
+/// takes of it, about eight bytes a pixel (measured); a quarter of the memory, and never more than 0.9 GB, is for all of them.
+fn workers_for(cores: f64, gigabytes: f64, pixels: f64, taken: f64) -> usize {
     let room = (gigabytes * 0.25e9).min(0.9e9);
-    let each = 40e6 + 5.0 * pixels;
+    let each = (MODULE + 8.0 * pixels).max(MODULE + taken);
     (cores.min(room / each) as usize).clamp(1, 8)
 }
 
@@ -272,10 +276,11 @@ mod tests {
 
     #[test]
     fn workers_follow_memory_and_the_size_of_photos() {
-        assert_eq!(workers_for(16.0, 8.0, 2e6), 8);
-        assert_eq!(workers_for(8.0, 8.0, 24e6), 5);
-        assert_eq!(workers_for(8.0, 2.0, 24e6), 3);
-        assert_eq!(workers_for(8.0, 0.5, 100e6), 1);
-        assert_eq!(workers_for(2.0, 8.0, 24e6), 2);
+        assert_eq!(workers_for(16.0, 8.0, 2e6, 0.0), 8);
+        assert_eq!(workers_for(8.0, 8.0, 24e6, 100e6), 3);
+        assert_eq!(workers_for(8.0, 8.0, 24e6, 400e6), 2);
+        assert_eq!(workers_for(8.0, 2.0, 24e6, 0.0), 2);
+        assert_eq!(workers_for(8.0, 0.5, 100e6, 0.0), 1);
+        assert_eq!(workers_for(2.0, 8.0, 24e6, 0.0), 2);
     }
 }

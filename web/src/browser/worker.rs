@@ -19,8 +19,8 @@ pub struct Bytes(pub(super) Uint8Array);
 pub enum Message {
     /// It has started and takes requests.
     Ready,
-    /// A word on its task, with the bytes that belong to it.
-    Said(String, Vec<Bytes>),
+    /// A word on its task, with the bytes that belong to it; and how much memory the engine there has taken.
+    Said(String, Vec<Bytes>, f64),
     /// It is lost (out of memory, for instance).
     Crashed(String),
 }
@@ -179,7 +179,7 @@ fn read_message(data: &JsValue) -> Option<Message> {
     }
     let body = field(data, "body").as_string()?;
     let bytes = Array::from(&field(data, "bytes")).iter().map(|b| Bytes(b.unchecked_into())).collect();
-    Some(Message::Said(body, bytes))
+    Some(Message::Said(body, bytes, field(data, "memory").as_f64().unwrap_or_default()))
 }
 
 /// Words of an error of a worker: there are none where its script could not be fetched.

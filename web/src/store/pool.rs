@@ -74,13 +74,29 @@ struct Inner {
     next: usize,
     /// Of the largest photo.
     pixels: f64,
+    /// The most that a worker's engine has taken with such photos, in bytes.
+    taken: f64,
     /// Workers at once: fewer when one was lost, for memory is the likely reason.
     most: usize,
 }
 
 impl Default for Inner {
     fn default() -> Self {
-        Self { queue: VecDeque::new(), slots: BTreeMap::new(), next: 0, pixels: USUAL_PIXELS, most: usize::MAX }
+        Self {
+            queue: VecDeque::new(),
+            slots: BTreeMap::new(),
+            next: 0,
+            pixels: USUAL_PIXELS,
+            taken: 0.0,
+            most: usize::MAX,
+        }
+    }
+}
+
+impl Inner {
+    /// Workers at once.
+    fn room(&self) -> usize {
+        page::worker_count(self.pixels, self.taken).min(self.most)
     }
 }
 
@@ -123,7 +139,10 @@ impl Pool {
 
     /// Takes note of the largest photo: the number of workers follows it.
     pub fn expect_pixels(&self, pixels: f64) {
-        self.0.borrow_mut().pixels = pixels;
+        let mut inner = self.0.borrow_mut();
+        if inner.pixels != pixels {
+            (inner.pixels, inner.taken) = (pixels, 0.0);
+        }
     }
 
     /// Ends everything of a batch at once; nothing more is heard of it.
@@ -158,8 +177,7 @@ impl Pool {
                 continue;
             }
             let starting = inner.slots.values().filter(|slot| !slot.ready).count();
-            let most = page::worker_count(inner.pixels).min(inner.most);
-            if inner.slots.len() >= most || starting >= inner.queue.len() {
+            if inner.slots.len() >= inner.room() || starting >= inner.queue.len() {
                 break;
             }
             inner.next += 1;
@@ -189,7 +207,7 @@ impl Pool {
                     slot.ready = true;
                 }
             }
-            Message::Said(body, bytes) => {
+            Message::Said(body, bytes, taken) => {
                 let listener = {
                     let inner = self.0.borrow();
                     inner.slots.get(&id).and_then(|slot| slot.task.as_ref()).map(|task| task.listener.clone())
@@ -197,11 +215,7 @@ impl Pool {
                 let Some(listener) = listener else { return };
                 let understood = listener(Heard::Said(body, bytes));
                 // Free before it is told: who hears of it may submit what comes next.
-                if understood.ends
-                    && let Some(slot) = self.0.borrow_mut().slots.get_mut(&id)
-                {
-                    slot.task = None;
-                }
+                self.free(id, taken, understood.ends);
                 (understood.tell)();
             }
             Message::Crashed(detail) => {
@@ -222,6 +236,23 @@ impl Pool {
         }
         self.pump();
         self.shrink();
+    }
+
+    /// Takes note of what a worker's engine has taken, and has it free when its task has ended; or gone, where they have become too large
+    /// for so many.
+    fn free(&self, id: usize, taken: f64, ended: bool) {
+        let mut inner = self.0.borrow_mut();
+        inner.taken = inner.taken.max(taken);
+        if !ended {
+            return;
+        }
+        if inner.slots.len() > inner.room() {
+            let slot = inner.slots.remove(&id);
+            drop(inner);
+            discard(slot.into_iter().collect());
+        } else if let Some(slot) = inner.slots.get_mut(&id) {
+            slot.task = None;
+        }
     }
 
     /// A worker's memory only grows: when nothing is left to do, one fresh enough worker stays.

@@ -9,8 +9,8 @@ use sightline::sensor::Shot;
 
 use crate::codecs::shot_of;
 
-/// Bytes that are kept: four photos of 24 megapixels.
-const ROOM: usize = 96 << 20;
+/// Bytes that are kept: two photos of 24 megapixels.
+const ROOM: usize = 48 << 20;
 
 /// Tells photos with the same content, and their channels.
 type Key = (u64, Channel);
@@ -36,7 +36,10 @@ pub fn with_photo<T>(file: &[u8], digest: u64, channel: Channel, work: impl FnOn
     KEPT.with_borrow_mut(|kept| {
         let photo = match kept.iter().position(|(known, _)| *known == key) {
             Some(at) => kept.remove(at).1,
-            None => shot_of(file, channel)?,
+            None => {
+                trim(kept, ROOM / 2);
+                shot_of(file, channel)?
+            }
         };
         let done = work(&photo);
         put(kept, key, photo);
@@ -47,10 +50,14 @@ pub fn with_photo<T>(file: &[u8], digest: u64, channel: Channel, work: impl FnOn
 fn put(kept: &mut Vec<(Key, Shot)>, key: Key, photo: Shot) {
     kept.retain(|(known, _)| *known != key);
     kept.push((key, photo));
-    let (mut room, mut count) = (ROOM, 0);
+    trim(kept, ROOM);
+}
+
+/// Lets the oldest go until the others have room; the latest stays whatever its size.
+fn trim(kept: &mut Vec<(Key, Shot)>, mut room: usize) {
+    let mut count = 0;
     for (_, photo) in kept.iter().rev() {
         let size = photo.bytes();
-        // the latest stays whatever its size
         if size > room && count > 0 {
             break;
         }
