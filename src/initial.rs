@@ -12,6 +12,7 @@ pub mod intersection;
 pub mod p3p;
 pub mod polynomial;
 pub mod pose;
+pub mod pose_from_rays;
 pub mod relative;
 pub mod resection;
 pub mod robust;

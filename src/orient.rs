@@ -21,6 +21,7 @@ mod neighbour;
 mod note;
 mod principal_distance;
 mod refine;
+mod remaining;
 mod seed;
 mod trial;
 
@@ -97,13 +98,15 @@ pub fn orient(project: &Project) -> Result<Oriented> {
         set_aside(&mut trial, block);
         trial
     };
+    let mut borne = vec![false; block.views.len()];
     loop {
         trial::settle(&mut block, as_project);
         let trial = as_project(&block);
-        if !evidence::withdraw(&mut block, &trial) {
+        if evidence::withdraw(&mut block, &trial, &borne) {
+            block.review();
+        } else if !remaining::orient(&mut block, &mut borne) {
             break;
         }
-        block.review();
     }
     let sigmas = distance_sigmas_px(&block);
     let mut notes = note::of_frame(&block, frame, scaled);

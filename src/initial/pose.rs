@@ -62,7 +62,7 @@ impl Pose {
     }
 
     /// The pose moved by a turn about the camera's axes and a shift along them, in that order of the six numbers.
-    fn moved(&self, step: &Vector6<f64>) -> Self {
+    pub(crate) fn moved(&self, step: &Vector6<f64>) -> Self {
         let turn = Vector3::new(step[0], step[1], step[2]);
         let shift = Vector3::new(step[3], step[4], step[5]);
         Self {
@@ -132,7 +132,8 @@ pub(crate) fn image_jacobian(p: &Vector3<f64>) -> Matrix2x3<f64> {
     Matrix2x3::new(w, 0.0, p.x * w * w, 0.0, w, p.y * w * w)
 }
 
-fn pose_jacobian(p: &Vector3<f64>) -> SMatrix<f64, 2, 6> {
+/// Derivative of ideal coordinates of a point in the camera frame with respect to turn and shift of the pose ([`Pose::moved`]).
+pub(crate) fn pose_jacobian(p: &Vector3<f64>) -> SMatrix<f64, 2, 6> {
     let by_point = image_jacobian(p);
     let mut jacobian = SMatrix::<f64, 2, 6>::zeros();
     jacobian.fixed_columns_mut::<3>(0).copy_from(&(-by_point * p.cross_matrix()));

@@ -4,7 +4,8 @@
 //! two other photos or its given coordinates determine gives two equations of the pose, one of a point that one other photo shows
 //! gives one. They must be as many as the six unknowns, and where other measurements of the photo disagree, some more: in 360 seeded
 //! networks without given coordinates 45 of 49 photos with fewer were wrong. Four points of given coordinates orient a photo by
-//! themselves, whatever a fifth says.
+//! themselves, whatever a fifth says. Photos that were oriented at the end, against what stands and as the only pose that would
+//! hardly come about by chance ([`by_chance`]), need no more than the unknowns.
 
 use std::collections::HashMap;
 
@@ -12,13 +13,28 @@ use super::block::Block;
 use crate::project::{DatumKind, Project, Role};
 
 /// Unknowns of a pose, and equations beyond them that must agree where something disagrees.
-const UNKNOWNS: usize = 6;
+pub(super) const UNKNOWNS: usize = 6;
 const SPARE: usize = 4;
 /// Points of given coordinates that are enough.
 const KNOWN: usize = 4;
 
-/// Takes back the poses of photos that too little agrees with; whether there was one. The project is what the block makes of it.
-pub(super) fn withdraw(block: &mut Block, project: &Project) -> bool {
+/// Part of the photo that the tolerance of an equation takes: 0.001 of its longer side, both ways, of a side two thirds as long.
+const BAND: f64 = 3e-3;
+/// Poses that six equations have: relative orientation from five points has up to ten, resection from three up to four.
+const SOLUTIONS: f64 = 10.0;
+/// Wrong poses that are accepted, on average, in place of a photo's own: few enough for projects of thousands of photos.
+pub(super) const CHANCE: f64 = 1e-4;
+
+/// Wrong poses that `agreeing` of a photo's measurements, with so many equations, are expected to agree with by chance: any
+/// six of the equations have a few solutions, and each further one agrees with one of them as its band is to the photo;
+/// and that for every choice of the agreeing ones.
+pub(super) fn by_chance(of: usize, agreeing: usize, equations: usize) -> f64 {
+    let choices: f64 = (0..of - agreeing).map(|k| (of - k) as f64 / (k + 1) as f64).product();
+    SOLUTIONS * choices * BAND.powi(equations.saturating_sub(UNKNOWNS) as i32)
+}
+
+/// Takes back the poses of photos that too little agrees with, but for those in `borne` out otherwise; whether there was one. The project is what the block makes of it.
+pub(super) fn withdraw(block: &mut Block, project: &Project, borne: &[bool]) -> bool {
     // of two photos the one stands by the other, and both by the points that meet; one that is left over stands by nothing
     if block.oriented() <= 2 {
         let alone = block.oriented() == 1 && !block.anchored;
@@ -62,7 +78,7 @@ pub(super) fn withdraw(block: &mut Block, project: &Project) -> bool {
         let shown = block.marks[point].sights.iter().filter(|&&s| posed[block.sights[s].photo]).count();
         disputed[photo] |= shown > 1 || known[point];
     }
-    let enough = |photo: usize| UNKNOWNS + if disputed[photo] { SPARE } else { 0 };
+    let enough = |photo: usize| UNKNOWNS + if disputed[photo] && !borne[photo] { SPARE } else { 0 };
     let borne_out = |photo: usize| given[photo] >= KNOWN || equations[photo] >= enough(photo);
     let weak = (0..block.views.len()).filter(|&k| posed[k] && !block.views[k].given && !borne_out(k));
     // those with the least go first: without them the others may stand
@@ -78,4 +94,30 @@ pub(super) fn withdraw(block: &mut Block, project: &Project) -> bool {
         }
     }
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::initial::robust::{generator, uniform};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn what_agrees_by_chance_is_counted() {
+        // Four of six measurements with eight equations: six of them fit a pose, each other four measurements may be the ones.
+        let stated = by_chance(6, 4, 8);
+        assert!((stated / (SOLUTIONS * 15.0 * BAND * BAND) - 1.0).abs() < 1e-12, "{stated}");
+        // Simulated with wider bands: three of six decide a pose, any of the others agrees with a probability p.
+        let (mut g, p, mut found) = (generator(1), 0.02, 0);
+        let trials = 20_000;
+        for _ in 0..trials {
+            for _triple in 0..20 {
+                found += usize::from((0..3).any(|_| uniform(&mut g) < p));
+            }
+        }
+        let expected = found as f64 / f64::from(trials);
+        let bound = by_chance(6, 4, 7) / (SOLUTIONS * BAND) * p * 4.0;
+        assert!(expected <= bound && expected > 0.8 * bound, "{expected} of {bound}");
+    }
 }

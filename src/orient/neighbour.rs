@@ -85,6 +85,14 @@ struct Bearing {
 }
 
 fn best_pose(block: &Block, photo: usize, pairs: &mut Pairs) -> Option<(usize, Pose)> {
+    let judged = poses(block, photo, pairs).into_iter().map(|pose| (votes(block, photo, &pose), pose));
+    let ((agreeing, compared), pose) = judged.max_by(|a, b| a.0.0.cmp(&b.0.0))?;
+    let enough = agreeing >= UNKNOWNS + SPARE && agreeing as f64 >= AGREEING * compared as f64;
+    enough.then_some((agreeing, pose))
+}
+
+/// The poses that neighbours and triples of determined points give a photo.
+pub(super) fn poses(block: &Block, photo: usize, pairs: &mut Pairs) -> Vec<Pose> {
     let mut neighbours: Vec<(usize, usize)> = (0..block.views.len())
         .filter(|&k| block.views[k].pose.is_some())
         .map(|k| (block.common(k, photo).len(), k))
@@ -117,10 +125,7 @@ fn best_pose(block: &Block, photo: usize, pairs: &mut Pairs) -> Option<(usize, P
     for [i, j, k] in wide_triples(&seen) {
         poses.extend(p3p(&[seen[i].0, seen[j].0, seen[k].0], &[seen[i].1, seen[j].1, seen[k].1]));
     }
-    let judged = poses.into_iter().map(|pose| (votes(block, photo, &pose), pose));
-    let ((agreeing, compared), pose) = judged.max_by(|a, b| a.0.0.cmp(&b.0.0))?;
-    let enough = agreeing >= UNKNOWNS + SPARE && agreeing as f64 >= AGREEING * compared as f64;
-    enough.then_some((agreeing, pose))
+    poses
 }
 
 /// Length of the base with which a determined point appears where it was measured, least squares of its two equations.

@@ -108,7 +108,7 @@ fn seeded_networks_are_oriented_and_none_is_wrong_in_silence() {
 /// What was found wrong one after the other left photos of these networks with a pose and next to no measurement, wrong and unsaid.
 #[test]
 fn a_pose_that_nothing_bears_out_is_withdrawn_and_said_to_be() {
-    for seed in [240, 247, 265] {
+    for seed in [218, 240, 250] {
         let network = network::network(&Case::of(seed, 60));
         let oriented = orient(&network.given).expect("a valid project");
         let verdict = judged(&network, &oriented);
