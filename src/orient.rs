@@ -68,46 +68,16 @@ pub fn orient(project: &Project) -> Result<Oriented> {
         }
     }
     let sources = give_principal_distances(&mut start);
-    let mut models = Models::new(from_known(&start));
-    models.build(&sources, fine_px(project));
-    let Models { mut block, frame, mut apart } = models;
-    let mut frame = frame;
-    let mut scaled = true;
-    if frame == Some(Frame::Own) {
-        (frame, scaled) = absolute::to_own(&mut block, project, &start);
-    } else if frame == Some(Frame::GivenPhotos) {
-        let larger = (0..apart.len()).find(|&k| apart[k].oriented() > block.oriented());
-        if let Some(k) = larger {
-            let mut model = apart.remove(k);
-            (frame, scaled) = absolute::to_own(&mut model, project, &block);
-            block = model;
+    let mut attempt = Attempt::new(project, &start, &start.adjustable, &sources);
+    if !attempt.settled && start.given_px.iter().any(Option::is_some) {
+        // A given principal distance is information: a rough model of few photos may have carried it away.
+        let free: Vec<bool> = start.adjustable.iter().zip(&start.given_px).map(|(a, px)| *a && px.is_none()).collect();
+        let again = Attempt::new(project, &start, &free, &sources);
+        if again.settled && 2 * again.block.oriented() >= attempt.block.oriented() {
+            attempt = again;
         }
     }
-    if frame == Some(Frame::Known) {
-        block.anchor();
-    }
-    if frame != Some(Frame::Own) {
-        grow(&mut block);
-    }
-    refine(&mut block, Freedom::Everything);
-    block.intersect_new(0.0);
-    block.review();
-    verify(&mut block);
-    let as_project = |block: &Block| {
-        let mut trial = filled(project, block);
-        set_aside(&mut trial, block);
-        trial
-    };
-    let mut borne = vec![false; block.views.len()];
-    loop {
-        trial::settle(&mut block, as_project);
-        let trial = as_project(&block);
-        if evidence::withdraw(&mut block, &trial, &borne) {
-            block.review();
-        } else if !remaining::orient(&mut block, &mut borne) {
-            break;
-        }
-    }
+    let Attempt { block, apart, frame, scaled, .. } = attempt;
     let sigmas = distance_sigmas_px(&block);
     let mut notes = note::of_frame(&block, frame, scaled);
     notes.extend(note::of_cameras(project, &block, &sources, &sigmas));
@@ -123,6 +93,68 @@ pub fn orient(project: &Project) -> Result<Oriented> {
         project.points.iter_mut().for_each(|point| point.normal = None);
     }
     Ok(Oriented { project, notes })
+}
+
+/// What became of one way to orient a project.
+struct Attempt {
+    block: Block,
+    apart: Vec<Block>,
+    frame: Option<Frame>,
+    scaled: bool,
+    /// Whether the project it makes can be adjusted.
+    settled: bool,
+}
+
+impl Attempt {
+    /// Orients what can be oriented while only the principal distances of the cameras in `free` may change; in the end all may
+    /// that may be changed at all.
+    fn new(project: &Project, start: &Block, free: &[bool], sources: &[Option<DistanceSource>]) -> Self {
+        let mut holding = start.clone();
+        holding.adjustable = free.to_vec();
+        let mut models = Models::new(from_known(&holding));
+        models.build(sources, fine_px(project));
+        let Models { mut block, frame, mut apart } = models;
+        let mut frame = frame;
+        let mut scaled = true;
+        if frame == Some(Frame::Own) {
+            (frame, scaled) = absolute::to_own(&mut block, project, start);
+        } else if frame == Some(Frame::GivenPhotos) {
+            let larger = (0..apart.len()).find(|&k| apart[k].oriented() > block.oriented());
+            if let Some(k) = larger {
+                let mut model = apart.remove(k);
+                (frame, scaled) = absolute::to_own(&mut model, project, &block);
+                block = model;
+            }
+        }
+        if frame == Some(Frame::Known) {
+            block.anchor();
+        }
+        if frame != Some(Frame::Own) {
+            grow(&mut block);
+        }
+        block.adjustable.clone_from(&start.adjustable);
+        refine(&mut block, Freedom::Everything);
+        block.intersect_new(0.0);
+        block.review();
+        verify(&mut block);
+        let as_project = |block: &Block| {
+            let mut trial = filled(project, block);
+            set_aside(&mut trial, block);
+            trial
+        };
+        let mut borne = vec![false; block.views.len()];
+        let mut settled;
+        loop {
+            settled = trial::settle(&mut block, as_project);
+            let trial = as_project(&block);
+            if evidence::withdraw(&mut block, &trial, &borne) {
+                block.review();
+            } else if !remaining::orient(&mut block, &mut borne) {
+                break;
+            }
+        }
+        Self { block, apart, frame, scaled, settled }
+    }
 }
 
 /// Takes back poses that too few of their photo's measurements agree with after all, and tries those photos once more.

@@ -20,17 +20,24 @@ const KNOWN: usize = 4;
 
 /// Part of the photo that the tolerance of an equation takes: 0.001 of its longer side, both ways, of a side two thirds as long.
 const BAND: f64 = 3e-3;
-/// Poses that six equations have: relative orientation from five points has up to ten, resection from three up to four.
+/// Part of the photo that the circle of this tolerance takes around a point.
+const CIRCLE: f64 = std::f64::consts::FRAC_PI_4 * BAND * BAND / 1.5;
+/// Poses that the least number of measurements has: relative orientation from five points up to ten, resection from three up to four.
 const SOLUTIONS: f64 = 10.0;
+const OF_POINTS: f64 = 4.0;
 /// Wrong poses that are accepted, on average, in place of a photo's own: few enough for projects of thousands of photos.
 pub(super) const CHANCE: f64 = 1e-4;
 
-/// Wrong poses that `agreeing` of a photo's measurements, with so many equations, are expected to agree with by chance: any
-/// six of the equations have a few solutions, and each further one agrees with one of them as its band is to the photo;
-/// and that for every choice of the agreeing ones.
-pub(super) fn by_chance(of: usize, agreeing: usize, equations: usize) -> f64 {
+/// Wrong poses that so many of a photo's measurements of points and of rays (epipolar lines) are expected to agree with by chance:
+/// three points, or any six equations, have a few solutions, and each further measurement agrees with one of them as its
+/// circle or band is to the photo; and that for every choice of the agreeing ones.
+pub(super) fn by_chance(of: usize, points: usize, rays: usize) -> f64 {
+    let agreeing = points + rays;
     let choices: f64 = (0..of - agreeing).map(|k| (of - k) as f64 / (k + 1) as f64).product();
-    SOLUTIONS * choices * BAND.powi(equations.saturating_sub(UNKNOWNS) as i32)
+    if points >= 3 {
+        return OF_POINTS * choices * CIRCLE.powi(points as i32 - 3) * BAND.powi(rays as i32);
+    }
+    SOLUTIONS * choices * BAND.powi((2 * points + rays).saturating_sub(UNKNOWNS) as i32)
 }
 
 /// Takes back the poses of photos that too little agrees with, but for those in `borne` out otherwise; whether there was one. The project is what the block makes of it.
@@ -105,9 +112,9 @@ mod tests {
 
     #[test]
     fn what_agrees_by_chance_is_counted() {
-        // Four of six measurements with eight equations: six of them fit a pose, each other four measurements may be the ones.
-        let stated = by_chance(6, 4, 8);
-        assert!((stated / (SOLUTIONS * 15.0 * BAND * BAND) - 1.0).abs() < 1e-12, "{stated}");
+        // Four of six rays beside a point: they fit some pose by themselves, and any four may be the ones.
+        let stated = by_chance(7, 1, 4);
+        assert!((stated / (SOLUTIONS * 21.0) - 1.0).abs() < 1e-12, "{stated}");
         // Simulated with wider bands: three of six decide a pose, any of the others agrees with a probability p.
         let (mut g, p, mut found) = (generator(1), 0.02, 0);
         let trials = 20_000;
@@ -117,7 +124,7 @@ mod tests {
             }
         }
         let expected = found as f64 / f64::from(trials);
-        let bound = by_chance(6, 4, 7) / (SOLUTIONS * BAND) * p * 4.0;
+        let bound = by_chance(6, 4, 0) / (OF_POINTS * CIRCLE) * p * 4.0;
         assert!(expected <= bound && expected > 0.8 * bound, "{expected} of {bound}");
     }
 }

@@ -162,14 +162,16 @@ fn adjusted(block: &Block, photo: usize, pose: Pose, sights: &[usize], seen: &[S
     next.intersect_new(0.0);
     next.review();
     let before = block.agreeing();
-    let (mut agreeing, mut equations) = (0, 0);
+    let (mut points, mut rays) = (0, 0);
     for (&s, seen) in sights.iter().zip(seen) {
         if next.sights[s].taken && next.misfit_px(s).is_some() {
-            agreeing += 1;
-            equations += seen.equations();
+            match seen.target {
+                Target::Point(_) => points += 1,
+                Target::Ray(_) => rays += 1,
+            }
         }
     }
     // what the others agreed with must not suffer
-    let suffered = next.agreeing() < before + agreeing;
-    (!suffered && equations > UNKNOWNS).then(|| (evidence::by_chance(seen.len(), agreeing, equations), next))
+    let suffered = next.agreeing() < before + points + rays;
+    (!suffered && 2 * points + rays > UNKNOWNS).then(|| (evidence::by_chance(seen.len(), points, rays), next))
 }

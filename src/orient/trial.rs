@@ -23,16 +23,16 @@ const TOGETHER: f64 = 0.3;
 /// Where more than one point in so many moves it is the network that does, and no point is to blame.
 const FEW: usize = 10;
 
-/// Gives up points and photos of the block until `as_project` of it can be adjusted, or nothing more is found.
-pub(super) fn settle(block: &mut Block, as_project: impl Fn(&Block) -> Project) {
+/// Gives up points and photos of the block until `as_project` of it can be adjusted, or nothing more is found; whether it can.
+pub(super) fn settle(block: &mut Block, as_project: impl Fn(&Block) -> Project) -> bool {
     for _ in 0..MOST_TRIALS {
         let project = as_project(block);
         let options = AdjustOptions { statistics: StatisticsChoice::None, ..AdjustOptions::default() };
         let (points, photos) = match ending(&project, &options) {
-            Ok((Termination::Converged, _)) => return,
+            Ok((Termination::Converged, _)) => return true,
             Ok((_, adjusted)) => (runaways(&adjusted, &options), BTreeSet::new()),
             Err(Error::RankDefect { defects }) => named(&defects),
-            Err(_) => return,
+            Err(_) => return false,
         };
         let mut changed = false;
         for (point, mark) in project.points.iter().zip(&mut block.marks) {
@@ -48,9 +48,10 @@ pub(super) fn settle(block: &mut Block, as_project: impl Fn(&Block) -> Project) 
             }
         }
         if !changed {
-            return;
+            return false;
         }
     }
+    false
 }
 
 /// Points and photos of defects that leaving them out mends. Cameras and datum are the user's to hold or observe.
