@@ -60,13 +60,18 @@ pub(super) fn clipping(sites: &Sites) -> f64 {
     let rows = || (top..bottom).step_by(((bottom - top) / (4 * ROWS)).max(1)).filter(|y| sites.is_whole(*y));
     let samples = |y: usize| (left..right).filter(move |x| sites.has(*x, y)).map(move |x| sites.raw(x, y));
     let largest = rows().flat_map(samples).max().unwrap_or(0);
-    let (mut at, mut below) = (0usize, 0usize);
-    for sample in rows().flat_map(samples) {
-        at += usize::from(sample == largest);
-        below += usize::from(sample < largest && sample + 8 >= largest);
-    }
+    let (at, below) = at_and_below(largest, rows().flat_map(samples));
     let piles_up = at > 20 && at > 2 * below && f64::from(largest) > 0.25 * white;
     if piles_up { f64::from(largest).min(white) } else { white }
+}
+
+/// How many samples are the largest one, and how many are up to eight below it.
+fn at_and_below(largest: u16, samples: impl Iterator<Item = u16>) -> (usize, usize) {
+    samples.fold((0, 0), |(at, below), sample| match largest.abs_diff(sample) {
+        0 => (at + 1, below),
+        1..=8 => (at, below + 1),
+        _ => (at, below),
+    })
 }
 
 /// Gain and readout of the photo.
@@ -244,4 +249,17 @@ fn line(known: &[[f64; 3]], start: &NoiseModel) -> Option<NoiseModel> {
         model = NoiseModel { gain, read, read_sigma, ..model };
     }
     (model.gain.is_finite() && model.read.is_finite()).then_some(model)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn what_lies_just_below_the_largest_sample_is_counted_in_sixteen_bits_too() {
+        assert_eq!(at_and_below(u16::MAX, [65535, 65535, 65530, 65527, 65526, 7].into_iter()), (2, 2));
+        assert_eq!(at_and_below(3, [3, 0, 1].into_iter()), (1, 2));
+    }
 }
