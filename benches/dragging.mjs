@@ -2,15 +2,15 @@
 // the longest task of the page's own thread.
 //   cd e2e && npm ci; cd ..; node benches/dragging.mjs [--moves 40] dist [OTHER/dist ...]
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
-import { extname, join } from 'node:path';
+import { join } from 'node:path';
 import { parseArgs } from 'node:util';
+
+import { served } from './served.mjs';
 
 const { values, positionals } = parseArgs({ allowPositionals: true, options: { moves: { type: 'string', default: '40' } } });
 const builds = positionals.length ? positionals : ['dist'];
 process.env.CHROMIUM ??= 'chromium';
-const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml' };
 
 // A plate of 20 x 10 targets and 20 photos from five places at four rolls, with a camera that is calibrated by them.
 const points = Array.from({ length: 200 }, (_, k) => ({
@@ -40,17 +40,7 @@ const { drop } = await import('../e2e/desk.mjs');
 const median = (all) => all.toSorted((a, b) => a - b)[Math.floor(all.length / 2)];
 
 async function measured(dist) {
-  const server = createServer((request, answer) => {
-    const path = new URL(request.url, 'http://x').pathname;
-    try {
-      const body = readFileSync(join(dist, path === '/' ? 'index.html' : path));
-      answer.writeHead(200, { 'content-type': TYPES[extname(path)] ?? 'text/html' }).end(body);
-    } catch {
-      answer.writeHead(404).end();
-    }
-  });
-  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-  process.env.SIGHTLINE_URL = `http://127.0.0.1:${server.address().port}/`;
+  const server = await served(dist);
   const { page, close } = await open({ width: 1366, height: 768 });
   try {
     await page.waitForSelector('.desk');

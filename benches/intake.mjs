@@ -2,10 +2,11 @@
 //   cd e2e && npm ci; cd ..; node benches/intake.mjs --photo DIR/det1.camera.jpg --count 20 --rounds 3 dist OTHER/dist
 // The photo comes from bench/detect/photos.py; copies of it differ by a comment, so that none is taken for another.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
-import { extname, join } from 'node:path';
+import { join } from 'node:path';
 import { parseArgs } from 'node:util';
+
+import { served } from './served.mjs';
 
 const { values, positionals: builds } = parseArgs({
   allowPositionals: true,
@@ -16,7 +17,6 @@ if (!values.photo || !builds.length) {
   process.exit(2);
 }
 process.env.CHROMIUM ??= 'chromium';
-const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml' };
 
 const folder = mkdtempSync(join(tmpdir(), 'sightline-intake-'));
 const photo = readFileSync(values.photo);
@@ -32,17 +32,7 @@ const { detect, photos } = await import('../e2e/desk.mjs');
 
 /** Seconds until the photos are taken, and until their targets are found; the targets of all. */
 async function measured(dist) {
-  const server = createServer((request, answer) => {
-    const path = new URL(request.url, 'http://x').pathname;
-    try {
-      const body = readFileSync(join(dist, path === '/' ? 'index.html' : path));
-      answer.writeHead(200, { 'content-type': TYPES[extname(path)] ?? 'text/html' }).end(body);
-    } catch {
-      answer.writeHead(404).end();
-    }
-  });
-  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-  process.env.SIGHTLINE_URL = `http://127.0.0.1:${server.address().port}/`;
+  const server = await served(dist);
   const { page, close } = await open();
   try {
     await page.waitForSelector('.desk');

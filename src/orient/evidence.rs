@@ -40,7 +40,8 @@ pub(super) fn by_chance(of: usize, points: usize, rays: usize) -> f64 {
     SOLUTIONS * choices * BAND.powi((2 * points + rays).saturating_sub(UNKNOWNS) as i32)
 }
 
-/// Takes back the poses of photos that too little agrees with, but for those in `borne` out otherwise; whether there was one. The project is what the block makes of it.
+/// Takes back the poses of photos that too little agrees with, but for those that are `borne` out otherwise; whether there was one.
+/// The project is what the block makes of it.
 pub(super) fn withdraw(block: &mut Block, project: &Project, borne: &[bool]) -> bool {
     // of two photos the one stands by the other, and both by the points that meet; one that is left over stands by nothing
     if block.oriented() <= 2 {

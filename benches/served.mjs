@@ -1,0 +1,22 @@
+// A build of the page on loopback, for benches that drive it in a browser.
+import { readFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { extname, join } from 'node:path';
+
+const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml' };
+
+/** Serves the folder of a build and has e2e/browser.mjs open it; the server, to be closed. */
+export async function served(dist) {
+  const server = createServer((request, answer) => {
+    const path = new URL(request.url, 'http://x').pathname;
+    try {
+      const body = readFileSync(join(dist, path === '/' ? 'index.html' : path));
+      answer.writeHead(200, { 'content-type': TYPES[extname(path)] ?? 'text/html' }).end(body);
+    } catch {
+      answer.writeHead(404).end();
+    }
+  });
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  process.env.SIGHTLINE_URL = `http://127.0.0.1:${server.address().port}/`;
+  return server;
+}
