@@ -5,9 +5,10 @@
 //! confirms them: sub-pixel edges, a robust ellipse through them ([`ellipse`] is the shape itself), the grey levels around.
 //! [`rendered`] measures the centre by the fit of a rendered ellipse, or [`centroid`] by a classical operator; [`measure`] leads
 //! from one to the next. Rings around a target are read as codes ([`code`]). In ordinary photos [`alike`] finds more by what the targets
-//! found have in common. A room uses those before it, never the reverse. [`whole`] goes around what a damaged file does not give,
+//! found have in common. What decides is one table, [`acceptance`]. A room uses those before it, never the reverse. [`whole`] goes around what a damaged file does not give,
 //! [`sites`] measures on a sensor's own samples, [`colours`] red and blue beside green.
 
+mod acceptance;
 mod alike;
 mod centroid;
 mod click;
@@ -31,6 +32,7 @@ pub(crate) use ellipse::{conic, outline};
 use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, PictureReport, Reason, Target};
 use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
+use acceptance::size::{ALIKE_LARGE, ALIKE_SMALL};
 use code::outline_of;
 pub use colours::colours_apart;
 use covered::Covered;
@@ -149,7 +151,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         // Dots too small for flat sides of a row's steps show in their own rims what was done to the picture.
         let outlines: Vec<Outline> = passed.detection.targets.iter().map(outline_of).collect();
         let found = sharpening::of_rims(&plane, outlines.iter(), levels.saturation);
-        processed = found.is_some_and(|sharpening| sharpening.amount > BY_RIMS);
+        processed = found.is_some_and(|sharpening| sharpening.amount > acceptance::picture::BY_RIMS);
     }
     picture.noise_correlation = passed.correlate();
     let mut restored = None;
@@ -249,9 +251,6 @@ fn soften<T: Sample>(
     (softened, Some((undone, restored)))
 }
 
-/// Amount of a sharpening from which the rims of what was found say that there may be more: twice what a fit
-/// takes for a lens.
-const BY_RIMS: f64 = 0.3;
 /// Sigma in pixels of the mean in which what is sharpened is searched: the middle of the range in which webcam pictures of dots
 /// show all of them.
 const SOFT: f64 = 1.6;
@@ -375,7 +374,9 @@ fn pass<T: Sample>(
     }
     if soft && let Some(alike) = alike::of(&mut measure, known, &census.targets) {
         let not = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
-        let near = |no: &NoBlob| 0.7 * options.min_diameter < no.diameter && no.diameter < 1.5 * options.max_diameter;
+        let near = |no: &NoBlob| {
+            ALIKE_SMALL * options.min_diameter < no.diameter && no.diameter < ALIKE_LARGE * options.max_diameter
+        };
         let disc = |no: &NoBlob| {
             let radius = no.diameter / 2.0;
             no.outline.unwrap_or_else(|| Outline::from_axes(no.u, no.v, radius, radius, 0.0))

@@ -1,6 +1,9 @@
 //! Ring codes read from pictures drawn at random (`tests/engine/coded_patch.rs`): how many are read, how many wrongly.
 //!
 //!   cargo bench --package sightline --bench codes -- [pictures] [seed] [kind]
+//!   cargo bench --package sightline --bench codes -- state STATE KIND FAMILY [FILE]
+//!
+//! The second draws one picture again that the first has told of, and writes it as a PGM.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -18,6 +21,9 @@ mod painter;
 
 use coded_patch::{CodedPatch, Kind, coded_patch};
 use painter::Uniform;
+
+/// Pictures after which it is told how far it has come.
+const PROGRESS: u64 = 2000;
 
 /// Dots from this diameter on are asked to be read.
 const LEGIBLE: f64 = 12.0;
@@ -46,6 +52,9 @@ impl Tally {
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    if words.first().is_some_and(|word| word == "state") {
+        return again(&words[1..]);
+    }
     let number = |k: usize, otherwise: u64| words.get(k).and_then(|word| word.parse().ok()).unwrap_or(otherwise);
     let (pictures, seed) = (number(0, 200_000), number(1, 1));
     let only = words.get(2).cloned();
@@ -61,6 +70,15 @@ fn main() {
         let family = Family::ALL[(random.next() * 8.0) as usize % 8];
         let before = random.0;
         let patch = coded_patch(kind, family, &mut random);
+        if k > 0 && k % PROGRESS == 0 {
+            let sum = |of: fn(&Tally) -> usize| by_kind.values().map(of).sum::<usize>();
+            println!(
+                "{k} pictures, {} read, {} wrong, {:.0} s",
+                sum(|t| t.read),
+                sum(|t| t.wrong),
+                began.elapsed().as_secs_f64()
+            );
+        }
         if only.as_ref().is_some_and(|only| format!("{kind:?}") != *only) {
             continue;
         }
@@ -89,6 +107,25 @@ fn main() {
     table("kind", by_kind.iter().map(|(kind, tally)| (format!("{kind:?}"), *tally)));
     table("family", by_family.iter().map(|(family, tally)| (format!("{family:?}"), *tally)));
     println!("{:.0} s, of which {spent:.0} s in the engine", began.elapsed().as_secs_f64());
+}
+
+/// One picture again, with all that is found in it.
+fn again(words: &[String]) {
+    let [state, kind, family, file @ ..] = words else { panic!("state STATE KIND FAMILY [FILE]") };
+    let kind = Kind::ALL.into_iter().find(|one| format!("{one:?}") == *kind).expect("a kind");
+    let family = Family::ALL.into_iter().find(|one| format!("{one:?}") == *family).expect("a family");
+    let patch = coded_patch(kind, family, &mut Uniform(state.parse().expect("a number")));
+    let options = DetectOptions { codes: Codes::from(family), ..DetectOptions::default() };
+    println!("dot at {:.2} {:.2}, axes {:.2?}", patch.u, patch.v, patch.axes);
+    for target in detect(&patch.view(), &options).expect("valid options").targets {
+        println!("{target:#?}");
+    }
+    println!("{}", judge(&patch).1);
+    if let [file] = file {
+        let mut bytes = format!("P5 {} {} 255\n", patch.size, patch.size).into_bytes();
+        bytes.extend(&patch.samples);
+        std::fs::write(file, bytes).expect("the file is written");
+    }
 }
 
 fn table(heading: &str, rows: impl Iterator<Item = (String, Tally)>) {

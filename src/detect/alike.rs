@@ -8,6 +8,10 @@
 //! Blur and contrast enter the fit as observations with the spread that they have among the known targets. They hold the shape
 //! of a disc that its blur has swallowed; its centre is uncorrelated with them.
 
+use super::acceptance::{
+    alike as limits,
+    size::{EDGES_LARGE, FIT_SMALL},
+};
 use super::code::outline_of;
 use super::edges::surround;
 use super::ellipse::outline::Outline;
@@ -17,27 +21,9 @@ use super::rendered::fit::{self, Fit};
 use crate::detection::{Method, Polarity, Quality, Reason, Target};
 use crate::image::Sample;
 
-/// Fewest targets that tell of the others.
-const ENOUGH: usize = 6;
-/// Largest ratio of contrasts of a photo's targets: light falls off, and so does what blur leaves of the smallest.
-const CONTRASTS: f64 = 2.5;
-/// Least standard deviations of blur and of contrast among targets, as shares.
-const BLURS: f64 = 0.06;
-const SHADES: f64 = 0.15;
-/// Largest residuals, in units of those of the known targets, and the part of the contrast that they may differ by besides.
-const AS_GOOD: f64 = 1.5;
-const PROFILE: f64 = 0.04;
-/// Residuals, in units of these largest ones, from which a fit is given up.
-const HOPELESS: f64 = 2.0;
-/// Contrast that blur leaves in the middle, in units of the residuals, below which chance has such shapes.
-const PLAIN: f64 = 4.0;
-/// The same of the whole disc: contrast times the root of its pixels.
-const CLEAR: f64 = 16.0;
 /// Half the width, in units of the blur, of the band of pixels that are fitted: beyond it the light of neighbours is more than what
 /// is left of the rim's own.
 const BAND: f64 = 2.4;
-/// Largest share of them that neighbours may disturb.
-const DISTURBED: f64 = 0.25;
 /// Most known targets that are measured again.
 const MEASURED: usize = 40;
 /// Corrections in pixels that end the fit.
@@ -72,8 +58,9 @@ impl Alike {
             targets.partition(|target| target.polarity == Polarity::Bright);
         let (targets, bright) = if bright.len() > dark.len() { (bright, true) } else { (dark, false) };
         // those whose blur does not hide their contrast
-        let plain: Vec<&Target> = targets.into_iter().filter(|t| t.minor > 5.0 * t.quality.edge_width).collect();
-        if plain.len() < ENOUGH {
+        let plain: Vec<&Target> =
+            targets.into_iter().filter(|t| t.minor > limits::PLAIN_MINOR * t.quality.edge_width).collect();
+        if plain.len() < limits::ENOUGH {
             return None;
         }
         let of = |value: fn(&Target) -> f64| median_and_spread(plain.iter().map(|target| value(target)).collect());
@@ -82,8 +69,8 @@ impl Alike {
         let [rms, _] = of(|target| target.quality.fit_rms);
         Some(Self {
             bright,
-            blur: [blur, blurs.max(BLURS * blur)],
-            contrast: [contrast, shades.max(SHADES * contrast)],
+            blur: [blur, blurs.max(limits::BLURS * blur)],
+            contrast: [contrast, shades.max(limits::SHADES * contrast)],
             rms: rms.max(noise),
         })
     }
@@ -107,7 +94,7 @@ impl Alike {
 
 /// How far from what stands out its target's centre may lie, in pixels.
 fn farthest(seen: &Outline) -> f64 {
-    1.0 + 0.3 * seen.semi_axes().1
+    limits::MOVED[0] + limits::MOVED[1] * seen.semi_axes().1
 }
 
 impl<T: Sample> Measure<'_, T> {
@@ -118,22 +105,19 @@ impl<T: Sample> Measure<'_, T> {
             return Err(Reason::NotAnEllipse);
         }
         let mut outline = alike.within(seen);
-        if !self.has_room(&outline) {
-            return Err(Reason::AtBorder);
-        }
+        self.has_room(&outline)?;
         let mut kept = vec![true; super::edges::edge::ray_count(&outline)];
         let mut around = self.level_around(&outline, alike, &kept)?;
         let sign = if alike.bright { 1.0 } else { -1.0 };
-        if sign * around.contrast
-            < 0.5 * alike.seen(outline.semi_axes().0, outline.semi_axes().1) * alike.contrast[0] / CONTRASTS
-        {
+        let (a, b) = outline.semi_axes();
+        if sign * around.contrast < limits::LIGHT * alike.seen(a, b) * alike.contrast[0] / limits::CONTRASTS {
             return Err(Reason::LowContrast);
         }
         let prior = Prior {
             blur: alike.blur,
             contrast: [sign * alike.contrast[0], alike.contrast[1]],
             noise: alike.rms,
-            largest_rms: HOPELESS * (AS_GOOD * alike.rms + PROFILE * alike.contrast[0]),
+            largest_rms: limits::HOPELESS * (limits::AS_GOOD * alike.rms + limits::PROFILE * alike.contrast[0]),
         };
         let mut found: Option<Fit> = None;
         // the second time with the pixels of the outline that the first one has found
@@ -152,9 +136,10 @@ impl<T: Sample> Measure<'_, T> {
             let fit = fit::fit(&self.plane, &region, alike.blur[0], CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
             outline = fit.outline;
             found = Some(fit);
-            if !outline.is_proper() || !self.has_room(&outline) {
+            if !outline.is_proper() {
                 return Err(Reason::AtBorder);
             }
+            self.has_room(&outline)?;
             if (outline.u - seen.u).hypot(outline.v - seen.v) > 2.0 * farthest(seen) {
                 return Err(Reason::NotAnEllipse);
             }
@@ -198,10 +183,10 @@ impl<T: Sample> Measure<'_, T> {
     fn judge(&self, seen: &Outline, fit: &Fit, alike: &Alike) -> Result<(), Reason> {
         let (a, b) = fit.outline.semi_axes();
         let contrast = if alike.bright { fit.contrast } else { -fit.contrast };
-        if 2.0 * a < 0.95 * self.options.min_diameter {
+        if 2.0 * a < FIT_SMALL * self.options.min_diameter {
             return Err(Reason::TooSmall);
         }
-        if 2.0 * a > 1.02 * self.options.max_diameter {
+        if 2.0 * a > EDGES_LARGE * self.options.max_diameter {
             return Err(Reason::TooLarge);
         }
         if b < self.options.min_axis_ratio * a {
@@ -209,33 +194,25 @@ impl<T: Sample> Measure<'_, T> {
         }
         let peak = alike.seen(a, b) * contrast;
         let pixels = std::f64::consts::PI * (a * b + 2.0 * alike.blur[0].powi(2));
-        if !(alike.contrast[0] / CONTRASTS..alike.contrast[0] * CONTRASTS).contains(&contrast)
-            || peak < PLAIN * alike.rms
-            || peak * pixels.sqrt() < CLEAR * alike.rms
+        if !(alike.contrast[0] / limits::CONTRASTS..alike.contrast[0] * limits::CONTRASTS).contains(&contrast)
+            || peak < limits::PLAIN * alike.rms
+            || peak * pixels.sqrt() < limits::CLEAR * alike.rms
         {
             return Err(Reason::LowContrast);
         }
         let misfit = (fit.uneven.powi(2) - alike.rms.powi(2)).max(0.0).sqrt();
         let moved = (fit.outline.u - seen.u).hypot(fit.outline.v - seen.v);
         let [blur, spread] = alike.blur;
-        let good = fit.rms <= AS_GOOD * alike.rms + PROFILE * peak
-            && misfit <= 0.6 * alike.rms + PROFILE * peak
-            && fit.disturbed <= DISTURBED
-            && (fit.blur - blur).abs() <= 3.0 * spread + 0.1 * blur
+        let good = fit.rms <= limits::AS_GOOD * alike.rms + limits::PROFILE * peak
+            && misfit <= limits::UNEVEN * alike.rms + limits::PROFILE * peak
+            && fit.disturbed <= limits::DISTURBED
+            && (fit.blur - blur).abs() <= limits::BLUR[0] * spread + limits::BLUR[1] * blur
             && moved <= farthest(seen);
         if good { Ok(()) } else { Err(Reason::NotAnEllipse) }
     }
 
     fn level_around(&self, outline: &Outline, alike: &Alike, kept: &[bool]) -> Result<surround::Surround, Reason> {
         surround::measure(&self.plane, outline, 0.7 * alike.blur[0], kept, u32::MAX).ok_or(Reason::AtBorder)
-    }
-
-    fn has_room(&self, outline: &Outline) -> bool {
-        let (half_u, half_v) = outline.half_box();
-        outline.u - half_u >= 2.0
-            && outline.v - half_v >= 2.0
-            && outline.u + half_u <= self.plane.width as f64 - 2.0
-            && outline.v + half_v <= self.plane.height as f64 - 2.0
     }
 }
 
@@ -245,11 +222,11 @@ pub(crate) fn drop_faint(found: &mut Vec<Target>, known: &[Target]) {
     for polarity in [Polarity::Bright, Polarity::Dark] {
         let of_kind = known.iter().filter(|target| target.polarity == polarity);
         let mut contrasts: Vec<f64> = of_kind.map(|target| target.contrast).collect();
-        if contrasts.len() < ENOUGH {
+        if contrasts.len() < limits::ENOUGH {
             continue;
         }
         contrasts.sort_by(f64::total_cmp);
-        let faintest = contrasts[contrasts.len() / 10] / CONTRASTS;
+        let faintest = contrasts[contrasts.len() / limits::FAINTEST] / limits::CONTRASTS;
         found.retain(|target| target.polarity != polarity || target.contrast >= faintest);
     }
 }

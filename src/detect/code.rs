@@ -18,6 +18,7 @@ mod vote;
 
 use std::cell::OnceCell;
 
+use super::acceptance::code as limits;
 use super::outline::Outline;
 use crate::detection::{Codes, Polarity, Target};
 use crate::image::{Plane, Sample};
@@ -28,29 +29,6 @@ use sectors::Division;
 
 pub(super) use parts::{drop_parts, settle_grounds};
 pub(super) use vote::{read_all, read_in};
-
-/// Smallest margin of a sector that is safe, and how many of its standard errors it must be.
-const SAFE: f64 = 0.38;
-const SIGMAS: f64 = 4.5;
-/// Levels of set and unset sectors, as shares of the dot's contrast.
-const HIGH: std::ops::Range<f64> = 0.6..1.5;
-const LOW: f64 = 0.25;
-/// Largest share of the contrast that may stand in the gap and outside of a set sector, and by which the halves of a
-/// sector may differ.
-const CLEAR: f64 = 0.38;
-const HALVES: f64 = 0.45;
-/// The same on the mean over the set sectors: what a ring of another size leaves there.
-const MEAN_CLEAR: f64 = 0.27;
-const MEAN_HALVES: f64 = 0.3;
-/// How far, as a share of the contrast, a sector may be from the level it has; further only by chance.
-const OFF: f64 = 0.3;
-/// Largest rms of what the sectors leave unexplained, over their contrast.
-const MISFIT: f64 = 0.2;
-/// Ratio of the squares of two divisions' misfits from which the other one is the right one, and from which it may be.
-const BETTER: f64 = 1.6;
-const AS_GOOD: f64 = 1.0;
-/// Most sectors that may be in doubt.
-const DOUBTFUL: usize = 3;
 
 /// What was read around a dot.
 #[derive(Clone, Debug, PartialEq)]
@@ -146,7 +124,7 @@ fn judge(family: Family, radial: &Radial, divisions: &Divisions) -> Reading {
     let Some(division) = divisions.of(radial, family.bits()) else { return Reading::Plain };
     let (low, high) = (division.low, division.high);
     let scale = high - low;
-    if !HIGH.contains(&high) || low.abs() > LOW {
+    if !limits::HIGH.contains(&high) || low.abs() > limits::LOW {
         return Reading::Plain;
     }
     let middle = (low + high) / 2.0;
@@ -156,35 +134,47 @@ fn judge(family: Family, radial: &Radial, divisions: &Divisions) -> Reading {
     let [gap, halves, outside] =
         [&radial.gap, &radial.halves, &radial.outside].map(|levels| division.sectors(&radial.polar, levels));
     let disturbed = |k: usize| {
-        gap[k].abs() > CLEAR * scale
-            || halves[k].abs() > HALVES * scale
-            || division.is_set(k) && outside[k] > CLEAR * scale
+        gap[k].abs() > limits::CLEAR * scale
+            || halves[k].abs() > limits::HALVES * scale
+            || division.is_set(k) && outside[k] > limits::CLEAR * scale
     };
     let off = |k: usize| (division.levels[k] - if division.is_set(k) { high } else { low }).abs();
     let unclear = |k: usize| {
-        off(k) > (OFF * scale).max(SIGMAS * division.sigmas[k])
-            || margin_of(k) < SAFE
-            || (division.levels[k] - middle).abs() < SIGMAS * division.sigmas[k]
+        off(k) > (limits::OFF * scale).max(limits::SIGMAS * division.sigmas[k])
+            || margin_of(k) < limits::SAFE
+            || (division.levels[k] - middle).abs() < limits::SIGMAS * division.sigmas[k]
             || disturbed(k)
     };
     let in_doubt: Vec<usize> = (0..n).filter(|k| unclear(*k)).collect();
-    if in_doubt.len() > DOUBTFUL || division.misfit > MISFIT {
+    if in_doubt.len() > limits::DOUBTFUL || division.misfit > limits::MISFIT {
         return Reading::Plain;
     }
     let set: Vec<usize> = (0..n).filter(|k| division.is_set(*k)).collect();
     let mean = |levels: &[f64]| set.iter().map(|k| levels[*k]).sum::<f64>() / set.len().max(1) as f64 / scale;
-    if mean(&gap).abs() > MEAN_CLEAR || mean(&outside) > MEAN_CLEAR || mean(&halves).abs() > MEAN_HALVES {
+    if mean(&gap).abs() > limits::MEAN_CLEAR
+        || mean(&outside) > limits::MEAN_CLEAR
+        || mean(&halves).abs() > limits::MEAN_HALVES
+    {
+        return Reading::Plain;
+    }
+    // the ground beside set sectors is that beside the others, or a ring of another width stands there
+    let grounds = division.sectors(&radial.polar, &radial.ground);
+    let beside = |is_set: bool| {
+        let of = || (0..n).filter(|k| division.is_set(*k) == is_set).map(|k| grounds[k]);
+        of().sum::<f64>() / of().count().max(1) as f64
+    };
+    if (beside(true) - beside(false)).abs() > limits::GROUNDS {
         return Reading::Plain;
     }
     // a ring shows in sectors that are beyond doubt
-    if set.iter().filter(|k| !in_doubt.contains(k)).count() < 2 {
+    if set.iter().filter(|k| !in_doubt.contains(k)).count() < limits::SURE {
         return Reading::Plain;
     }
     let others = DIVISIONS.into_iter().filter(|bits| *bits != family.bits()).filter_map(|n| divisions.of(radial, n));
     let best =
         others.filter(|other| !other.same_arcs(division)).map(|other| other.misfit).fold(f64::INFINITY, f64::min);
     let ratio = (division.misfit / best).powi(2);
-    if ratio > BETTER {
+    if ratio > limits::BETTER {
         return Reading::Plain;
     }
     let number = |bits: u32| family.number(smallest_rotation(bits, family.bits()));
@@ -208,7 +198,7 @@ fn judge(family: Family, radial: &Radial, divisions: &Divisions) -> Reading {
         "something lies beside the ring or on it"
     } else if !in_doubt.is_empty() {
         "a sector lies between light and dark"
-    } else if ratio > AS_GOOD {
+    } else if ratio > limits::AS_GOOD || radial.off_grid(division) > 1.0 {
         "the sectors may be those of another family"
     } else {
         return Reading::Code { number: numbers[0], margin };

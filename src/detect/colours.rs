@@ -10,17 +10,11 @@
 
 use nalgebra::{Matrix4, Vector4};
 
+use super::acceptance::colours::{BEYOND, FAR, FEWEST};
 use super::{detect_shot, measure_in_shot, sites};
 use crate::detection::{Channel, Colour, ColourApart, ColoursApart, DetectOptions, Lateral, Shift, Target};
 use crate::error::Result;
 use crate::sensor::Shot;
-
-/// Fewest targets that say something.
-const FEWEST: usize = 6;
-/// Residuals in standard errors beyond which a target takes no part.
-const FAR: f64 = 4.0;
-/// Difference in pixels that no lens makes: another target.
-const BEYOND: f64 = 6.0;
 
 /// Measures the targets of a photo in green, red and blue. `shot` gives the photo for a channel; that of a sensor is asked for once.
 ///

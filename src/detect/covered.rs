@@ -5,6 +5,10 @@
 //! the edges outside of every sector in turn, and the one that leaves the least scatter says which sector is covered. What
 //! stands up to all tests without it is measured without it; what does not is reported as hidden, with its place.
 
+use super::acceptance::covered::{CLEAR, EVEN, FITTING, OTHERS, SECTORS, SMALLEST};
+use super::acceptance::levels::{FAINT, UNEVEN, UNEXPLAINED};
+use super::acceptance::look::COVERED;
+use super::acceptance::outline::{GAP_MINOR, HIDDEN};
 use super::edges::blur::{self, BLURRED, DEFOCUSED, SHARP};
 use super::edges::edge;
 use super::edges::look::{self, DotLevels};
@@ -13,23 +17,9 @@ use super::edges::sectors;
 use super::edges::surround;
 use super::edges::through::{self, EllipseFit, Start};
 use super::ellipse::outline::Outline;
-use super::measure::{Found, Measure, NEAR, NEARBY, UNEVEN, UNEXPLAINED, undisturbed};
+use super::measure::confirm::{NEAR, NEARBY, undisturbed};
+use super::measure::{Found, Measure};
 use crate::image::Sample;
-
-/// Sectors tried: shares of the outline. A cover of a fifth of the diameter takes 0.295 of a circle's.
-const SECTORS: [f64; 3] = [0.15, 0.25, 0.35];
-/// Scatter of edges, in pixels, below which one sector is as good as another.
-const EVEN: f64 = 0.02;
-/// Share of the other edges that may not fit either.
-const OTHERS: f64 = 0.1;
-/// Directions of the first look in which the step may be missing, or the inside go on.
-const COVERED: u32 = 8;
-/// Distance from the outline, in pixels, up to which an edge is the target's own.
-const FITTING: f64 = 0.2;
-/// Smallest minor axis, in pixels, of what is shown as hidden.
-const SMALLEST: f64 = 7.0;
-/// Scatter, relative to what is expected of a good outline, of one that is shown as hidden.
-const CLEAR: f64 = 0.7;
 
 /// Why a covered outline gives no target.
 #[derive(Clone, Copy, Debug)]
@@ -51,27 +41,15 @@ impl<T: Sample> Measure<'_, T> {
         look::stands_out(&self.plane, &self.levels, start, bright, COVERED, COVERED).map_err(|_| Covered::No)?;
         let (sector, rough) = self.sector(start, bright).ok_or(Covered::No)?;
         let outline = rough.outline;
-        let (a, b) = outline.semi_axes();
-        let options = self.options;
-        let (half_u, half_v) = outline.half_box();
-        let inside = outline.u - half_u >= 2.0
-            && outline.v - half_v >= 2.0
-            && outline.u + half_u <= self.plane.width as f64 - 2.0
-            && outline.v + half_v <= self.plane.height as f64 - 2.0;
-        if !inside
-            || b < options.min_axis_ratio * a
-            || 2.0 * a < 0.92 * options.min_diameter
-            || 2.0 * a > 1.02 * options.max_diameter
-        {
-            return Err(Covered::No);
-        }
+        let b = outline.semi_axes().1;
+        self.size_allows(&outline).and_then(|()| self.has_room(&outline)).map_err(|_| Covered::No)?;
         let count = edge::ray_count(&outline);
         self.search(&outline, bright, (0.15 * b).clamp(2.0, 6.0), count, SHARP);
         let sector = self.narrowed(sector, &outline).ok_or(Covered::No)?;
         self.cover(&sector);
         let ellipse = through::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Covered::No)?;
         let outline = ellipse.outline;
-        if ellipse.occluded > quality::HIDDEN {
+        if ellipse.occluded > HIDDEN {
             return Err(Covered::No);
         }
         let missing: Vec<bool> = (0..count).map(|k| self.edges.is_kept(k)).collect();
@@ -88,13 +66,13 @@ impl<T: Sample> Measure<'_, T> {
         let noise = self.noise(&surround);
         let blur = blur::of(strength, signed);
         let scatter = quality::expected_scatter(b, &self.levels, noise, signed, quality::steepest(blur));
-        if !(signed > quality::FAINT * noise && ellipse.rms < CLEAR * scatter) {
+        if !(signed > FAINT * noise && ellipse.rms < CLEAR * scatter) {
             return Err(Covered::No);
         }
         let kept = undisturbed(&self.edges, &outline, blur);
         let levels = DotLevels { dot: surround.level + surround.contrast, background: surround.level };
         let foreign = look::unexplained(&self.plane, &outline, &missing, levels) <= UNEXPLAINED;
-        if !foreign || surround.uneven > UNEVEN || 2.0 * b < quality::GAP_MINOR {
+        if !foreign || surround.uneven > UNEVEN || 2.0 * b < GAP_MINOR {
             return Err(Covered::Hidden(outline));
         }
         Ok(Found { ellipse, surround, kept, blur, strength, bright, refined: false })

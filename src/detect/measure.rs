@@ -1,9 +1,15 @@
 //! One target: from a rough outline to a centre with its covariance, or the reason why there is none.
 
+pub(super) mod confirm;
+
+use super::acceptance::fit as limits;
+use super::acceptance::levels::{BELIEVED, ROUNDING};
+use super::acceptance::look::OUTSIDE;
+use super::acceptance::size::FIT_SMALL;
 use super::centroid::{self, Centre};
-use super::edges::blur::{self, BLURRED, DEFOCUSED, SHARP, SOFT};
+use super::edges::blur::{self, BLURRED, DEFOCUSED, SHARP};
 use super::edges::edge::{self, Edges};
-use super::edges::look::{self, DotLevels};
+use super::edges::look;
 use super::edges::propagation;
 use super::edges::quality;
 use super::edges::surround::{self, Surround};
@@ -17,66 +23,14 @@ use super::rendered::fit::{self, Workspace};
 use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
 use crate::image::{Plane, Sample};
 
-/// Largest share of the inside that may differ from the rest.
-pub(super) const UNEVEN: f64 = 0.25;
-
-/// Most directions in which a faint target may lie inside of a thin ring.
-const STROKE: u32 = 11;
-/// Largest share of the outline that may be missing without anything in front of it.
-pub(super) const UNEXPLAINED: f64 = 0.2;
-
-/// Rays in a row without a fitting edge that are something in front of the target.
-const COVERED: usize = 3;
-
-/// Which rays count: a single edge out of place is chance, two in a row are something in front of the target. Its own edge is as
-/// blurred as the target's: beside what covers more than that the rim is left out as far as that blur reaches.
-pub(super) fn undisturbed(edges: &Edges, outline: &Outline, blur: f64) -> Vec<bool> {
-    let count = edges.len();
-    let kept = |k: usize| edges.is_kept(k % count);
-    let good: Vec<bool> = (0..count).map(|k| kept(k) || kept(k + 1) && kept(k + count - 1)).collect();
-    let margin = ((2.0 * blur + 1.0) * count as f64 / outline.perimeter()).ceil() as usize;
-    let mut all = good.clone();
-    for k in (0..count).filter(|k| (0..COVERED).all(|i| !good[(k + i) % count])) {
-        for i in 0..COVERED + 2 * margin {
-            all[(k + count + i - margin.min(count)) % count] = false;
-        }
-    }
-    all
-}
-
-/// Rings of a first look at the surround.
-pub(super) const NEARBY: u32 = 6;
-
-/// Correction, in pixels, that ends the refinement of an ellipse that only starts the final measurement.
-pub(super) const NEAR: f64 = 0.005;
-
 /// Expected corrections, in pixels, that end the approach and the fit.
 const ROUGH: f64 = 2e-3;
 const CONVERGED: f64 = 1e-4;
-
-/// Largest share of a whole outline that chance may hide.
-const WHOLE: f64 = 0.05;
-/// Largest share of the rim's pixels that the fit may leave out.
-const DISTURBED: f64 = 0.12;
-
-/// Share of clipped pixels that explains why a target has no fit.
-const CLIPPED: f64 = 0.5;
-
-/// Blur of a lens in focus and its spread over lenses, in pixels; and the standard deviation, in units of what is seen of it, of a
-/// contrast of which nothing is known. Neither is correlated with the centre.
-const IN_FOCUS: [f64; 2] = [0.8, 0.25];
-const LOOSE: f64 = 100.0;
 
 /// Half the width of the band of pixels that the rim's blur reaches.
 fn half_band(blur: f64) -> f64 {
     3.6 * (blur * blur + 1.0 / 12.0).sqrt() + 0.8
 }
-
-/// Semi-minor axis, in pixels, below which the rows of the search are too few to show the height.
-const SMALL: f64 = 5.0;
-
-/// Change of an outline, in pixels, up to which its edges are not looked for again.
-const HEAD_ON: f64 = 0.4;
 
 /// What measuring needs besides the outline; scratch is reused.
 pub(crate) struct Measure<'a, T> {
@@ -106,148 +60,21 @@ pub(crate) struct Found {
 }
 
 impl Found {
+    /// Contrast, positive where it has the sign of its polarity.
+    fn signed(&self) -> f64 {
+        if self.bright { self.surround.contrast } else { -self.surround.contrast }
+    }
+
     /// What noise does to its edges, for a blur.
     fn spread(&self, blur: f64) -> f64 {
         if self.refined { quality::fitted(blur) } else { quality::steepest(blur) }
     }
 }
 
-/// Rms of edge points from an outline of semi-minor axis b beyond which it is none, in pixels.
-fn largest_rms(b: f64) -> f64 {
-    0.3 + 0.03 * b
-}
-
 impl<'a, T: Sample> Measure<'a, T> {
     /// Nothing measured yet.
     pub fn new(plane: Plane<'a, T>, levels: Levels, options: &'a DetectOptions) -> Self {
         Self { plane, levels, options, edges: Edges::default(), work: Workspace::default(), prior: None, colour: None }
-    }
-
-    /// Edges, ellipse and surround of a target that has passed its first look, whose outline is known to a fraction of its size.
-    pub fn confirm(&mut self, start: &Outline, bright: bool) -> Result<Found, Reason> {
-        let mut outline = *start;
-        let mut fitted: Option<EllipseFit> = None;
-        let mut focus = SHARP;
-        for round in 0..2 {
-            let (a, b) = outline.semi_axes();
-            if !outline.is_proper() || a > self.plane.width.max(self.plane.height) as f64 {
-                return Err(Reason::NotAnEllipse);
-            }
-            let reach = if round == 0 { (0.3 * b).clamp(2.0, 12.0) } else { (0.15 * b).clamp(2.0, 6.0) };
-            // most of what is no target shows in a few rays
-            let count = edge::ray_count(&outline);
-            let count = if round == 0 { count.min(32) } else { count };
-            // edges that were all found, and met almost head on, are the same seen from the better outline
-            let again = fitted.is_some_and(|found| found.occluded == 0.0 && outline.differs(start) <= HEAD_ON);
-            if !again {
-                self.search(&outline, bright, reach, count, focus);
-            }
-            if round == 0 {
-                focus = self.focus(&outline, bright);
-                if focus > DEFOCUSED {
-                    self.search(&outline, bright, reach, count, focus);
-                }
-            }
-            let from = if round == 0 { Start::Rough } else { Start::Near(NEAR) };
-            let found = through::fit(&mut self.edges, &outline, from).ok_or(Reason::NotAnEllipse)?;
-            outline = found.outline;
-            // out of focus, two pixels see but 0.8 / s of the contrast
-            let contrast = self.strength() * if focus > DEFOCUSED { 1.25 * focus } else { 1.0 };
-            let spread = quality::steepest(blur::rough(focus));
-            let scatter = quality::expected_scatter(b, &self.levels, self.levels.noise, contrast, spread);
-            // the search knows the height of a small target to two pixels only
-            let rough = if round == 0 && b < SMALL { 0.2 } else { 0.0 };
-            if found.rms > 0.05 + rough + 1.3 * scatter {
-                return Err(Reason::NotAnEllipse);
-            }
-            if round == 0 {
-                // what the second round decides, with room for what it may change
-                if found.occluded > quality::HIDDEN + 0.1 {
-                    return Err(Reason::Occluded);
-                }
-                if outline.semi_axes().1 < 0.85 * self.options.min_axis_ratio * outline.semi_axes().0 {
-                    return Err(Reason::TooFlat);
-                }
-                if !quality::size_may_allow(&found) {
-                    return Err(Reason::NotAnEllipse);
-                }
-                let missing = if found.gap <= quality::SMALL_GAP { 2 } else { 7 };
-                look::stands_out(&self.plane, &self.levels, &outline, bright, missing, 3)?;
-            }
-            fitted = Some(found);
-        }
-        let mut ellipse = fitted.ok_or(Reason::NotAnEllipse)?;
-        let (a, b) = outline.semi_axes();
-        if b < self.options.min_axis_ratio * a {
-            return Err(Reason::TooFlat);
-        }
-        if 2.0 * a < 0.92 * self.options.min_diameter {
-            return Err(Reason::TooSmall);
-        }
-        if 2.0 * a > 1.02 * self.options.max_diameter {
-            return Err(Reason::TooLarge);
-        }
-        let (half_u, half_v) = outline.half_box();
-        let inside = outline.u - half_u >= 2.0
-            && outline.v - half_v >= 2.0
-            && outline.u + half_u <= self.plane.width as f64 - 2.0
-            && outline.v + half_v <= self.plane.height as f64 - 2.0;
-        if !inside {
-            return Err(Reason::AtBorder);
-        }
-        if ellipse.occluded > quality::HIDDEN {
-            return Err(Reason::Occluded);
-        }
-        if ellipse.rms > largest_rms(b) && focus <= SOFT || !quality::size_allows(&ellipse) {
-            return Err(Reason::NotAnEllipse);
-        }
-        let mut kept = undisturbed(&self.edges, &outline, blur::rough(focus));
-        let rough =
-            surround::measure(&self.plane, &outline, blur::rough(focus), &kept, NEARBY).ok_or(Reason::AtBorder)?;
-        let strength = self.strength();
-        let blur = blur::of(strength, rough.contrast.abs());
-        let surround = if blur > BLURRED {
-            surround::measure(&self.plane, &outline, blur, &kept, NEARBY).ok_or(Reason::AtBorder)?
-        } else {
-            rough
-        };
-        let signed = if bright { surround.contrast } else { -surround.contrast };
-        if signed < (4.0 * surround.noise.min(4.0 * self.levels.noise + 2.0)).max(self.levels.step()) {
-            return Err(Reason::LowContrast);
-        }
-        if !quality::has_shape(&ellipse, self.noise(&surround), signed) {
-            return Err(Reason::LowContrast);
-        }
-        let blur = blur::of(strength, signed);
-        let noise = self.noise(&surround);
-        let good = |ellipse: &EllipseFit, levels: &Levels, spread: f64| {
-            ellipse.rms <= largest_rms(b) && quality::outline_allows(ellipse, levels, noise, signed, spread)
-        };
-        // the steepest places of a soft edge scatter, its whole profile does not, unless it is that of a small blot
-        let refined = blur > SOFT && (focus <= DEFOCUSED || !good(&ellipse, &self.levels, quality::steepest(blur)));
-        if refined {
-            let (count, profile) = (self.edges.len(), blur::profile(&outline, &surround, strength, blur));
-            edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
-            ellipse = through::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Reason::NotAnEllipse)?;
-            outline = ellipse.outline;
-            kept = undisturbed(&self.edges, &outline, blur);
-            if ellipse.occluded > quality::HIDDEN {
-                return Err(Reason::Occluded);
-            }
-        }
-        let found = Found { ellipse, surround, kept, blur, strength, bright, refined };
-        if surround.uneven > UNEVEN || !good(&ellipse, &self.levels, found.spread(blur)) {
-            return Err(Reason::NotAnEllipse);
-        }
-        let levels = DotLevels { dot: surround.level + surround.contrast, background: surround.level };
-        let faint = signed < quality::FAINT * noise;
-        if faint && look::stroke(&self.plane, &outline, levels) > STROKE
-            || ellipse.occluded > UNEXPLAINED
-                && look::unexplained(&self.plane, &outline, &found.kept, levels) > UNEXPLAINED
-        {
-            return Err(Reason::NotAnEllipse);
-        }
-        Ok(found)
     }
 
     /// Edges on `count` rays, of a target of about this blur.
@@ -267,7 +94,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         let strength = self.strength();
         let mut blur = SHARP;
         for _ in 0..4 {
-            let contrast = look::contrast(&self.plane, outline, (2.0 * blur).max(look::OUTSIDE));
+            let contrast = look::contrast(&self.plane, outline, (2.0 * blur).max(OUTSIDE));
             blur = blur::of(strength, if bright { contrast } else { -contrast });
             if blur <= DEFOCUSED {
                 break;
@@ -293,14 +120,14 @@ impl<'a, T: Sample> Measure<'a, T> {
     pub fn finish(&mut self, found: &Found, method: Method) -> Result<Target, Reason> {
         let measured = self.measured(found, method);
         // without a fit, what is clipped in most of its pixels has failed for that
-        if measured != Err(Reason::NoFit) || self.saturated(&found.ellipse.outline) <= CLIPPED {
+        if measured != Err(Reason::NoFit) || self.saturated(&found.ellipse.outline) <= limits::MOSTLY_CLIPPED {
             return measured;
         }
         // only the foot of the profile is left, where contrast and blur stand for each other: the blur of a lens in focus decides
         let contrast = found.surround.contrast;
         self.prior = Some(Prior {
-            blur: IN_FOCUS,
-            contrast: [contrast, LOOSE * contrast.abs()],
+            blur: limits::IN_FOCUS,
+            contrast: [contrast, limits::LOOSE * contrast.abs()],
             noise: self.noise(&found.surround),
             largest_rms: f64::INFINITY,
         });
@@ -387,7 +214,7 @@ impl<'a, T: Sample> Measure<'a, T> {
 
     /// Noise around a target; where the surround is not plane, what the whole picture has is believed.
     pub(super) fn noise(&self, surround: &Surround) -> f64 {
-        surround.noise.clamp(self.levels.noise, 1.1 * self.levels.noise).max(0.3)
+        surround.noise.clamp(self.levels.noise, BELIEVED * self.levels.noise).max(ROUNDING)
     }
 
     /// The fit of the rendered ellipse, checked against what it started from.
@@ -416,7 +243,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         let mut fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
         let b = fit.outline.semi_axes().1;
         let gap = b - 2.0 * fit.blur;
-        if !self.explains(found, &fit) && gap > 1.0 && found.ellipse.occluded < WHOLE {
+        if !self.explains(found, &fit) && gap > limits::NARROW && found.ellipse.occluded < limits::WHOLE {
             // a code ring, perhaps, as near as the rim is to the centre: only the gap is the target's ground
             let narrow = Surround { outer: gap.min(surround.outer), ..surround };
             let last = Region { surround: &narrow, ..last };
@@ -425,13 +252,13 @@ impl<'a, T: Sample> Measure<'a, T> {
         let (a, b) = fit.outline.semi_axes();
         let moved = (fit.outline.u - region.outline.u).hypot(fit.outline.v - region.outline.v);
         let contrast = if found.bright { fit.contrast } else { -fit.contrast };
-        if moved > 1.0 + 0.1 * b || contrast <= 0.0 {
+        if moved > limits::MOVED[0] + limits::MOVED[1] * b || contrast <= 0.0 {
             return Err(Reason::NoFit);
         }
         if b < self.options.min_axis_ratio * a {
             return Err(Reason::TooFlat);
         }
-        if 2.0 * a < 0.95 * self.options.min_diameter {
+        if 2.0 * a < FIT_SMALL * self.options.min_diameter {
             return Err(Reason::TooSmall);
         }
         if self.explains(found, &fit) { Ok((fit, surround)) } else { Err(Reason::NotAnEllipse) }
@@ -440,8 +267,9 @@ impl<'a, T: Sample> Measure<'a, T> {
     /// Whether two grey levels and a blur describe the rim, whatever the lens adds.
     fn explains(&self, found: &Found, fit: &fit::Fit) -> bool {
         let (noise, contrast) = (self.noise(&found.surround), fit.contrast.abs());
-        fit.disturbed <= DISTURBED
-            && fit.rms <= 1.5 * noise + if self.levels.stairs { 0.25 } else { 0.1 } * contrast
+        let profile = if self.levels.stairs { limits::RMS_STAIRS } else { limits::RMS_PROFILE };
+        fit.disturbed <= limits::DISTURBED
+            && fit.rms <= limits::RMS_NOISE * noise + profile * contrast
             && quality::is_target(&found.ellipse, &self.levels, fit.uneven, noise, contrast, found.spread(fit.blur))
     }
 

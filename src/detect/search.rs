@@ -17,6 +17,8 @@ use std::collections::HashSet;
 use self::blob::{Limits, NoBlob};
 use self::component::{Chord, Linker};
 use self::scan::Edge;
+use super::acceptance::picture::{QUARTERED, SEARCHED};
+use super::acceptance::size::{BLOB_LARGE, LARGE, SEARCHED_FLAT};
 use super::edges::look;
 use super::ellipse::outline::Outline;
 use super::picture::noise::Levels;
@@ -46,17 +48,19 @@ pub(crate) struct Blobs {
 
 /// Levels of contrast, each three times the one below.
 const LEVELS: u32 = 4;
-/// From this diameter on the quartered picture is searched too.
-const LARGE: f64 = 40.0;
-
-/// Axis ratio from which on outlines of the search, known to a part of a pixel, go on to be measured.
+/// Axis ratio from which on outlines of the search go on to be measured.
 fn flattest(options: &DetectOptions) -> f64 {
-    0.76 * options.min_axis_ratio
+    SEARCHED_FLAT * options.min_axis_ratio
+}
+
+/// Largest of a multiple of the noise, a share of the range and a number of levels.
+fn above(levels: &Levels, [noise, range, least]: [f64; 3]) -> f64 {
+    (noise * levels.noise).max(range * levels.range).max(least)
 }
 
 /// Lowest difference over three pixels that is an edge.
 pub(crate) fn threshold(levels: &Levels) -> f64 {
-    (6.5 * levels.noise).max(0.03 * levels.range).max(5.0)
+    above(levels, SEARCHED)
 }
 
 /// Searches a picture at its own and at a quarter of its size, row by row: each is fetched from memory once. Blobs of strong
@@ -81,7 +85,7 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
         step: 2,
     };
     let large = options.max_diameter > LARGE && plane.width >= 32 && plane.height >= 32;
-    let weak = (3.0 * levels.noise).max(0.03 * levels.range).max(4.0);
+    let weak = above(levels, QUARTERED);
     let mut quarter = large.then(|| Pass::new(weak, levels.range, options.polarity, limits));
     let mut reduced = Vec::new();
     let look_enlarged = |outline: &Outline, bright| look(&enlarged(outline), bright);
@@ -150,7 +154,7 @@ impl Pass {
             PolarityChoice::Bright => &[true],
             PolarityChoice::Dark => &[false],
         };
-        let rows = (1.3 * limits.max_diameter / limits.step as f64).min(1e6) as usize + 8;
+        let rows = (BLOB_LARGE * limits.max_diameter / limits.step as f64).min(1e6) as usize + 8;
         let lowest = lowest.min(65535.0) as u32;
         // a level above half the range would see hardly an edge
         let levels = (0..LEVELS)

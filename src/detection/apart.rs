@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Colour;
+use crate::project::{ColourShift, PhotoColours};
 
 /// A target in another colour, less the same in green.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,4 +65,16 @@ pub struct ColoursApart {
     pub corner: f64,
     /// Red and blue; none of a sensor without filters.
     pub colours: Vec<ColourApart>,
+}
+
+impl ColoursApart {
+    /// What a report tells of it.
+    pub fn of_photo(&self, photo: &str) -> PhotoColours {
+        let of = |colour: Colour| {
+            let Lateral { linear, cubic, sigma_at_corner: sigma, rms, targets, .. } =
+                self.colours.iter().find(|apart| apart.colour == colour)?.lateral?;
+            Some(ColourShift { linear, cubic, sigma, rms, targets })
+        };
+        PhotoColours { photo: photo.to_owned(), corner: self.corner, red: of(Colour::Red), blue: of(Colour::Blue) }
+    }
 }

@@ -359,17 +359,19 @@ fn shrunk(fine: &[f32], size: usize) -> Vec<f32> {
     (0..coarse * coarse).map(block).collect()
 }
 
-/// Blurred by a Gaussian in both directions.
-fn blurred(picture: &[f32], size: usize, sigma: f64) -> Vec<f32> {
+/// Blurred by a Gaussian in both directions; the border repeats its last pixel.
+pub fn blurred(picture: &[f32], width: usize, sigma: f64) -> Vec<f32> {
     let side = (3.5 * sigma).ceil() as usize;
     let kernel: Vec<f32> =
         (0..=2 * side).map(|i| (-((i as f64 - side as f64) / sigma).powi(2) / 2.0).exp() as f32).collect();
     let sum: f32 = kernel.iter().sum();
     let mut from = picture.to_vec();
-    let mut row = vec![0f32; size + 2 * side];
-    for _ in 0..2 {
+    // rows, turned over the diagonal: twice gives both directions
+    for size in [width, picture.len() / width] {
+        let rows = picture.len() / size;
+        let mut row = vec![0f32; size + 2 * side];
         let mut out = vec![0f32; picture.len()];
-        for y in 0..size {
+        for y in 0..rows {
             row[side..side + size].copy_from_slice(&from[y * size..(y + 1) * size]);
             let (first, last) = (row[side], row[side + size - 1]);
             row[..side].fill(first);
@@ -379,7 +381,7 @@ fn blurred(picture: &[f32], size: usize, sigma: f64) -> Vec<f32> {
                 line.iter_mut().zip(&row[k..]).for_each(|(sum, level)| *sum += weight * level);
             }
             for (x, value) in line.into_iter().enumerate() {
-                out[x * size + y] = value / sum;
+                out[x * rows + y] = value / sum;
             }
         }
         from = out;

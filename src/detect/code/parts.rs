@@ -1,13 +1,10 @@
 //! What detection finds in a coded target besides its dot: parts of the ring, and the spot in the dot's centre.
 
 use super::outline_of;
+use crate::detect::acceptance::code::{BEYOND, SPOT};
 use crate::detect::outline::Outline;
-use crate::detect::search::census::SPOT;
 use crate::detection::{Detection, Reason, Rejected, Target};
 use crate::ring_code::Design;
-
-/// How far beyond the ring a part of it may reach, in radii.
-const BEYOND: f64 = 0.25;
 
 /// A coded dot with the ring it has.
 fn coded(target: &Target) -> Option<(Outline, Design)> {

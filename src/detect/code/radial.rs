@@ -14,6 +14,7 @@ use nalgebra::{Matrix2, Matrix3, Matrix4, Vector2, Vector3, Vector4};
 use super::polar::{Frame, Polar, between, radius, step};
 use super::sectors::{self, Division};
 use super::{outline_of, sign};
+use crate::detect::acceptance::code as limits;
 use crate::detection::Target;
 use crate::image::{Plane, Sample};
 use crate::ring_code::Design;
@@ -25,9 +26,8 @@ const START: f64 = 1.2;
 const GROUND: f64 = 0.42;
 /// Holds bands that blur has hidden, against the weight of one that is seen.
 const RIDGE: f64 = 0.02;
-/// Directions of the first look, and the share of the contrast that is a set sector there.
+/// Directions of the first look.
 const LOOKS: usize = 60;
-const SET: f64 = 0.35;
 
 /// What lies around a dot, direction by direction.
 #[derive(Clone, Debug)]
@@ -38,6 +38,8 @@ pub(super) struct Radial {
     pub gap: Vec<f64>,
     pub halves: Vec<f64>,
     pub outside: Vec<f64>,
+    /// How far the ground of each direction, as it is without a gap, halves or outside of their own, lies from the plane through all.
+    pub ground: Vec<f64>,
     /// Rms of what the bands leave.
     pub misfit: f64,
 }
@@ -61,7 +63,7 @@ fn inside<T: Sample>(plane: &Plane<T>, frame: &Frame) -> f64 {
 pub(super) fn may_have_ring<T: Sample>(plane: &Plane<T>, target: &Target) -> bool {
     let frame = Frame::new(outline_of(target), 0.0);
     let dot = inside(plane, &frame);
-    let limit = (1.0 - SET) * target.contrast.min(f64::from(T::MAX));
+    let limit = (1.0 - limits::SET) * target.contrast.min(f64::from(T::MAX));
     let sign = sign(target);
     let mut set = 0;
     for k in 0..LOOKS {
@@ -72,8 +74,7 @@ pub(super) fn may_have_ring<T: Sample>(plane: &Plane<T>, target: &Target) -> boo
         };
         set += u32::from([2.5, 2.9].into_iter().any(like_dot));
     }
-    // two sectors of twenty, less what blur takes
-    set as usize * 20 >= LOOKS
+    set as usize * limits::LOOKED >= LOOKS
 }
 
 impl Radial {
@@ -87,19 +88,20 @@ impl Radial {
         }
         let dot = inside(plane, frame);
         let mut contrast = sign(target) * target.contrast;
-        let mut background = [0.0; 3];
+        let (mut background, mut off) = ([0.0; 3], Vec::new());
         for _ in 0..2 {
-            background = ground(&polar, contrast, ring)?;
+            (background, off) = ground(&polar, contrast, ring)?;
             contrast = (dot - background[0]) / seen_inside(&polar);
         }
-        if !(contrast * sign(target) > 1.0) {
+        if !(contrast * sign(target) > limits::CONTRAST) {
             return None;
         }
         polar.normalise(background, contrast);
-        Some(Self::separate(polar, ring))
+        off.iter_mut().for_each(|level| *level /= contrast);
+        Some(Self::separate(polar, ring, off))
     }
 
-    fn separate(polar: Polar, [inner, outer]: [f64; 2]) -> Self {
+    fn separate(polar: Polar, [inner, outer]: [f64; 2], ground: Vec<f64>) -> Self {
         let middle = (inner + outer) / 2.0;
         let bands = [[1.0, inner], [inner, middle], [middle, outer], [outer, outer + GROUND]];
         let samples = between([START, outer + GROUND]);
@@ -137,7 +139,13 @@ impl Radial {
             squares += seen.iter().map(|(basis, level)| (level - basis.dot(&found)).powi(2)).sum::<f64>();
             number += seen.len() as u32;
         }
-        Self { polar, middle, ring, gap, halves, outside, misfit: (squares / f64::from(number.max(1))).sqrt() }
+        let misfit = (squares / f64::from(number.max(1))).sqrt();
+        Self { polar, middle, ring, gap, halves, outside, ground, misfit }
+    }
+
+    /// Largest distance of an arc's end from the grid of a division, over what it may be.
+    pub fn off_grid(&self, division: &Division) -> f64 {
+        division.off_grid(&self.polar, &self.ring, self.middle)
     }
 
     /// The ring's division into sectors.
@@ -161,7 +169,7 @@ fn seen_inside(polar: &Polar) -> f64 {
 ///
 /// Each direction gives the level that a dot of this contrast and a ring of any level leave; the plane goes through those that
 /// agree.
-fn ground(polar: &Polar, contrast: f64, ring: [f64; 2]) -> Option<[f64; 3]> {
+fn ground(polar: &Polar, contrast: f64, ring: [f64; 2]) -> Option<([f64; 3], Vec<f64>)> {
     let samples = between([START, ring[1] + GROUND]);
     let middle = (START + ring[1] + GROUND) / 2.0;
     let count = polar.directions.len();
@@ -183,19 +191,19 @@ fn ground(polar: &Polar, contrast: f64, ring: [f64; 2]) -> Option<[f64; 3]> {
         .collect();
     let mut kept: Vec<bool> = levels.iter().map(|level| level.is_finite()).collect();
     let mut plane = Vector3::zeros();
-    for round in 0..4 {
+    let basis = |j: usize| {
+        let [c, s] = polar.directions[j];
+        Vector3::new(1.0, middle * c, middle * s)
+    };
+    for distance in limits::GROUND {
         let mut normal = Matrix3::<f64>::zeros();
         let mut right = Vector3::<f64>::zeros();
-        let basis = |j: usize| {
-            let [c, s] = polar.directions[j];
-            Vector3::new(1.0, middle * c, middle * s)
-        };
         for j in (0..count).filter(|j| kept[*j]) {
             normal += basis(j) * basis(j).transpose();
             right += basis(j) * levels[j];
         }
         plane = normal.cholesky()?.solve(&right);
-        let limit = contrast.abs() * [0.5, 0.3, 0.2, 0.2][round];
+        let limit = contrast.abs() * distance;
         for j in 0..count {
             kept[j] = (levels[j] - basis(j).dot(&plane)).abs() < limit;
         }
@@ -203,5 +211,7 @@ fn ground(polar: &Polar, contrast: f64, ring: [f64; 2]) -> Option<[f64; 3]> {
             return None;
         }
     }
-    Some([plane[0], plane[1], plane[2]])
+    let off =
+        levels.iter().enumerate().map(|(j, level)| if level.is_finite() { level - basis(j).dot(&plane) } else { 0.0 });
+    Some(([plane[0], plane[1], plane[2]], off.collect()))
 }

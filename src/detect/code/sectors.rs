@@ -10,9 +10,10 @@
 //! neighbours' blur, together with its standard error; narrow sectors of a tilted ring could not be told apart otherwise. The phase
 //! starts at that of the n-th harmonic of the edges, Σ |dy|² exp(i n t), and is refined where the binary model misfits least.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::polar::{Polar, step};
+use crate::detect::acceptance::code::{ENDS, SAME, STANDS_OUT};
 
 /// Steps of the phase, as shares of a sector: a coarse and a fine search.
 const PHASES: [&[f64]; 2] = [&[-0.16, -0.08, 0.0, 0.08, 0.16], &[-0.04, -0.02, 0.02, 0.04]];
@@ -20,9 +21,10 @@ const PHASES: [&[f64]; 2] = [&[-0.16, -0.08, 0.0, 0.08, 0.16], &[-0.04, -0.02, 0
 /// Sectors whose blur reaches a direction, on either side and with its own.
 const NEAR: usize = 3;
 
-/// Distance of two ends of arcs, in sectors, up to which they are the same.
-const SAME: f64 = 0.05;
-
+/// How near to its middle a direction lies well inside of a sector.
+const INNER: f64 = 0.35;
+/// What holds the level of set sectors alike all around, against the weight of one direction.
+const STEADY: f64 = 0.05;
 /// What holds sectors that blur has hidden, against the weight of one that is seen.
 const RIDGE: f64 = 0.01;
 
@@ -109,7 +111,7 @@ fn at_phase(polar: &Polar, levels: &[f64], radius: f64, n: u32, phase: f64) -> O
         of().sum::<f64>() / of().count().max(1) as f64
     };
     let (low, high) = (mean(false), mean(true));
-    if !(high - low > 0.1) {
+    if !(high - low > STANDS_OUT) {
         return None;
     }
     let middle = (low + high) / 2.0;
@@ -189,6 +191,50 @@ impl Division {
         self.bits >> (self.levels.len() - 1 - sector) & 1 == 1
     }
 
+    /// Largest distance of an arc's end from the grid, over what it may be. What stands on the wrong side of an end, as far as half a
+    /// sector to both sides, is its shift times the step between the levels, whatever the blur. Light changes the level of set sectors
+    /// around the ring: a plane goes through what lies well inside of them.
+    pub fn off_grid(&self, polar: &Polar, levels: &[f64], radius: f64) -> f64 {
+        let n = self.levels.len();
+        let (count, directions) = (n as f64, levels.len() as f64);
+        let sector_of = |j: usize| {
+            let turn = j as f64 / directions - self.phase / std::f64::consts::TAU;
+            let place = turn.rem_euclid(1.0) * count;
+            ((place as usize).min(n - 1), place.fract())
+        };
+        let basis = |j: usize| Vector3::new(1.0, polar.directions[j][0], polar.directions[j][1]);
+        let (mut normal, mut right) = (Matrix3::<f64>::zeros(), Vector3::<f64>::zeros());
+        for (j, level) in levels.iter().enumerate() {
+            let (sector, share) = sector_of(j);
+            if self.is_set(sector) && (share - 0.5).abs() < INNER {
+                normal += basis(j) * basis(j).transpose();
+                right += basis(j) * (level - self.high);
+            }
+        }
+        let ridge = STEADY * normal[(0, 0)];
+        normal += Matrix3::from_diagonal(&Vector3::new(1e-9, ridge, ridge));
+        let tilt = normal.cholesky().map_or_else(Vector3::zeros, |factor| factor.solve(&right));
+        let step = self.high - self.low;
+        let rest: Vec<f64> = (0..levels.len())
+            .map(|j| {
+                let expected =
+                    self.shares[j].of(n).map(|(k, share)| if self.is_set(k) { share } else { 0.0 }).sum::<f64>();
+                levels[j] - self.low - expected * (step + basis(j).dot(&tilt))
+            })
+            .collect();
+        let ends = (0..n).filter(|k| self.is_set(*k) != self.is_set((k + n - 1) % n));
+        let off = |k: usize| {
+            let place = (self.phase / std::f64::consts::TAU + k as f64 / count) * directions;
+            let half = 0.5 * directions / count;
+            let near = (place - half).ceil() as i64..=(place + half).floor() as i64;
+            let at = |j: i64| j.rem_euclid(levels.len() as i64) as usize;
+            let shift = near.map(|j| rest[at(j)]).sum::<f64>() * count / (directions * step);
+            let sector_px = std::f64::consts::TAU / count * radius * polar.arc[at(place.round() as i64)];
+            shift.abs() / (ENDS[0] + ENDS[1] / sector_px)
+        };
+        ends.map(off).fold(0.0, f64::max)
+    }
+
     /// Directions in which the level changes, as shares of a turn.
     fn changes(&self) -> Vec<f64> {
         let n = self.levels.len();
@@ -205,5 +251,42 @@ impl Division {
             d.min(1.0 - d) < limit
         };
         a.len() == b.len() && a.iter().all(|x| b.iter().any(|y| near(x, y)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+    use crate::detect::code::polar::Frame;
+    use crate::detect::outline::Outline;
+    use crate::image::Plane;
+
+    /// Levels around a ring whose arcs end at these places, in sectors of 12, blurred over a tenth of a sector.
+    fn ring(ends: &[[f64; 2]], directions: usize) -> Vec<f64> {
+        let level = |turn: f64| {
+            let of = |[from, to]: &[f64; 2]| step((turn - from) / 0.1) - step((turn - to) / 0.1);
+            ends.iter().map(of).sum()
+        };
+        (0..directions).map(|j| level(12.0 * (j as f64 + 0.5) / directions as f64)).collect()
+    }
+
+    #[test]
+    fn ends_off_the_grid_are_told_and_those_on_it_are_not() {
+        let samples = vec![0u8; 200 * 200];
+        let frame = Frame::new(Outline::from_axes(100.0, 100.0, 15.0, 15.0, 0.0), 0.0);
+        let polar = Polar::sample(&Plane::new(200, 200, &samples), &frame, 1.8);
+        let off = |ends: &[[f64; 2]]| {
+            let levels = ring(ends, polar.directions.len());
+            let division = divide(&polar, &levels, 2.5, 12).unwrap();
+            division.off_grid(&polar, &levels, 2.5)
+        };
+        let on = off(&[[1.0, 3.0], [5.0, 6.0], [8.0, 11.0]]);
+        assert!(on < 0.3, "{on}");
+        // a sector of 20 px: a quarter of it is 5 px
+        let one = off(&[[1.0, 3.25], [5.0, 6.0], [8.0, 11.0]]);
+        assert!(one > 1.5, "{one}");
     }
 }

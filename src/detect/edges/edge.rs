@@ -7,8 +7,8 @@
 use wide::{f32x4, i32x4};
 
 use super::through::Scratch;
-use crate::detect::ellipse::outline::{Outline, RimPoint};
-use crate::detect::ellipse::rays::{FourRims, Rays, quarter};
+use crate::detect::ellipse::outline::Outline;
+use crate::detect::ellipse::rays::{FourRims, Rays, quarter, rim_points};
 use crate::detect::normal::{BLUR, normal_distribution};
 use crate::image::{Plane, Sample};
 
@@ -68,18 +68,6 @@ const LONGEST: usize = 64;
 /// or mirrored picture are the same rays.
 pub(crate) fn ray_count(outline: &Outline) -> usize {
     ((outline.perimeter() / 6.0).round() as usize * 4).clamp(20, 48)
-}
-
-/// Rim points at equal steps of the parameter.
-pub(crate) fn rim_points(outline: &Outline, count: usize) -> impl Iterator<Item = RimPoint> + use<> {
-    let outline = *outline;
-    let (turn_s, turn_c) = (std::f64::consts::TAU / count as f64).sin_cos();
-    let (mut c, mut s) = (1.0, 0.0);
-    (0..count).map(move |_| {
-        let rim = outline.rim(c, s);
-        (c, s) = (c * turn_c - s * turn_s, s * turn_c + c * turn_s);
-        rim
-    })
 }
 
 /// Looks for the edge on `count` rays, up to `reach` pixels inside and outside of the outline.

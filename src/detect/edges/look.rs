@@ -6,21 +6,15 @@
 
 use wide::f32x4;
 
-use super::edge::rim_points;
-use super::quality;
+use crate::detect::acceptance::{look as limits, outline::GAP_MINOR};
 use crate::detect::ellipse::outline::{Outline, RimPoint};
-use crate::detect::ellipse::rays::Rays;
+use crate::detect::ellipse::rays::{Rays, rim_points};
 use crate::detect::picture::noise::Levels;
 use crate::detection::Reason;
 use crate::image::{Plane, Sample};
 
 /// Directions that are looked at.
 pub(crate) const DIRECTIONS: u32 = 16;
-/// Distance of the outer pixel from the rim: beyond the blur of a sharp photograph.
-pub(crate) const OUTSIDE: f64 = 2.5;
-
-/// Step, in units of the noise, from which chance hardly hides it in a direction: there two pixels differ by 0.4 of it.
-const CLEAR: f64 = 6.0;
 
 /// Grey levels of a dot: inside and outside.
 #[derive(Clone, Copy, Debug)]
@@ -51,8 +45,9 @@ pub(crate) fn first<T: Sample>(
     outline: &Outline,
     bright: bool,
 ) -> Result<(), Reason> {
-    let small = 2.0 * outline.semi_axes().1 < 0.8 * quality::GAP_MINOR;
-    stands_out(plane, levels, outline, bright, if small { 3 } else { 7 }, 5)
+    let small = 2.0 * outline.semi_axes().1 < limits::SMALL * GAP_MINOR;
+    let missing = if small { limits::MISSING_SMALL } else { limits::MISSING };
+    stands_out(plane, levels, outline, bright, missing, limits::OPEN)
 }
 
 /// Whether a blob stands out: as many directions as `missing` may be without a step, `open` may lead out of the shape.
@@ -65,7 +60,7 @@ pub(crate) fn stands_out<T: Sample>(
     open: u32,
 ) -> Result<(), Reason> {
     match look(plane, outline, bright, levels.step() as f32, missing) {
-        Some(look) if f64::from(look.step) < 3.3 * levels.noise => Err(Reason::LowContrast),
+        Some(look) if f64::from(look.step) < limits::FAINT * levels.noise => Err(Reason::LowContrast),
         Some(look) if look.even && look.agree + missing >= DIRECTIONS && !look.is_torn(levels.noise) => {
             if look.open > open { Err(Reason::Touching) } else { Ok(()) }
         }
@@ -77,7 +72,7 @@ impl Look {
     /// Whether the step is missing in more places than something in front of a target leaves: one, or two where a cable runs across
     /// it. Of a clear step noise makes no holes.
     fn is_torn(&self, noise: f64) -> bool {
-        self.gaps > 2 && f64::from(self.step) > CLEAR * noise
+        self.gaps > limits::GAPS && f64::from(self.step) > limits::CLEAR * noise
     }
 }
 
@@ -87,7 +82,7 @@ fn look<T: Sample>(plane: &Plane<T>, outline: &Outline, bright: bool, threshold:
     let b = outline.semi_axes().1;
     let sign = f32x4::splat(if bright { 1.0 } else { -1.0 });
     let inner = f32x4::splat((1.0 - 2.0 / b.max(1.0)).clamp(0.2, 0.85) as f32);
-    let outside = f32x4::splat(OUTSIDE as f32);
+    let outside = f32x4::splat(limits::OUTSIDE as f32);
     let from = [outline.u.floor(), outline.v.floor()];
     let [u, v] = [outline.u - from[0], outline.v - from[1]].map(|rest| f32x4::splat(rest as f32));
     let from = from.map(|whole| whole as i32);
@@ -113,8 +108,8 @@ fn look<T: Sample>(plane: &Plane<T>, outline: &Outline, bright: bool, threshold:
     let levels = pairs.map(|pair| pair.to_array()[1]);
     // the typical step is that of the better half
     let typical = sorted[11];
-    let least = (0.4 * typical).max(threshold);
-    let own = |level: f32| (level - levels[8]).abs() < 0.3 * typical;
+    let least = (limits::STEP * typical).max(threshold);
+    let own = |level: f32| (level - levels[8]).abs() < limits::OWN * typical;
     let open = steps.iter().zip(insides).filter(|(step, inside)| own(**inside) && own(**inside - sign * **step));
     let missing = (0..).zip(steps).filter(|(_, step)| **step <= least);
     let missing: u32 = missing.map(|(k, _)| 1 << (AROUND[k / 4] + 4 * (k % 4))).sum();
@@ -123,7 +118,7 @@ fn look<T: Sample>(plane: &Plane<T>, outline: &Outline, bright: bool, threshold:
         gaps: (missing & !(missing << 1 | missing >> (DIRECTIONS - 1))).count_ones(),
         step: sorted[4..].iter().sum::<f32>() / 12.0,
         open: open.count() as u32,
-        even: levels[13] - levels[2] < 0.8 * typical,
+        even: levels[13] - levels[2] < limits::EVEN * typical,
     })
 }
 
@@ -186,7 +181,7 @@ const AROUND: [usize; 4] = [0, 2, 1, 3];
 /// them for the inside of a letter's stroke, those of the set bits in a code ring.
 pub(crate) fn stroke<T: Sample>(plane: &Plane<T>, outline: &Outline, levels: DotLevels) -> u32 {
     let reach = 1.1 * outline.semi_axes().1 + 1.0;
-    let half = 0.5 * (levels.dot - levels.background).abs();
+    let half = limits::COMES_BACK * (levels.dot - levels.background).abs();
     let comes_back = |rim: RimPoint| {
         let [nx, ny] = rim.normal;
         (0..(reach - 0.5) as u32).map(|k| reach - f64::from(k)).any(|distance| {
@@ -198,10 +193,10 @@ pub(crate) fn stroke<T: Sample>(plane: &Plane<T>, outline: &Outline, levels: Dot
 }
 
 /// Share of the outline that is missing though nothing lies in front of it: where neither side of the rim shows a level
-/// that differs, by 0.3 of the contrast, from both the target's and the background's.
+/// that differs from both the target's and the background's.
 pub(crate) fn unexplained<T: Sample>(plane: &Plane<T>, outline: &Outline, kept: &[bool], levels: DotLevels) -> f64 {
     let inner = (1.0 - 2.0 / outline.semi_axes().1.max(1.0)).clamp(0.2, 0.85);
-    let limit = 0.3 * (levels.dot - levels.background).abs();
+    let limit = limits::FOREIGN * (levels.dot - levels.background).abs();
     let foreign = |x: f64, y: f64| {
         let level = f64::from(plane.nearest(x, y));
         (level - levels.dot).abs() > limit && (level - levels.background).abs() > limit
@@ -209,7 +204,8 @@ pub(crate) fn unexplained<T: Sample>(plane: &Plane<T>, outline: &Outline, kept: 
     let missing = rim_points(outline, kept.len()).zip(kept).filter(|(_, kept)| !**kept).filter(|(rim, _)| {
         let [nx, ny] = rim.normal;
         let [dx, dy] = [rim.x - outline.u, rim.y - outline.v];
-        !foreign(rim.x + OUTSIDE * nx, rim.y + OUTSIDE * ny) && !foreign(outline.u + inner * dx, outline.v + inner * dy)
+        !foreign(rim.x + limits::OUTSIDE * nx, rim.y + limits::OUTSIDE * ny)
+            && !foreign(outline.u + inner * dx, outline.v + inner * dy)
     });
     missing.count() as f64 / kept.len().max(1) as f64
 }

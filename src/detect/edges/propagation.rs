@@ -7,8 +7,9 @@
 
 use nalgebra::SMatrix;
 
-use super::edge::{Edges, Profile, rim_points, slopes};
+use super::edge::{Edges, Profile, slopes};
 use crate::detect::ellipse::outline::Outline;
+use crate::detect::ellipse::rays::rim_points;
 
 /// What a centre owes to its pixels.
 pub(crate) struct Influence {

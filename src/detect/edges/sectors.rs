@@ -7,13 +7,12 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::edge::Edges;
+use crate::detect::acceptance::covered::EVEN;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::median;
 
 /// Places of each size of a sector, around the outline.
 const PLACES: usize = 16;
-/// Scatter of edges, in pixels, below which one sector is as good as another.
-const EVEN: f64 = 0.02;
 
 /// Normal equations: matrix, right-hand side, sum of squares, number.
 #[derive(Clone, Copy)]

@@ -8,10 +8,9 @@
 use nalgebra::{Matrix3, Vector3};
 use wide::f32x4;
 
-use super::edge::rim_points;
 use super::look::QUARTER;
 use crate::detect::ellipse::outline::Outline;
-use crate::detect::ellipse::rays::Rays;
+use crate::detect::ellipse::rays::{Rays, rim_points};
 use crate::detect::median;
 use crate::image::{Plane, Sample};
 

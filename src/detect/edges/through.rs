@@ -9,6 +9,7 @@ use nalgebra::{SMatrix, SVector};
 use wide::f32x4;
 
 use super::edge::Edges;
+use crate::detect::acceptance::outline::{BENT, SIGMAS, TOLERANCE};
 use crate::detect::ellipse::conic;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::median;
@@ -26,14 +27,6 @@ pub(crate) struct EllipseFit {
     /// Longest run of such rays, as a share of all.
     pub gap: f64,
 }
-
-/// Smallest distance, in pixels, that a point may always have.
-const TOLERANCE: f64 = 0.25;
-/// Blur s moves the steepest place of a rim of curvature κ inwards by about κ s² / 2: so much, in square pixels, is allowed
-/// for at the tips of a slender ellipse.
-const BENT: f64 = 0.4;
-/// Largest distance of a kept point, in robust standard deviations.
-const SIGMAS: f64 = 3.0;
 
 /// How a fit starts and ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -276,7 +269,7 @@ mod tests {
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
     use super::*;
-    use crate::detect::edges::edge::rim_points;
+    use crate::detect::ellipse::rays::rim_points;
 
     /// Edges at a distance from the rim, one for each of 40 rays; none where there is no distance.
     fn edges(truth: &Outline, off: impl Fn(usize) -> Option<f64>) -> Edges {

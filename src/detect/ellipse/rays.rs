@@ -1,11 +1,23 @@
-//! Rim points four at a time, each a quarter turn from the next.
+//! Rim points one by one, and four at a time, each a quarter turn from the next.
 //!
 //! Most of the work on what turns out to be no target is walking along rays. In single precision, relative to the outline's
 //! centre, four of them cost about as much as one; at 400 pixels from there rounding is 3e-5 pixels.
 
 use wide::f32x4;
 
-use super::outline::Outline;
+use super::outline::{Outline, RimPoint};
+
+/// Rim points at equal steps of the parameter.
+pub(crate) fn rim_points(outline: &Outline, count: usize) -> impl Iterator<Item = RimPoint> + use<> {
+    let outline = *outline;
+    let (turn_s, turn_c) = (std::f64::consts::TAU / count as f64).sin_cos();
+    let (mut c, mut s) = (1.0, 0.0);
+    (0..count).map(move |_| {
+        let rim = outline.rim(c, s);
+        (c, s) = (c * turn_c - s * turn_s, s * turn_c + c * turn_s);
+        rim
+    })
+}
 
 /// Four rim points from the outline's centre, and their outward unit normals.
 #[derive(Clone, Copy)]
@@ -58,7 +70,6 @@ mod tests {
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
     use super::*;
-    use crate::detect::edges::edge::rim_points;
 
     #[test]
     fn they_are_the_rim_points_one_by_one() {

@@ -2,23 +2,11 @@
 //! which neighbours know. It decides whether a picture is searched as a laboratory's or softened as well.
 
 use super::noise::Levels;
+use crate::detect::acceptance::picture as limits;
 use crate::image::{Plane, Sample};
 
 /// Rows that are looked at.
 const ROWS: usize = 96;
-/// Undershoot, as a share of the step, from which an edge is sharpened: a lens leaves less.
-const SHARPENED: f64 = 0.07;
-/// Flat sides of steps that are needed to say so.
-const STEPS: usize = 24;
-/// Noise, as a share of the range, that hides small targets from the search's own thresholds.
-const NOISY: f64 = 0.014;
-/// Share of clipped samples from which paper is over-exposed: of its targets no more than the foot is seen.
-const OVEREXPOSED: f64 = 0.4;
-/// Blocks from which a picture is a compressed one: what is not shows at most some hundredths by chance.
-const COMPRESSED: f64 = 0.12;
-/// Standard errors by which the borders of blocks stand out of their neighbours, as far as columns differ among themselves: in a
-/// small picture a few edges make as much of a difference.
-const CERTAIN: f64 = 4.0;
 /// Distance at which noise no longer knows of its neighbours.
 pub(crate) const APART: usize = 5;
 
@@ -59,7 +47,7 @@ impl Character {
         let both = undershoots.concat();
         let median = |mut found: Vec<f64>| {
             found.sort_by(f64::total_cmp);
-            if found.len() < STEPS { 0.0 } else { found[found.len() / 2].max(0.0) }
+            if found.len() < limits::STEPS { 0.0 } else { found[found.len() / 2].max(0.0) }
         };
         let [dark_side, bright_side] = undershoots;
         let undershoot = median(dark_side).max(median(bright_side)).max(median(both));
@@ -74,13 +62,14 @@ impl Character {
 
     /// Whether it is no picture of a laboratory.
     pub fn is_processed(&self, levels: &Levels) -> bool {
-        let hidden = self.noise > NOISY || self.undershoot > SHARPENED || self.clipped[1] > OVEREXPOSED;
+        let hidden =
+            self.noise > limits::NOISY || self.undershoot > limits::SHARPENED || self.clipped[1] > limits::OVEREXPOSED;
         !levels.stairs && (self.is_compressed() || hidden)
     }
 
     /// Whether a compression has passed over it, and neighbouring samples share their noise.
     pub fn is_compressed(&self) -> bool {
-        self.blocks > COMPRESSED
+        self.blocks > limits::COMPRESSED
     }
 }
 
@@ -104,8 +93,9 @@ fn blocks(differences: &[f64]) -> f64 {
         (count, sum, squares) = (count + 1.0, sum + excess, squares + excess * excess);
     }
     let mean: f64 = sum / f64::max(count, 1.0);
+    // as far as columns differ among themselves: in a small picture a few edges make as much of a difference
     let error = ((squares / f64::max(count, 1.0) - mean * mean).max(0.0) / f64::max(count - 1.0, 1.0)).sqrt();
-    if count < 4.0 || mean < CERTAIN * error { 0.0 } else { (means[7] / other - 1.0).max(0.0) }
+    if count < 4.0 || mean < limits::CERTAIN * error { 0.0 } else { (means[7] / other - 1.0).max(0.0) }
 }
 
 /// Undershoots on the flat sides of a row's steps, dark ones and bright ones, as shares of the steps, less what noise does.
@@ -113,7 +103,8 @@ fn undershoots_of<T: Sample>(row: &[T], levels: &Levels, found: &mut [Vec<f64>; 
     const FAR: usize = 8;
     const NEAR: usize = 5;
     let level = |x: usize| f64::from(row[x].level());
-    let least = (0.2 * levels.range).max(10.0 * levels.noise);
+    let [share, times, steep] = limits::STEP;
+    let least = (share * levels.range).max(times * levels.noise);
     if least <= 0.0 {
         return;
     }
@@ -121,7 +112,7 @@ fn undershoots_of<T: Sample>(row: &[T], levels: &Levels, found: &mut [Vec<f64>; 
     while x + FAR < row.len() {
         let rise = level(x + 1) - level(x - 1);
         let steepest = |y: usize| rise.abs() >= (level(y + 1) - level(y - 1)).abs();
-        if rise.abs() < 0.4 * least || !(steepest(x - 1) && steepest(x + 1)) {
+        if rise.abs() < steep * least || !(steepest(x - 1) && steepest(x + 1)) {
             x += 1;
             continue;
         }
@@ -137,13 +128,13 @@ fn undershoots_of<T: Sample>(row: &[T], levels: &Levels, found: &mut [Vec<f64>; 
         });
         // the way back from an overshoot is no step of its own
         let contrast = (sides[0].0 - sides[1].0) * rise.signum();
-        if contrast < least || rise.abs() < 0.4 * contrast {
+        if contrast < least || rise.abs() < steep * contrast {
             x += 1;
             continue;
         }
         let darker = usize::from(sides[0].0 > sides[1].0);
         for (k, (_, spread, beyond)) in sides.into_iter().enumerate() {
-            if spread < 0.1 * contrast + 3.0 * levels.noise {
+            if spread < limits::FLAT[0] * contrast + limits::FLAT[1] * levels.noise {
                 found[usize::from(k != darker)].push((beyond - levels.noise) / contrast);
             }
         }
@@ -180,7 +171,7 @@ mod tests {
     fn blocks_stand_out_of_their_neighbours_and_a_few_edges_do_not() {
         let ripple = |x: usize| 2.0 + 0.1 * ((x * 7919) % 13) as f64;
         let blocky: Vec<f64> = (0..255).map(|x| ripple(x) + if x % 8 == 7 { 0.8 } else { 0.0 }).collect();
-        assert!(blocks(&blocky) > COMPRESSED, "{}", blocks(&blocky));
+        assert!(blocks(&blocky) > limits::COMPRESSED, "{}", blocks(&blocky));
         let edges: Vec<f64> = (0..79).map(|x| ripple(x) + if x == 31 { 20.0 } else { 0.0 }).collect();
         assert_eq!(blocks(&edges), 0.0);
     }

@@ -1,5 +1,6 @@
 //! Noise and range of a whole picture, for the search's threshold.
 
+use crate::detect::acceptance::picture as limits;
 use crate::image::{Plane, Sample};
 
 /// Rows that are looked at, spread over the picture.
@@ -7,12 +8,6 @@ const ROWS: usize = 48;
 /// Golden section: the rows for the range lie at its multiples in their strips. At even distances all of them might pass between
 /// the targets of a regular field.
 const GOLDEN: f64 = 0.618_033_988_749_895;
-
-/// Second differences that are enough where most of the picture is clipped.
-const ENOUGH: u64 = 400;
-
-/// Most grey levels of a drawing without soft edges.
-const FEW: usize = 8;
 
 /// Statistics of a picture in grey levels.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +25,8 @@ pub(crate) struct Levels {
 impl Levels {
     /// Smallest step of an edge that counts.
     pub fn step(&self) -> f64 {
-        (3.0 * self.noise).max(0.015 * self.range).max(2.5)
+        let [noise, range, levels] = limits::EDGE;
+        (noise * self.noise).max(range * self.range).max(levels)
     }
 
     /// Standard deviation of an edge for its stairs: a whole pixel's, evenly spread.
@@ -68,12 +64,12 @@ pub(crate) fn levels_at<T: Sample>(plane: &Plane<T>, apart: usize) -> Levels {
     }
     // where most is clipped, the rest has many edges: the least quarter tells of the noise. Of a drawing nothing may be left
     let count = |of: &[u32]| of.iter().map(|n| u64::from(*n)).sum::<u64>();
-    let mostly_clipped = apart == 1 && 2 * count(&whole) < count(&differences) && count(&whole) > ENOUGH;
+    let mostly_clipped = apart == 1 && 2 * count(&whole) < count(&differences) && count(&whole) > limits::ENOUGH;
     let (differences, share, normal) = if mostly_clipped { (whole, 0.25, 0.3186) } else { (differences, 0.5, 0.6745) };
     let noise = quantile(&differences, share).unwrap_or(0.0) / (normal * 6f64.sqrt());
     let range = quantile(&values, 0.999).unwrap_or(0.0) - quantile(&values, 0.001).unwrap_or(0.0);
     let count = values.iter().filter(|n| **n > 0).count();
-    let stairs = noise < 0.5 && count <= FEW;
+    let stairs = noise < limits::DRAWN && count <= limits::FEW;
     // nothing is clipped where there is nothing between the levels
     let saturation = if stairs { bins as f64 } else { f64::from(end) };
     Levels { noise, range: range.max(0.0), saturation, stairs }
@@ -105,7 +101,9 @@ fn saturation(values: &[u32]) -> f64 {
     let piles_up = |at: usize| {
         let around = &occupied[at.saturating_sub(4)..(at + 5).min(occupied.len())];
         let (level, count) = occupied[at];
-        level > 0 && count > 20 && count > 2 * (around.iter().map(|(_, n)| n).sum::<u32>() - count)
+        level > 0
+            && count > limits::PILE
+            && count > limits::PILED * (around.iter().map(|(_, n)| n).sum::<u32>() - count)
     };
     let last = occupied.len() - 1;
     if top > end / 16 && piles_up(last) && !(0..last.saturating_sub(4)).any(piles_up) { top as f64 } else { end as f64 }

@@ -8,8 +8,9 @@
 use nalgebra::{Matrix3, Vector3};
 use statrs::function::erf::erf;
 
-use crate::detect::edges::edge::rim_points;
+use crate::detect::acceptance::picture as limits;
 use crate::detect::ellipse::outline::Outline;
+use crate::detect::ellipse::rays::rim_points;
 use crate::image::{Plane, Sample};
 
 /// An unsharp mask.
@@ -25,14 +26,8 @@ pub(crate) struct Sharpening {
 const REACH: f64 = 7.0;
 /// Samples of a pixel.
 const FINE: f64 = 4.0;
-/// Least semi-minor axis whose inside shows a level of its own.
-const LEAST: f64 = 5.0;
 /// Rims that are enough.
 const ENOUGH: usize = 120;
-/// Amount below which nothing is undone: the fit of a rendered ellipse takes it for a lens.
-const LITTLE: f64 = 0.15;
-/// Share of the residual that sharpening has to explain.
-const EXPLAINED: f64 = 0.3;
 
 const BINS: usize = (2.0 * REACH * FINE) as usize + 1;
 
@@ -49,7 +44,7 @@ pub(crate) fn of_rims<'a, T: Sample>(
     saturation: f64,
 ) -> Option<Sharpening> {
     let mut profile = Profile { sums: [[0.0; 3]; BINS], rims: 0 };
-    for outline in outlines.filter(|outline| outline.semi_axes().1 >= LEAST) {
+    for outline in outlines.filter(|outline| outline.semi_axes().1 >= limits::RIM) {
         if profile.rims == ENOUGH {
             break;
         }
@@ -77,7 +72,7 @@ impl Profile {
         };
         let (Some(ground), Some(inside)) = (along(0.9 * REACH), along(-inner)) else { return };
         let contrast = inside - ground;
-        if contrast.abs() < 8.0 {
+        if contrast.abs() < limits::RIM_CONTRAST {
             return;
         }
         for rim in &rims {
@@ -144,6 +139,6 @@ impl Profile {
                 }
             }
         }
-        best.1.filter(|found| found.amount > LITTLE && plain - best.0 > EXPLAINED * plain)
+        best.1.filter(|found| found.amount > limits::LITTLE && plain - best.0 > limits::EXPLAINED * plain)
     }
 }

@@ -12,6 +12,7 @@ use super::band::{Band, Normal, Prior, Region, Unknowns};
 use super::colour::Colour;
 use super::flats::Flats;
 use super::scatter;
+use crate::detect::acceptance::fit as limits;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::normal::BLUR;
 use crate::detect::rendered::Field;
@@ -26,25 +27,6 @@ const SLOW: f64 = 0.35;
 const STUCK: f64 = 0.8;
 const HALTING: f64 = 0.7;
 const LEAST_SHARE: f64 = 0.2;
-/// Largest contrast of a clipped target, in units of what the scale shows of it. Its centre hardly depends on it: the
-/// image of an ellipse is symmetric about its centre, and so is everything that contrast, blur and axes do to it.
-const OVEREXPOSED: f64 = 16.0;
-
-/// Share of that scale from which a bright target is taken to be clipped.
-const CLIPPED: f64 = 0.9;
-
-/// Share of the contrast by which the profile of an edge may differ from the rendered one all around.
-const LENS: f64 = 0.06;
-/// The same where the edge is the stairs of the pixels.
-const STAIRS: f64 = 0.7;
-
-/// Variance of what the fit leaves, in units of that of the noise, from which the rest is looked at; the correlation of neighbours
-/// from which it is no noise (of light, say); and pixels that then move the centre as one. The last is set on pictures of cameras
-/// moved by 2 to 6 px.
-const UNEXPLAINED: f64 = 1.7;
-const SHARED: f64 = 0.15;
-const TOGETHER: f64 = 3.0;
-
 /// Least blur, and least radius in units of blur and pixel, for which derivatives are sketched: there the standard error of a
 /// centre comes out within about one percent.
 const SHARPEST: f64 = 0.4;
@@ -184,7 +166,9 @@ pub(crate) fn fit<T: Sample>(
     }
     let (variance, used) = work.band.variance();
     // at the largest contrast nothing is left of the rim's profile but a step, and its sigma would promise too much
-    if used < 24 || state.contrast.abs() > (0.97 * state.brightest).max(2.0 * state.shown) {
+    if used < limits::PIXELS
+        || state.contrast.abs() > (limits::STEP_LEFT * state.brightest).max(limits::STEP_LEAST * state.shown)
+    {
         return None;
     }
     let cofactors = invert(&normal)?;
@@ -196,14 +180,14 @@ pub(crate) fn fit<T: Sample>(
     }
     let Workspace { band, field, origin, coloured } = work;
     let noise = region.surround.noise.powi(2).max(1.0 / 12.0);
-    let beyond = variance > UNEXPLAINED * noise;
+    let beyond = variance > limits::UNEXPLAINED * noise;
     let mut colour =
         (*coloured || beyond).then(|| band.colour(field, &cofactors, state.contrast, &state.outline, *origin));
     if !*coloured && let Some(colour) = colour.take() {
         // what is left beyond the noise and shared by neighbours is a shape that the model does not have: a moved camera's
-        if colour.shared() > SHARED {
+        if colour.shared() > limits::SHARED {
             let share = 1.0 - noise / variance;
-            covariance = covariance.map(|value| value * (1.0 + share * (TOGETHER - 1.0)));
+            covariance = covariance.map(|value| value * (1.0 + share * (limits::MOVED_TOGETHER - 1.0)));
         }
     }
     (covariance[0] > 0.0 && covariance[2] > 0.0).then_some(Fit {
@@ -225,7 +209,7 @@ impl Workspace {
         let shown = if surround.contrast > 0.0 { region.saturation - surround.level } else { surround.level };
         let state = State {
             shown,
-            brightest: (OVEREXPOSED * shown).max(surround.contrast.abs()),
+            brightest: (limits::OVEREXPOSED * shown).max(surround.contrast.abs()),
             outline: region.outline,
             blur: blur.clamp(BLUR.0, BLUR.1),
             contrast: surround.contrast,
@@ -253,10 +237,11 @@ impl Workspace {
     /// Residual beyond which, near the end, a pixel is not the target's.
     fn outlier_limit(&mut self, state: &State, region: &Region) -> f64 {
         // an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel
-        let sharp = if state.blur <= BLUR.0 { 0.1 * state.contrast.abs() } else { 0.0 };
-        let profile = if region.stairs { STAIRS } else { LENS };
-        let least = (5.0 * region.surround.noise.max(0.5)).max(sharp).max(profile * state.contrast.abs());
-        least.max(5.0 * self.band.robust_deviation(least / 5.0))
+        let sharp = if state.blur <= BLUR.0 { limits::SHARP * state.contrast.abs() } else { 0.0 };
+        let profile = if region.stairs { limits::STAIRS } else { limits::LENS };
+        let least =
+            (limits::OUTLIER * region.surround.noise.max(limits::QUIET)).max(sharp).max(profile * state.contrast.abs());
+        least.max(limits::OUTLIER * self.band.robust_deviation(least / limits::OUTLIER))
     }
 
     fn normal(&self, state: &State, flats: &Flats) -> Normal {
@@ -301,7 +286,7 @@ impl State {
 
     /// Whether a bright target seems to go on beyond the scale.
     fn is_clipped(&self) -> bool {
-        self.contrast > CLIPPED * self.shown
+        self.contrast > limits::CLIPPED * self.shown
     }
 
     /// What the first correction is compared with: Newton's steps shrink in the ratio of the correction to the profile's

@@ -4,6 +4,7 @@
 //! numbers.
 
 use super::band::{Normal, Region, Unknowns};
+use crate::detect::acceptance::fit::FLAT;
 use crate::image::Sample;
 
 /// Moments of flat parts.
@@ -73,7 +74,8 @@ impl Moments {
         let (middle, level) = origin(y, region, inside);
         let near = nearest(level);
         let (whole, rest) = (near as i32, (level - near) as f32);
-        let limit = 4.0 * surround.noise.max(0.6) + if inside { 0.05 * surround.contrast.abs() } else { 0.0 };
+        let [sigmas, quiet, print] = FLAT;
+        let limit = sigmas * surround.noise.max(quiet) + if inside { print * surround.contrast.abs() } else { 0.0 };
         let (limit, slope) = (limit as f32, surround.slope[0] as f32);
         let saturation = region.saturation as i32;
         let first = (first as i64 - middle) as i32;

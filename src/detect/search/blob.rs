@@ -6,6 +6,8 @@
 //! lengths on a parabola. Letters, corners and bars do not fit and go here, at the price of some hundred operations.
 
 use super::component::Chord;
+use crate::detect::acceptance::blob::{FILL, FILL_OF_FEW, NECK, RMS, UNSEEN};
+use crate::detect::acceptance::size::{BLOB_GROWN, BLOB_LARGE, BLOB_SMALL, MOMENTS_FLAT};
 use crate::detect::ellipse::conic;
 use crate::detect::ellipse::outline::Outline;
 use crate::detection::Reason;
@@ -44,9 +46,6 @@ impl NoBlob {
     }
 }
 
-/// Area, in units of that of the runs, from which on an ellipse through their ends is none of theirs but follows a bar.
-const MOST_UNSEEN: f64 = 2.5;
-
 /// Tests a chain of runs: its ellipse, to a fraction of a pixel, or why it has none.
 pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> {
     if let [run] = chain
@@ -59,10 +58,10 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
     let moments = Moments::of(chain, limits.step as f64);
     let [u, v] = moments.middle;
     let no = |reason| NoBlob { u, v, diameter: moments.longest, reason, outline: None };
-    if moments.longest > 1.3 * limits.max_diameter + 4.0 {
+    if moments.longest > BLOB_LARGE * limits.max_diameter + BLOB_GROWN {
         return Err(no(Reason::TooLarge));
     }
-    if chain.len() < 2 || moments.longest < 0.7 * limits.min_diameter {
+    if chain.len() < 2 || moments.longest < BLOB_SMALL * limits.min_diameter {
         return Err(no(Reason::TooSmall));
     }
     let Some(outline) = moments.outline() else { return Err(no(Reason::NotAnEllipse)) };
@@ -76,27 +75,28 @@ pub(crate) fn test(chain: &[Chord], limits: &Limits) -> Result<Outline, NoBlob> 
         // up to one step of height is unknown above and below: only the roughest test is fair
         return match cut {
             true => Err(no(Reason::AtBorder)),
-            false if (fill - 1.0).abs() > 0.45 => Err(no(Reason::NotAnEllipse)),
+            false if (fill - 1.0).abs() > FILL_OF_FEW => Err(no(Reason::NotAnEllipse)),
             false if fattest(chain, limits.step as f64) < limits.flattest => Err(no(Reason::TooFlat)),
             false => Ok(outline),
         };
     }
-    if !cut && ((fill - 1.0).abs() > 0.12 || b < 0.7 * limits.flattest * a) {
-        return Err(no(if b < 0.7 * limits.flattest * a { Reason::TooFlat } else { Reason::NotAnEllipse }));
+    let flat = b < MOMENTS_FLAT * limits.flattest * a;
+    if !cut && ((fill - 1.0).abs() > FILL || flat) {
+        return Err(no(if flat { Reason::TooFlat } else { Reason::NotAnEllipse }));
     }
     let found = if cut { through_ends(chain, limits) } else { through_runs(chain, &moments) };
     let Some((fitted, rms)) = found else { return Err(no(Reason::NotAnEllipse)) };
     let area = |outline: &Outline| outline.p * outline.q - outline.r * outline.r;
-    let unseen = !cut && area(&fitted) > MOST_UNSEEN * area(&outline);
+    let unseen = !cut && area(&fitted) > UNSEEN * area(&outline);
     let outline = fitted;
     let (a, b) = outline.semi_axes();
-    if unseen || rms > 0.3 + 0.05 * b {
+    if unseen || rms > RMS[0] + RMS[1] * b {
         return Err(no(Reason::NotAnEllipse));
     }
     if cut {
         return Err(no(Reason::AtBorder));
     }
-    if 2.0 * a > 1.3 * limits.max_diameter {
+    if 2.0 * a > BLOB_LARGE * limits.max_diameter {
         return Err(no(Reason::TooLarge));
     }
     if b < limits.flattest * a {
@@ -132,7 +132,7 @@ pub(crate) fn neck(chain: &[Chord]) -> Option<usize> {
     let inner = 3..chain.len().checked_sub(3)?;
     let neck = inner.min_by(|&a, &b| length(&chain[a]).total_cmp(&length(&chain[b])))?;
     let least = widest(&chain[..neck]).min(widest(&chain[neck + 1..]));
-    (1.5 * length(&chain[neck]) < least).then_some(neck)
+    (NECK * length(&chain[neck]) < least).then_some(neck)
 }
 
 /// Ellipse through the ends of four or more whole runs, and the rms distance of the ends from it.

@@ -5,12 +5,10 @@
 //! with its neighbours only. Of concentric outlines the inner one is the target, the outer one is what it is printed on.
 
 use super::blob::NoBlob;
+use crate::detect::acceptance::code::SPOT;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::search::Candidate;
 use crate::detection::{Detection, Polarity, Reason, Rejected, Target};
-
-/// Largest size of the spot in the centre of a code's dot, in radii of the dot.
-pub(crate) const SPOT: f64 = 0.16;
 
 /// Side of a cell in pixels.
 const CELL: f64 = 64.0;

@@ -6,6 +6,7 @@
 //! is left of each still shows most of an outline. Only the runs of unfinished chains are held.
 
 use super::scan::Edge;
+use crate::detect::acceptance::blob::{APART, LINKED};
 
 /// Part of a row between two edges, in pixel coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,10 +55,10 @@ struct Active {
 /// ends far from there. An outline loses at most its outermost row to this.
 fn alike(run: &Chord, above: &Active) -> bool {
     let (length, other) = (run.x1 - run.x0, above.x1 - above.x0);
-    if !(length > 0.35 * other && other > 0.35 * length) {
+    if !(length > LINKED * other && other > LINKED * length) {
         return false;
     }
-    let near = 4.0 + 0.25 * if length < other { length } else { other };
+    let near = APART[0] + APART[1] * if length < other { length } else { other };
     run.cut == above.cut || (run.x0 - above.x0).abs() < near && (run.x1 - above.x1).abs() < near
 }
 

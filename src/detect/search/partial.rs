@@ -5,35 +5,27 @@
 
 use super::blob::Limits;
 use super::component::Chord;
+use crate::detect::acceptance::partial::{FOLLOWING, GOOD, HOPELESS, RUNS, SMALLEST, STEPS, WINDOW};
+use crate::detect::acceptance::size::{BLOB_LARGE, BLOB_SMALL};
 use crate::detect::ellipse::conic::Sums;
 use crate::detect::ellipse::outline::Outline;
 
 /// Ends that are looked at: of a large blob every so manieth.
 const ENDS: usize = 48;
-/// Windows, and the share of the ends in one of them.
+/// Windows that are tried.
 const WINDOWS: usize = 8;
-const SHARE: f64 = 0.5;
-/// How many times farther than in a good ellipse the ends may lie from the best of the windows'.
-const HOPELESS: f64 = 3.0;
-/// Least share of the ends that follows the ellipse: a cover of a fifth of the diameter on one side hides all ends but these.
-const FOLLOWING: f64 = 0.55;
-/// Distance, in pixels, by which ends differ in any case: rows are whole.
-const STEPS: f64 = 0.15;
-/// Smallest minor axis, in pixels: what is smaller has too few ends.
-const SMALLEST: f64 = 7.0;
-/// Fewest runs whose ends show an ellipse through half of them.
-const RUNS: usize = 4;
 
 /// The ellipse that most of a chain's ends follow; none where there is no such one, or the blob is too small to tell.
 pub(crate) fn most(chain: &[Chord], limits: &Limits) -> Option<Outline> {
     let [first, .., last] = chain else { return None };
     let least = SMALLEST;
     let widest = chain.iter().map(|chord| chord.x1 - chord.x0).fold(0.0, f32::max);
-    if chain.len() < RUNS || f64::from(last.y - first.y) < 0.7 * least || f64::from(widest) < 0.7 * least {
+    let shortest = BLOB_SMALL * least;
+    if chain.len() < RUNS || f64::from(last.y - first.y) < shortest || f64::from(widest) < shortest {
         return None;
     }
     let ends = Ends::of(chain, limits);
-    let window = ((SHARE * ends.count as f64) as usize).max(6);
+    let window = ((WINDOW * ends.count as f64) as usize).max(6);
     if ends.count < window + 2 {
         return None;
     }
@@ -68,7 +60,7 @@ pub(crate) fn most(chain: &[Chord], limits: &Limits) -> Option<Outline> {
 
 /// Distance, in pixels, within which the ends of an ellipse follow it.
 fn good(outline: &Outline) -> f64 {
-    0.3 + 0.03 * outline.semi_axes().1
+    GOOD[0] + GOOD[1] * outline.semi_axes().1
 }
 
 /// Ends of the runs in their order around the blob, counted from its middle in units of its size.
@@ -172,7 +164,7 @@ fn is_possible(outline: &Outline, limits: &Limits, least: f64) -> bool {
     outline.is_proper()
         && 2.0 * b >= least
         && b >= limits.flattest * a
-        && 2.0 * a <= 1.3 * limits.max_diameter
+        && 2.0 * a <= BLOB_LARGE * limits.max_diameter
         && outline.u > half_u
         && outline.v > half_v
         && outline.u + half_u < limits.width as f64

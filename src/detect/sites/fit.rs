@@ -9,6 +9,7 @@
 mod system;
 
 use super::Sites;
+use crate::detect::acceptance::sites::{DISTURBED, EXPLAINED, FAR, LENS, OVEREXPOSED};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::normal::BLUR;
 use crate::detect::rendered::{Field, Span};
@@ -20,15 +21,6 @@ const ROUNDS: usize = 40;
 const CONVERGED: f64 = 2e-5;
 /// Pixels around the rim's blur that are taken where the ground is free.
 const WIDEST: f64 = 14.0;
-/// Deviations from the model, and share of the contrast, beyond which a site is not the target's.
-const FAR: f64 = 4.5;
-const LENS: f64 = 0.05;
-/// Largest share of sites that may be left out.
-const DISTURBED: f64 = 0.3;
-/// Contrast of what is clipped, in units of what the scale shows.
-const OVEREXPOSED: f64 = 16.0;
-/// Largest residuals that a model of two levels explains: noise and share of the contrast.
-const EXPLAINED: (f64, f64) = (1.5, 0.1);
 
 /// What the fit gives. Levels are samples, black taken off.
 pub(super) struct SiteFit {
@@ -217,7 +209,7 @@ fn finished(sites: &Sites, chosen: &[Site], state: &State, field: &Field, origin
     let ground = state.background[0];
     let rms = (system.squares[1] / free).sqrt();
     let noise = sites.noise.deviation(ground.max(ground + state.contrast));
-    let explained = rms <= EXPLAINED.0 * noise + EXPLAINED.1 * state.contrast.abs();
+    let explained = rms <= EXPLAINED[0] * noise + EXPLAINED[1] * state.contrast.abs();
     if dropped > DISTURBED * chosen.len() as f64 || !explained {
         return None;
     }

@@ -6,6 +6,7 @@
 //! the rows above and below tell, whose noise is not that of the difference: nothing is selected by what is measured.
 
 use super::Sites;
+use crate::detect::acceptance::sites::TOLD;
 
 /// Rows that are looked at.
 const ROWS: usize = 160;
@@ -17,8 +18,6 @@ const KEPT: usize = 20_000;
 const FEWEST: usize = 40;
 /// Variance of a variance that is estimated by a median, in units of its square over the number of differences.
 const SPREAD: f64 = 2.7;
-/// Standard error of the readout's variance, as a share of it, up to which it is told.
-const TOLD: f64 = 0.5;
 /// Rounding to whole samples.
 const ROUNDING: f64 = 1.0 / 12.0;
 /// Half the median of the size of a normal number of variance 1, times the root of 6.

@@ -6,9 +6,8 @@
 
 use super::Sites;
 use super::curve::Curve;
+use crate::detect::acceptance::sites::{HOT, HOT_TIMES};
 
-/// Deviations by which a hot site exceeds the brightest of its neighbours.
-const HOT: f64 = 8.0;
 /// Sigma of the Gaussian over the mean spacing of the sites: 0.75 px for the green of a Bayer pattern, 1.2 px for its red. There the tests'
 /// scenes lose fewest targets: to the steps of the rims with less, to each other's light and to noise with more.
 const SIGMA: [f64; 2] = [0.77, -0.34];
@@ -219,7 +218,7 @@ fn hot(lines: &[f32], own: usize, column: usize, near: &[(usize, isize)], sites:
     }
     let brightest = near.iter().map(at).fold(f32::MIN, f32::max);
     let room = HOT * sites.noise.deviation(f64::from(brightest));
-    let hot = f64::from(own - brightest) > room && f64::from(own) > 2.0 * f64::from(brightest.max(0.0));
+    let hot = f64::from(own - brightest) > room && f64::from(own) > HOT_TIMES * f64::from(brightest.max(0.0));
     hot.then(|| near.iter().map(at).sum::<f32>() / near.len() as f32)
 }
 

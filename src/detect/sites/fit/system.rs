@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::{Site, Sites, State};
+use crate::detect::acceptance::sites::WHITE;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::rendered::Field;
 
@@ -37,7 +38,7 @@ pub(super) fn modelled(site: &Site, state: &State, field: &Field, origin: [f64; 
 /// Whether the white level leaves a site alone: by its sample at first, then by what the model expects of it.
 pub(super) fn counts(sites: &Sites, site: &Site, level: f64, by_sample: bool) -> bool {
     let white = sites.clip - site.black;
-    site.kept && if by_sample { !site.clipped } else { level < white - 3.0 * sites.noise.deviation(white) }
+    site.kept && if by_sample { !site.clipped } else { level < white - WHITE * sites.noise.deviation(white) }
 }
 
 /// The weighted normal equations.
