@@ -19,6 +19,7 @@ mod growth;
 mod models;
 mod neighbour;
 mod note;
+mod plane;
 mod principal_distance;
 mod refine;
 mod remaining;

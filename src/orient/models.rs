@@ -4,6 +4,7 @@ use super::DistanceSource;
 use super::absolute::{self, Frame};
 use super::block::{Block, longer_side, set_principal_distance_px};
 use super::growth::grow;
+use super::plane;
 use super::principal_distance;
 use super::refine::{Freedom, refine};
 use super::seed::{Cores, Outcome, grown_out};
@@ -127,7 +128,11 @@ fn from_images(block: &Block, sources: &[Option<DistanceSource>], used: &[bool],
             set_principal_distance_px(&mut trial.cameras[camera], px);
         }
         trial.refresh_rays();
-        for core in Cores::new(&trial, used, fine_px) {
+        let pairs = Cores::new(&trial, used, fine_px);
+        let few = pairs.are_of_few();
+        // Asked for last: they take longer, and suppose more.
+        let planes = std::iter::once(()).filter(|()| few).flat_map(|()| plane::cores(&trial, used, fine_px));
+        for core in pairs.chain(planes) {
             let outcome = Outcome::of(&core);
             if grown.len() >= MOST_GROWN || !outcome.is_evident(&core, fine_px) {
                 cores.push((outcome, core));

@@ -2,18 +2,23 @@
 //!
 //! While a model grows, its cameras are rough and few points are determined; what could not be oriented then, or lost its
 //! pose because too little agreed with it, is looked at once more against cameras and points that stand. Three determined
-//! points, neighbours, and rough guesses (the poses of photos that show the same points, rolled by quarters) are starts
-//! of a robust pose from points and rays together. The best few are adjusted with everything else, and one is kept
-//! if it is the only one that would hardly come about by chance ([`evidence::by_chance`]).
+//! points, neighbours, and rough guesses (the poses of photos that show the same points, rolled by quarters, and resections
+//! from points put at the usual depth of their one ray) are starts of a robust pose from points and rays together. The best
+//! few are adjusted with everything else, and one is kept if it is the only one that would hardly come about by chance
+//! ([`evidence::by_chance`]).
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::block::{Block, longer_side};
+use super::bridge::wide_triples;
 use super::evidence::{self, UNKNOWNS};
 use super::neighbour::{self, Pairs};
 use super::refine::{Freedom, refine};
 use crate::initial::Pose;
+use crate::initial::intersection::Ray;
+use crate::initial::p3p::p3p;
 use crate::initial::pose_from_rays::{Seen, Target, settled};
+use crate::initial::robust::quantile;
 
 /// Widths of the robust loss as shares of the longer side: from guesses, and from poses that are exact but for noise.
 const FROM_GUESSES: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
@@ -81,7 +86,29 @@ fn starts(block: &Block, photo: usize, pairs: &mut Pairs) -> (Vec<Pose>, Vec<Pos
             guesses.push(Pose { object_to_camera: roll * pose.object_to_camera, centre });
         }
     }
+    let all = at_usual_depth(block, photo);
+    for [i, j, k] in wide_triples(&all) {
+        guesses.extend(p3p(&[all[i].0, all[j].0, all[k].0], &[all[i].1, all[j].1, all[k].1]));
+    }
     (exact, guesses)
+}
+
+/// What a photo shows as points: those that are not determined stand on their one ray, as far off as what else its photo shows.
+fn at_usual_depth(block: &Block, photo: usize) -> Vec<(Vector3<f64>, [f64; 2])> {
+    let usual = |other: usize, pose: &Pose| {
+        let (_, object, _) = block.determined(other);
+        let lengths: Vec<f64> = object.iter().map(|xyz| (xyz - pose.centre).norm()).collect();
+        (!lengths.is_empty()).then(|| quantile(&lengths, 0.5))
+    };
+    let all = seen(block, photo).into_iter().filter_map(|(s, Seen { target, image })| match target {
+        Target::Point(xyz) => Some((xyz, image)),
+        Target::Ray(Ray { pose, image: other, .. }) => {
+            let (which, _) = block.rays(block.sights[s].point);
+            let depth = usual(block.sights[*which.first()?].photo, &pose)?;
+            Some((pose.centre + pose.ray(other) * depth, image))
+        }
+    });
+    all.collect()
 }
 
 /// The block with the photo in the one pose that its measurements bear out.

@@ -76,6 +76,7 @@ pub(super) struct Cores<'a> {
     block: &'a Block,
     starts: std::vec::IntoIter<Start>,
     fine_px: f64,
+    few: bool,
 }
 
 impl<'a> Cores<'a> {
@@ -83,7 +84,12 @@ impl<'a> Cores<'a> {
         let mut starts = starts(block, used);
         let few = starts.iter().all(|start| start.relative.inliers.len() < MANY);
         starts.truncate(if few { MOST_STARTS_OF_FEW } else { MOST_STARTS });
-        Self { block, starts: starts.into_iter(), fine_px }
+        Self { block, starts: starts.into_iter(), fine_px, few }
+    }
+
+    /// Whether no pair shares as many points as make a start by themselves.
+    pub fn are_of_few(&self) -> bool {
+        self.few
     }
 }
 
@@ -92,12 +98,7 @@ impl Iterator for Cores<'_> {
 
     fn next(&mut self) -> Option<Block> {
         let start = self.starts.next()?;
-        let mut model = self.block.clone();
-        // A model of its own: what is oriented already comes in again by growth.
-        model.anchored = false;
-        model.views.iter_mut().for_each(|view| view.pose = None);
-        model.marks.iter_mut().for_each(|mark| mark.xyz = None);
-        model.noise_px = None;
+        let mut model = without_poses(self.block);
         let [first, second] = start.photos;
         model.views[first].pose = Some(Pose::identity());
         model.views[second].pose = Some(start.relative.pose);
@@ -111,6 +112,16 @@ impl Iterator for Cores<'_> {
         }
         Some(model)
     }
+}
+
+/// The block without poses and points, for a model of its own: what is oriented already comes in again by growth.
+pub(super) fn without_poses(block: &Block) -> Block {
+    let mut model = block.clone();
+    model.anchored = false;
+    model.views.iter_mut().for_each(|view| view.pose = None);
+    model.marks.iter_mut().for_each(|mark| mark.xyz = None);
+    model.noise_px = None;
+    model
 }
 
 /// A core with all photos it reaches.
