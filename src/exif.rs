@@ -184,6 +184,24 @@ mod tests {
     }
 
     #[test]
+    fn where_a_photo_was_taken_is_not_read() {
+        let degrees = |d: u32| Value::Rational([d, 30, 15].map(|num| Rational { num, denom: 1 }).to_vec());
+        let block = exif_block(vec![
+            (Tag::Make, ascii("Maker")),
+            (Tag::GPSLatitudeRef, ascii("N")),
+            (Tag::GPSLatitude, degrees(47)),
+            (Tag::GPSLongitudeRef, ascii("E")),
+            (Tag::GPSLongitude, degrees(113)),
+        ]);
+        let there = exif::Reader::new().read_raw(block.clone()).unwrap();
+        assert!(there.get_field(Tag::GPSLatitude, In::PRIMARY).is_some());
+        let info = read(&in_jpeg(&block));
+        assert_eq!(info, PhotoInfo { make: Some("Maker".into()), ..PhotoInfo::default() });
+        let text = serde_json::to_string(&info).unwrap();
+        assert!(!text.contains("47") && !text.contains("113"), "{text}");
+    }
+
+    #[test]
     fn a_full_block_is_read_from_jpeg_and_tiff() {
         let block = exif_block(vec![
             (Tag::Make, ascii("Maker ")),

@@ -25,6 +25,15 @@ pub const PHOTOS_RATIO: u64 = 20;
 /// See [`PHOTOS_RATIO`].
 pub const PHOTOS_FREE: u64 = 64 << 20;
 
+/// Most targets on a form of a plan.
+pub const TARGETS: usize = 100_000;
+
+/// Most targets times stations of a plan.
+pub const RAYS: usize = 1_000_000;
+
+/// Most sheets of targets that are made at once.
+pub const SHEETS: usize = 2000;
+
 /// Most bytes of equipment: some hundred thousand calibrations.
 pub const EQUIPMENT_BYTES: usize = 64 << 20;
 

@@ -23,7 +23,7 @@ use crate::noise::Noise;
 use crate::project::Camera;
 use crate::scene::{Disc, Ring, Scene};
 
-use coverage::{Coverage, Node, coverage, polygon, smooth};
+use coverage::{Coverage, MOST_NODES, Node, coverage, polygon, smooth};
 
 /// How a photo is exposed. Greys are shares of full scale.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -66,7 +66,7 @@ pub fn render(camera: &Camera, pose: &Pose, scene: &Scene, exposure: &Exposure, 
     let mut greys = ground::ground(camera, pose, scene, exposure.psf);
     for disc in &scene.discs {
         for (filled, from, to) in layers(camera, pose, scene, disc, exposure.psf) {
-            blend(&mut greys, [width, height], &filled, from, to as f32);
+            blend(&mut greys, width, &filled, from, to as f32);
         }
     }
     let samples = expose(&greys, width, exposure, stream);
@@ -132,7 +132,9 @@ fn layers(camera: &Camera, pose: &Pose, scene: &Scene, disc: &Disc, psf: f64) ->
     let drawable = |nodes: Option<Vec<Node>>| {
         nodes.filter(|nodes| nodes.iter().any(|n| inside(camera, n)) && nodes.iter().all(|n| near(camera, n)))
     };
-    let drawn = outlines.into_iter().filter_map(|(nodes, from, to)| Some((coverage(&drawable(nodes)?, psf), from, to)));
+    let size = [camera.width as usize, camera.height as usize];
+    let drawn =
+        outlines.into_iter().filter_map(|(nodes, from, to)| Some((coverage(&drawable(nodes)?, psf, size), from, to)));
     drawn.collect()
 }
 
@@ -140,7 +142,7 @@ fn inside(camera: &Camera, n: &Node) -> bool {
     n.u > 0.0 && n.v > 0.0 && n.u < f64::from(camera.width) && n.v < f64::from(camera.height)
 }
 
-/// Outlines that leave the picture by more than its size are no targets; their windows would be without bound.
+/// Outlines that leave the picture by more than its size are no targets.
 fn near(camera: &Camera, n: &Node) -> bool {
     let margin = f64::from(camera.width.max(camera.height));
     n.u.abs() < 2.0 * margin && n.v.abs() < 2.0 * margin
@@ -180,6 +182,9 @@ impl<'a> Plane<'a> {
         let arc = |r: f64| ((end - start) * TAU * r / spacing).ceil().max(8.0) as usize;
         let side = ((outer - inner) / spacing).ceil().max(4.0) as usize;
         let (far, close) = (arc(outer), arc(inner));
+        if far.max(close).max(side) > MOST_NODES / 8 {
+            return None;
+        }
         let share = |k: usize, n: usize| k as f64 / n as f64;
         let outer_arc = (0..far).map(|k| polar(outer, start + (end - start) * share(k, far)));
         let inwards = (0..side).map(|k| polar(outer + (inner - outer) * share(k, side), end));
@@ -198,12 +203,10 @@ fn sectors(ring: Ring) -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// Paints a shape. On a known grey the difference is added, which is exact for shapes within their ground.
-fn blend(greys: &mut [f32], [width, height]: [usize; 2], filled: &Coverage, from: Option<f64>, to: f32) {
+fn blend(greys: &mut [f32], width: usize, filled: &Coverage, from: Option<f64>, to: f32) {
     for (row, line) in filled.shares.chunks_exact(filled.columns).enumerate() {
-        let Some(v) = usize::try_from(filled.top + row as i64).ok().filter(|v| *v < height) else { continue };
-        for (column, share) in line.iter().enumerate() {
-            let Some(u) = usize::try_from(filled.left + column as i64).ok().filter(|u| *u < width) else { continue };
-            let grey = &mut greys[v * width + u];
+        let begin = (filled.top + row) * width + filled.left;
+        for (grey, share) in greys[begin..].iter_mut().zip(line) {
             *grey += *share as f32 * (to - from.map_or(*grey, |from| from as f32));
         }
     }

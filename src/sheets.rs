@@ -30,8 +30,6 @@ use drawing::Page;
 pub const RULER_MM: f64 = 100.0;
 /// Ground around a target that stays clear, in radii of the dot.
 pub const CLEAR: f64 = 1.0;
-/// Most sheets that are made at once.
-pub const MOST_SHEETS: usize = 2000;
 
 /// Size of the paper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -230,7 +228,7 @@ pub struct Sheets {
 ///
 /// # Errors
 /// [`Error::Invalid`] with the field's name: a number that the family has not, a diameter that the paper has no room for, more than
-/// [`MOST_SHEETS`], a ruler that measures nothing like its length.
+/// [`limits::SHEETS`](crate::limits::SHEETS), a ruler that measures nothing like its length.
 pub fn target_sheets(options: &SheetOptions) -> Result<Sheets> {
     check(options)?;
     layout::sheets(options)

@@ -9,7 +9,8 @@
 //! RUSTC_BOOTSTRAP=1 RUSTFLAGS="--cfg fuzzing -Cdebug-assertions -Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
 //!   -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table" \
 //!   cargo build --release --target x86_64-unknown-linux-gnu --bin adjust
-//! target/x86_64-unknown-linux-gnu/release/adjust corpus/adjust -max_len=60000 -timeout=20 -max_total_time=400
+//! mkdir -p corpus/adjust && target/x86_64-unknown-linux-gnu/release/adjust corpus/adjust -max_len=60000 -timeout=20 -max_total_time=400
+//! mkdir -p corpus/files && target/x86_64-unknown-linux-gnu/release/files corpus/files seeds/files -timeout=20 -runs=10000000
 //! ```
 #![no_main]
 

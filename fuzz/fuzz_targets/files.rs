@@ -1,10 +1,20 @@
 //! Any bytes as a file that is read: project files, every foreign format, EXIF. Each must end in a result or an error, and what was
-//! read as a project can be written again in every format or is refused.
+//! read as a project can be written again in every format or is refused; what is written is read again.
+//!
+//! The first byte chooses the format: "0" to "7" as it stands below. `seeds/files` has a small text of each; archives and EXIF blocks,
+//! which are no texts, are made here and then damaged. Further files of a job follow after a line "%%%".
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
+use std::collections::BTreeMap;
+
+use libfuzzer_sys::{fuzz_mutator, fuzz_target, fuzzer_mutate};
+use sightline::detect::detect;
+use sightline::detection::DetectOptions;
+use sightline::exchange::package::Package;
 use sightline::exchange::{Files, comparator, encoding, export, import, package};
 use sightline::exif;
+use sightline::image::{GreyView, SamplesView};
+use sightline::project::{Camera, Interior, Observation, Photo, Point, Project, Sigma};
 
 /// Formats that are read, and names of a file that they look for.
 const READ: [(&str, &str); 8] = [
@@ -17,22 +27,86 @@ const READ: [(&str, &str); 8] = [
     ("dbat", "a.xml"),
     ("comparator", "a.csv"),
 ];
-const WRITTEN: [&str; 6] = ["sightline", "package", "control-csv", "mark-points", "csv", "tsv"];
+const WRITTEN: [&str; 9] = ["sightline", "package", "control-csv", "mark-points", "csv", "tsv", "dxf", "ply", "gltf"];
+/// Names of the files after the first: a job of DBAT asks for them.
+const MORE: [&str; 3] = ["control.txt", "images.txt", "marks.txt"];
+const BETWEEN: &[u8] = b"\n%%%\n";
+
+/// A JPEG that ends after an EXIF block of this maker.
+const PHOTO: &[u8] =
+    b"\xff\xd8\xff\xe1\0\x28Exif\0\0MM\0\x2a\0\0\0\x08\0\x01\x01\x0f\0\x02\0\0\0\x06\0\0\0\x1a\0\0\0\0Maker\0\xff\xd9";
+
+/// A project file with something in every entry.
+fn archive() -> Vec<u8> {
+    let photo = Photo { id: "p".into(), camera: "c".into(), file: "a.jpg".into(), ..Photo::default() };
+    let seen = Observation {
+        photo: "p".into(),
+        point: "1".into(),
+        u: 1.0,
+        v: 2.0,
+        sigma: Sigma::One(0.1),
+        enabled: true,
+        target: None,
+    };
+    let project = Project {
+        cameras: vec![Camera::new("c", 20, 10, Interior::brown(9.0))],
+        photos: vec![photo],
+        points: vec![Point { id: "1".into(), ..Point::default() }],
+        observations: vec![seen],
+        ..Project::default()
+    };
+    let grey = (0..40 * 40).map(|k| if (k % 40 - 20) * (k % 40 - 20) + (k / 40 - 20) * (k / 40 - 20) < 60 { 220 } else { 30 });
+    let samples: Vec<u8> = grey.collect();
+    let view = GreyView::new(40, 40, SamplesView::U8(&samples)).expect("a picture");
+    let detection = detect(&view, &DetectOptions::default()).expect("a target");
+    let package = Package {
+        project,
+        targets: BTreeMap::from([("p".to_owned(), detection)]),
+        photos: BTreeMap::from([("a.jpg".to_owned(), PHOTO.to_vec())]),
+        ..Package::default()
+    };
+    package::write(&package).expect("a project file")
+}
+
+thread_local! {
+    static ARCHIVE: Vec<u8> = archive();
+}
+
+fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
+    let begun = match seed % 32 {
+        0 => [&b"1"[..], &ARCHIVE.with(Clone::clone)].concat(),
+        1 => [&b"1"[..], PHOTO].concat(),
+        _ => Vec::new(),
+    };
+    let fits = !begun.is_empty() && begun.len() <= max_size.min(data.len());
+    if fits {
+        data[..begun.len()].copy_from_slice(&begun);
+    }
+    fuzzer_mutate(data, if fits { begun.len() } else { size }, max_size)
+});
+
+/// A job's files, cut where a line parts them.
+fn job(name: &str, mut rest: &[u8]) -> Files {
+    let mut files = Files::new();
+    for name in std::iter::once(name).chain(MORE) {
+        let end = rest.windows(BETWEEN.len()).position(|window| window == BETWEEN);
+        files.insert(name.to_owned(), rest[..end.unwrap_or(rest.len())].to_vec());
+        let Some(end) = end else { break };
+        rest = &rest[end + BETWEEN.len()..];
+    }
+    files
+}
 
 fuzz_target!(|data: &[u8]| {
     let Some((choice, rest)) = data.split_first() else { return };
     let (format, name) = READ[usize::from(*choice) % READ.len()];
-    // a second file where a zero byte parts them
-    let mut parts = rest.splitn(2, |byte| *byte == 0);
-    let mut files = Files::from([(name.to_owned(), parts.next().unwrap_or_default().to_vec())]);
-    if let Some(second) = parts.next().filter(|_| *choice & 128 != 0) {
-        files.insert(format!("b-{name}"), second.to_vec());
-    } else {
-        files.insert(name.to_owned(), rest.to_vec());
-    }
+    let files = if format == "package" { Files::from([(name.to_owned(), rest.to_vec())]) } else { job(name, rest) };
     if let Ok(project) = import(format, &files) {
         for format in WRITTEN {
-            let _ = export(format, &project, None);
+            let Ok(written) = export(format, &project, None) else { continue };
+            if matches!(format, "sightline" | "package") {
+                assert!(import(format, &written).is_ok(), "{format} is not read again");
+            }
         }
     }
     let _ = package::read(rest);

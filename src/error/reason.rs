@@ -168,6 +168,7 @@ reasons! {
 
     // Plans
     PlanCamera => "a plan needs a camera";
+    FormTooMany { limit: usize } => "a form has at most {limit} targets: fewer columns or rows";
     PlanTooLarge { limit: usize } => "targets times photos are more than {limit}: plan a part of the object";
     PlanLeastPixels => "the smallest target is a number of pixels from 0";
     PlanWanted => "what is wanted is a length above 0, with a probability from 0.5 to 0.999";

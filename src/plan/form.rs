@@ -4,12 +4,16 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::Vector3;
 
+use crate::error::{Error, Place, Reason, Result};
+use crate::limits;
 use crate::project::{Form, Plan, PlanFace, Point};
 
 use super::setup::{fill_distance, principal_distance_px};
 
 /// Facets that stand for a cylinder.
 const FACETS: usize = 24;
+/// Sizes are below this: what is computed of them stays finite.
+const LARGEST: f64 = 1e100;
 /// Largest angle, radians, at which targets are still to be large enough; the plan's largest incidence where that is less.
 const SLANT: f64 = PI / 3.0;
 
@@ -25,8 +29,21 @@ pub fn least_diameter(plan: &Plan) -> Option<f64> {
     Some(fill_distance(camera, plan.margin, radius) * plan.least_px / (principal_distance_px(camera)? * slant.cos()))
 }
 
+/// How many faces a form has.
+pub fn faces_on(form: &Form) -> usize {
+    match form {
+        Form::Plane { .. } => 1,
+        Form::Box { .. } => 5,
+        Form::Cylinder { .. } => FACETS,
+    }
+}
+
 /// Points and faces of a form; counts are at least 1.
-pub fn targets_on(form: &Form) -> (Vec<Point>, Vec<PlanFace>) {
+///
+/// # Errors
+/// [`Error::Invalid`] for more targets than [`limits::TARGETS`], and sizes beyond all measure.
+pub fn targets_on(form: &Form) -> Result<(Vec<Point>, Vec<PlanFace>)> {
+    check(form)?;
     let mut made = Made::default();
     match *form {
         Form::Plane { width, height, columns, rows, upright, diameter } => {
@@ -82,7 +99,25 @@ pub fn targets_on(form: &Form) -> (Vec<Point>, Vec<PlanFace>) {
             }
         }
     }
-    (made.points, made.faces)
+    Ok((made.points, made.faces))
+}
+
+fn check(form: &Form) -> Result<()> {
+    let (sizes, with_targets, columns, rows) = match *form {
+        Form::Plane { width, height, columns, rows, diameter, .. } => {
+            ([width, height, 0.0, diameter], 1, columns, rows)
+        }
+        Form::Box { size: [x, y, z], columns, rows, diameter } => ([x, y, z, diameter], 5, columns, rows),
+        Form::Cylinder { radius, height, sweep, columns, rows, diameter, .. } => {
+            ([radius, height, sweep, diameter], 1, columns, rows)
+        }
+    };
+    let invalid = |reason, field: &str| Err(Error::Invalid { reason, at: Place::field(field) });
+    if !sizes.iter().all(|size| size.abs() < LARGEST) {
+        return invalid(Reason::NotFinite, "size");
+    }
+    let count = (columns.max(1) as usize).saturating_mul(rows.max(1) as usize).saturating_mul(with_targets);
+    if count > limits::TARGETS { invalid(Reason::FormTooMany { limit: limits::TARGETS }, "columns") } else { Ok(()) }
 }
 
 #[derive(Default)]

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 
 use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::initial::Pose;
+use crate::limits;
 use crate::network::Station;
 use crate::project::{
     Camera, DatumKind, Distance, Interior, Observation, Photo, Plan, PlanStation, Project, Role, Sigma,
@@ -15,9 +16,6 @@ use crate::scene::{Face, Scene};
 
 use super::Unseen;
 use super::sight::{Hindrance, see};
-
-/// Most targets times stations.
-const MOST_RAYS: usize = 1_000_000;
 
 /// The plan with everything that does not depend on its stations.
 pub struct Setup<'a> {
@@ -199,8 +197,8 @@ fn check(plan: &Plan) -> Result<()> {
     if plan.cameras.is_empty() {
         return invalid(Reason::PlanCamera, "cameras");
     }
-    if plan.points.len() * plan.stations.len().max(1) > MOST_RAYS {
-        return invalid(Reason::PlanTooLarge { limit: MOST_RAYS }, "points");
+    if plan.points.len() * plan.stations.len().max(1) > limits::RAYS {
+        return invalid(Reason::PlanTooLarge { limit: limits::RAYS }, "points");
     }
     if !(plan.sigma > 0.0 && plan.sigma < 1e6) {
         return invalid(Reason::ImageSigma, "sigma");

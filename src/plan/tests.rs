@@ -3,7 +3,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use super::setup::Setup;
 use super::*;
-use crate::project::{Camera, DatumKind, Form, Interior, Lens, PlanFace, Region, Wanted};
+use crate::project::{Camera, DatumKind, Form, Interior, Lens, Parameter, PlanFace, Region, Wanted};
 
 fn camera() -> Camera {
     Camera { pixel_pitch: Some([0.006; 2]), ..Camera::new("c", 6000, 4000, Interior::brown(28.0)) }
@@ -11,7 +11,7 @@ fn camera() -> Camera {
 
 fn wall() -> Plan {
     let form = Form::Plane { width: 2000.0, height: 1500.0, columns: 5, rows: 4, upright: true, diameter: 12.0 };
-    let (points, faces) = targets_on(&form);
+    let (points, faces) = targets_on(&form).expect("targets");
     let at = |id: &str, x: f64, z: f64| PlanStation {
         id: id.into(),
         position: [x, -2500.0, z],
@@ -30,7 +30,7 @@ fn wall() -> Plan {
 
 #[test]
 fn forms_carry_their_targets() {
-    let count = |form: Form| targets_on(&form).0.len();
+    let count = |form: Form| targets_on(&form).expect("targets").0.len();
     assert_eq!(count(Form::Box { size: [1.0; 3], columns: 3, rows: 2, diameter: 0.1 }), 30);
     let cylinder = Form::Cylinder {
         radius: 1000.0,
@@ -41,7 +41,7 @@ fn forms_carry_their_targets() {
         inside: false,
         diameter: 10.0,
     };
-    let (points, faces) = targets_on(&cylinder);
+    let (points, faces) = targets_on(&cylinder).expect("targets");
     assert_eq!((points.len(), faces.len()), (45, 24));
     let middle = points[4].xyz.expect("a place");
     assert!((middle[1] + 1000.0).abs() < 1e-9 && middle[0].abs() < 1e-9);
@@ -58,7 +58,7 @@ fn forms_carry_their_targets() {
 #[test]
 fn a_box_is_photographed_all_around_by_photos_that_hang_together() {
     let form = Form::Box { size: [1000.0, 800.0, 600.0], columns: 3, rows: 2, diameter: 10.0 };
-    let (points, faces) = targets_on(&form);
+    let (points, faces) = targets_on(&form).expect("targets");
     let mut plan = Plan { cameras: vec![camera()], form: Some(form), points, faces, ..Plan::default() };
     plan.cameras[0].interior = Interior::brown(28.0);
     let made = make(&plan, &MakeOptions::default(), &mut |_, _| true).expect("a plan");
@@ -77,7 +77,7 @@ fn a_tank_is_photographed_from_inside() {
         inside: true,
         diameter: 30.0,
     };
-    let (points, faces) = targets_on(&form);
+    let (points, faces) = targets_on(&form).expect("targets");
     let mut plan = Plan { cameras: vec![camera()], form: Some(form), points, faces, ..Plan::default() };
     plan.cameras[0].interior = Interior::brown(16.0);
     plan.wanted = Wanted { precision: 1.5, probability: 0.95 };
@@ -224,6 +224,22 @@ fn a_made_plan_reaches_what_is_wanted_where_one_can_stand() {
     assert!(!made.prediction.reached && made.stations.len() <= 5);
 }
 
+/// Photos that all stand upright leave the principal point to the points' places; turned ones tell them apart.
+#[test]
+fn a_plan_that_calibrates_has_rolled_photos() {
+    let mut plan = wall();
+    plan.stations.clear();
+    plan.wanted = Wanted { precision: 0.1, probability: 0.95 };
+    plan.cameras[0].free = vec![Parameter::C, Parameter::X0, Parameter::Y0];
+    let made = make(&plan, &MakeOptions::default(), &mut |_, _| true).expect("a plan");
+    assert!(made.prediction.reached, "{:?}", made.prediction.lacks);
+    let rolled = made.stations.iter().filter(|s| s.roll.abs() > 1.0).count();
+    assert!((1..made.stations.len()).contains(&rolled), "{rolled} of {}", made.stations.len());
+    plan.cameras[0].free.clear();
+    let made = make(&plan, &MakeOptions::default(), &mut |_, _| true).expect("a plan");
+    assert!(made.stations.iter().all(|s| s.roll == 0.0));
+}
+
 /// Two megapixels behind eight millimetres.
 fn small_camera() -> Camera {
     Camera { pixel_pitch: Some([0.0045; 2]), ..Camera::new("s", 1632, 1224, Interior::brown(8.0)) }
@@ -233,7 +249,7 @@ fn small_camera() -> Camera {
 fn targets_of_the_least_diameter_make_a_plan_of_a_small_camera() {
     let form = |diameter| Form::Box { size: [1000.0, 800.0, 600.0], columns: 3, rows: 2, diameter };
     let plan = |diameter| {
-        let (points, faces) = targets_on(&form(diameter));
+        let (points, faces) = targets_on(&form(diameter)).expect("targets");
         let wanted = Wanted { precision: 0.4, probability: 0.95 };
         Plan { cameras: vec![small_camera()], form: Some(form(diameter)), points, faces, wanted, ..Plan::default() }
     };
@@ -258,7 +274,7 @@ fn where_targets_are_too_small_for_a_picture_of_all_its_parts_are_photographed()
         inside: false,
         diameter: 12.0,
     };
-    let (points, faces) = targets_on(&form);
+    let (points, faces) = targets_on(&form).expect("targets");
     let plan = Plan { cameras: vec![small_camera()], form: Some(form), points, faces, ..Plan::default() };
     let setup = Setup::new(&plan).expect("a plan");
     let pool = candidates::candidates(&setup, 240, candidates::LEAST_SEEN);

@@ -22,17 +22,20 @@ pub struct Node {
     pub dv: f64,
 }
 
+/// Most nodes of an outline: one around a picture of 250 million pixels has a million.
+pub const MOST_NODES: usize = 1 << 22;
+
 /// Beyond this many standard deviations the point spread is nothing (2·10⁻⁹).
 const REACH: f64 = 6.0;
 
-/// A window of pixels with the share each is filled.
-#[derive(Clone, Debug, Default)]
+/// A window of a picture's pixels with the share each is filled.
+#[derive(Clone, Debug)]
 pub struct Coverage {
-    /// First column; may lie outside the picture.
-    pub left: i64,
+    /// First column.
+    pub left: usize,
     /// First row.
-    pub top: i64,
-    /// Number of columns.
+    pub top: usize,
+    /// Number of columns, at least 1.
     pub columns: usize,
     /// Shares, row by row.
     pub shares: Vec<f64>,
@@ -40,7 +43,8 @@ pub struct Coverage {
 
 /// Nodes of a smooth closed outline given by `point` over a full turn, with at least the density `spacing` (pixels).
 ///
-/// The derivative is the eighth-order central difference over the periodic nodes. None where a point has no image.
+/// The derivative is the eighth-order central difference over the periodic nodes. None where a point has no image, and for more than
+/// [`MOST_NODES`].
 pub fn smooth(point: impl Fn(f64) -> Option<[f64; 2]>, spacing: f64) -> Option<Vec<Node>> {
     const ROUGH: usize = 16;
     let rough: Option<Vec<_>> = (0..ROUGH).map(|k| point(k as f64 / ROUGH as f64 * std::f64::consts::TAU)).collect();
@@ -52,6 +56,9 @@ pub fn smooth(point: impl Fn(f64) -> Option<[f64; 2]>, spacing: f64) -> Option<V
         })
         .sum();
     let n = ((1.6 * length / spacing).ceil() as usize).max(64);
+    if n > MOST_NODES {
+        return None;
+    }
     let rim: Option<Vec<_>> = (0..n).map(|k| point(k as f64 / n as f64 * std::f64::consts::TAU)).collect();
     let rim = rim?;
     let nodes = (0..n).map(|k| {
@@ -78,27 +85,32 @@ pub fn polygon(vertices: &[[f64; 2]]) -> Vec<Node> {
     (0..vertices.len()).flat_map(chord).collect()
 }
 
-/// The share of each pixel that the outline's inside fills, for a point spread of `psf` pixels.
-pub fn coverage(nodes: &[Node], psf: f64) -> Coverage {
-    let bounds = |value: fn(&Node) -> f64| {
+/// The share of each pixel of a picture that the outline's inside fills, for a point spread of `psf` pixels.
+pub fn coverage(nodes: &[Node], psf: f64, [width, height]: [usize; 2]) -> Coverage {
+    let bounds = |value: fn(&Node) -> f64, size: usize| {
         let low = nodes.iter().map(value).fold(f64::INFINITY, f64::min);
         let high = nodes.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
-        ((low - REACH * psf - 1.0).floor() as i64, (high + REACH * psf + 1.0).ceil() as i64)
+        let within = |edge: f64| edge.clamp(0.0, size as f64) as usize;
+        (within((low - REACH * psf - 1.0).floor()), within((high + REACH * psf + 1.0).ceil()))
     };
-    let ((left, right), (top, bottom)) = (bounds(|n| n.u), bounds(|n| n.v));
-    let (columns, rows) = ((right - left) as usize, (bottom - top) as usize);
+    let ((left, right), (top, bottom)) = (bounds(|n| n.u, width), bounds(|n| n.v, height));
+    let (columns, rows) = (right.saturating_sub(left), bottom.saturating_sub(top));
     let mut shares = vec![0.0; columns * rows];
+    if shares.is_empty() {
+        return Coverage { left, top, columns: 1, shares };
+    }
     // Outlines seen from behind, or mirrored by v pointing down, run the other way round.
     let area: f64 = nodes.iter().map(|n| (n.u - nodes[0].u) * n.dv).sum();
     let half = REACH * psf + 0.5;
-    let span = |at: f64, start: i64, count: usize| {
+    let span = |at: f64, start: usize, count: usize| {
         let first = (at - half - start as f64 - 0.5).floor().max(0.0) as usize;
         let last = ((at + half - start as f64 + 0.5).ceil().max(0.0) as usize).min(count);
-        first..last
+        // Right of the window there is nothing to reach.
+        first.min(last)..last
     };
     let mut steps = Vec::new();
     for node in nodes {
-        let reached = span(node.u, left, columns);
+        let mut reached = span(node.u, left, columns);
         // K rises from 0 to 1 across the point spread; its increments from column to column are summed up at the end.
         steps.clear();
         let first = left as f64 + reached.start as f64 - node.u;
@@ -109,6 +121,11 @@ pub fn coverage(nodes: &[Node], psf: f64) -> Coverage {
             steps.push(next - edge - before);
             before = next - edge;
             edge = next;
+        }
+        // Left of the window it has risen to 1 already.
+        if reached.end == 0 {
+            reached = 0..1;
+            steps.push(1.0);
         }
         let rows_reached = span(node.v, top, rows);
         let mut low = cumulative((top as f64 + rows_reached.start as f64 - node.v) / psf);
@@ -148,6 +165,7 @@ mod tests {
 
     use super::*;
 
+    const SIZE: [usize; 2] = [60, 50];
     const ELLIPSE: [f64; 5] = [20.3, 17.8, 6.2, 3.1, 0.6];
 
     fn on_ellipse([u, v, a, b, angle]: [f64; 5], t: f64) -> [f64; 2] {
@@ -169,7 +187,7 @@ mod tests {
     fn area_and_centre_are_exact_whichever_way_the_outline_runs() {
         for turn in [1.0, -1.0] {
             let nodes = smooth(|t| Some(on_ellipse(ELLIPSE, turn * t)), 0.25).unwrap();
-            let [area, u, v] = moments(&coverage(&nodes, 0.7));
+            let [area, u, v] = moments(&coverage(&nodes, 0.7, SIZE));
             assert!(
                 (area - std::f64::consts::PI * 6.2 * 3.1).abs() < 1e-6,
                 "{} {u} {v}",
@@ -183,7 +201,7 @@ mod tests {
     fn each_pixel_agrees_with_brute_force() {
         let psf = 0.8;
         let nodes = smooth(|t| Some(on_ellipse(ELLIPSE, t)), 0.25).unwrap();
-        let exact = coverage(&nodes, psf);
+        let exact = coverage(&nodes, psf, SIZE);
         let box_gauss = |t: f64| cumulative((t + 0.5) / psf) - cumulative((t - 0.5) / psf);
         for (column, row) in [(20, 17), (14, 14), (26, 21), (24, 24), (18, 20)] {
             // Polar sum over the ellipse, midpoint rule.
@@ -199,14 +217,38 @@ mod tests {
                 }
             }
             let brute = sum * std::f64::consts::TAU * 6.2 * 3.1 / (rings * sectors) as f64;
-            let place = (row - exact.top) as usize * exact.columns + (column - exact.left) as usize;
+            let place = (row - exact.top) * exact.columns + (column - exact.left);
             assert!((exact.shares[place] - brute).abs() < 2e-5, "{} for {brute}", exact.shares[place]);
         }
     }
 
     #[test]
+    fn what_leaves_the_picture_has_the_shares_of_the_whole_in_it() {
+        let [u, v, a, b, angle] = ELLIPSE;
+        let at = |c: &Coverage, column: usize, row: usize| {
+            let inside = row >= c.top && column >= c.left && column - c.left < c.columns;
+            inside.then(|| c.shares.get((row - c.top) * c.columns + column - c.left).copied()).flatten().unwrap_or(0.0)
+        };
+        let drawn = |u: f64, v: f64, size: [usize; 2]| {
+            coverage(&smooth(|t| Some(on_ellipse([u, v, a, b, angle], t)), 0.25).unwrap(), 0.7, size)
+        };
+        let whole = drawn(u, v, SIZE);
+        // over the upper left corner, over the lower right one, and around all of a small picture
+        for ([left, top], size) in [([20, 18], SIZE), ([0, 0], [22, 19]), ([18, 16], [4, 3])] {
+            let part = drawn(u - left as f64, v - top as f64, size);
+            assert!(part.left + part.columns <= size[0] && part.top + part.shares.len() / part.columns <= size[1]);
+            for (column, row) in (0..size[0].min(20)).flat_map(|x| (0..size[1].min(20)).map(move |y| (x, y))) {
+                let (one, other) = (at(&part, column, row), at(&whole, column + left, row + top));
+                assert!((one - other).abs() < 1e-9, "{column} {row}: {one} {other}");
+            }
+        }
+        assert!(drawn(-30.0, 10.0, SIZE).shares.is_empty() && drawn(10.0, 90.0, SIZE).shares.is_empty());
+        assert!(smooth(|t| Some([1e9 * t.cos(), 1e9 * t.sin()]), 0.25).is_none());
+    }
+
+    #[test]
     fn polygons_keep_their_area() {
-        let corners = [[3.2, 4.1], [13.2, 4.1], [13.2, 9.1], [3.2, 9.1]];
+        let corners = [[13.2, 14.1], [23.2, 14.1], [23.2, 19.1], [13.2, 19.1]];
         // Chords short against the point spread, as the renderer makes them.
         let vertices: Vec<_> = (0..4)
             .flat_map(|k| {
@@ -217,10 +259,10 @@ mod tests {
                 })
             })
             .collect();
-        let filled = coverage(&polygon(&vertices), 0.7);
+        let filled = coverage(&polygon(&vertices), 0.7, SIZE);
         let [area, u, v] = moments(&filled);
-        assert!((area - 50.0).abs() < 1e-6 && (u - 8.2).abs() < 1e-6 && (v - 6.6).abs() < 1e-6);
-        let middle = (6 - filled.top) as usize * filled.columns + (8 - filled.left) as usize;
+        assert!((area - 50.0).abs() < 1e-6 && (u - 18.2).abs() < 1e-6 && (v - 16.6).abs() < 1e-6);
+        let middle = (16 - filled.top) * filled.columns + (18 - filled.left);
         assert!((filled.shares[middle] - 0.999).abs() < 0.01);
     }
 }

@@ -3,8 +3,9 @@
 use super::codes::{least_distance, numbers};
 use super::drawing::{Page, Shape};
 use super::words::Words;
-use super::{BarEnds, CLEAR, Ground, Kind, MOST_SHEETS, Pattern, Printed, RULER_MM, SheetOptions, Sheets};
+use super::{BarEnds, CLEAR, Ground, Kind, Pattern, Printed, RULER_MM, SheetOptions, Sheets};
 use crate::error::{Error, Place, Reason, Result};
+use crate::limits;
 use crate::noise::Noise;
 use crate::ring_code::{Design, Family};
 
@@ -58,15 +59,19 @@ pub fn sheets(options: &SheetOptions) -> Result<Sheets> {
     };
     let code_half = outer(Some(options.family.design())) * options.diameter / 2.0;
     let codes = grid(options, code_half)?;
-    let fields = options.field.map_or(0, |field| field.columns as usize * field.rows as usize);
+    let fields = options.field.map_or(0, |field| (field.columns as usize).saturating_mul(field.rows as usize));
+    let too_many =
+        || Err(Error::Invalid { reason: Reason::SheetTooMany { limit: limits::SHEETS }, at: Place::field("codes") });
+    // Before anything is counted out: on 32 bits the products of what is asked for would run over.
+    if [options.bars as usize, fields, options.dots as usize / 50].iter().any(|count| *count > limits::SHEETS) {
+        return too_many();
+    }
     let in_a_field = codes.cells().filter(|cell| is_code(*cell)).count() * fields;
     let (first, more) =
         numbers(options.family, &options.numbers, options.codes as usize, 2 * options.bars as usize + in_a_field)?;
     let (ends, on_plate) = more.split_at(2 * options.bars as usize);
-    if first.len().div_ceil(codes.count()) + options.bars as usize + fields > MOST_SHEETS
-        || options.dots as usize > MOST_SHEETS * 50
-    {
-        return Err(Error::Invalid { reason: Reason::SheetTooMany { limit: MOST_SHEETS }, at: Place::field("codes") });
+    if first.len().div_ceil(codes.count()) + options.bars as usize + fields > limits::SHEETS {
+        return too_many();
     }
     for part in first.chunks(codes.count()) {
         draft.begin(draft.words.codes(&family_name(options.family), part));
@@ -81,8 +86,11 @@ pub fn sheets(options: &SheetOptions) -> Result<Sheets> {
     if draft.pages.is_empty() {
         return Err(Error::Invalid { reason: Reason::SheetNothing, at: Place::field("codes") });
     }
-    if draft.pages.len() > MOST_SHEETS {
-        return Err(Error::Invalid { reason: Reason::SheetTooMany { limit: MOST_SHEETS }, at: Place::field("dots") });
+    if draft.pages.len() > limits::SHEETS {
+        return Err(Error::Invalid {
+            reason: Reason::SheetTooMany { limit: limits::SHEETS },
+            at: Place::field("dots"),
+        });
     }
     let printed: Vec<u32> = draft.targets.iter().filter_map(|target| target.number).collect();
     let Draft { mut pages, targets, scale, .. } = draft;

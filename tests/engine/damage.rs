@@ -8,8 +8,12 @@ use sightline::adjust::{adjust, apply};
 use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, Robust};
 use sightline::exchange::import;
 use sightline::exchange::package::{self, Package};
+use sightline::limits;
+use sightline::network::{self, Network, NetworkPoint, Station};
 use sightline::noise::Noise;
-use sightline::project::{DatumKind, Parameter, Project};
+use sightline::plan::{faces_on, targets_on};
+use sightline::project::{Camera, DatumKind, Form, Interior, Parameter, Project};
+use sightline::sheets::{Field, SheetOptions, target_sheets};
 
 /// Iterations of one of these documents before it counts as endless: every round of a search for gross errors has some.
 const MOST_ITERATIONS: usize = 5000;
@@ -128,6 +132,65 @@ fn an_adjustment_that_no_longer_gains_ends_however_many_iterations_are_allowed()
 }
 
 /// An error's words name a place as people write it, and never print the document.
+/// Counts that run over 32 bits, and sizes that leave every picture: found by calls of the JavaScript face with damaged arguments.
+#[test]
+fn what_would_take_all_memory_is_refused_before() {
+    let plane = |width, columns, rows| Form::Plane { width, height: 1.0, columns, rows, upright: true, diameter: 0.1 };
+    for (form, fits) in [
+        (plane(1.0, 250, 400), true),
+        (plane(1.0, 250, 401), false),
+        (plane(1.0, u32::MAX, u32::MAX), false),
+        (plane(1e300, 1, 1), false),
+        (Form::Box { size: [1.0; 3], columns: 65_536, rows: 65_536, diameter: 0.1 }, false),
+        (
+            Form::Cylinder {
+                radius: 1.0,
+                height: 1.0,
+                sweep: 9.0,
+                columns: 70_000,
+                rows: 2,
+                inside: true,
+                diameter: 0.1,
+            },
+            false,
+        ),
+    ] {
+        match targets_on(&form) {
+            Ok((points, faces)) => {
+                assert!(fits && points.len() <= limits::TARGETS && faces.len() == faces_on(&form), "{form:?}");
+            }
+            Err(error) => assert!(!fits && error.code() == "invalid", "{form:?}: {error}"),
+        }
+    }
+    let sheets = |field: [u32; 2], bars, dots| {
+        let field = Some(Field { columns: field[0], rows: field[1] });
+        target_sheets(&SheetOptions { field, bars, dots, ..SheetOptions::default() }).map(|sheets| sheets.pages.len())
+    };
+    assert!(sheets([1, 1], 0, 10).is_ok());
+    for (field, bars, dots) in
+        [([65_536, 65_536], 0, 0), ([1, 1], 1 << 31, 0), ([1, 1], 0, u32::MAX), ([u32::MAX, 2], 7, 0)]
+    {
+        assert_eq!(sheets(field, bars, dots).expect_err("too many").code(), "invalid");
+    }
+    // a target as large as a mountain, one that fills the picture and one that leaves it on every side, each over all of it
+    for diameter in [1e-9, 0.1, 5.0, 100.0, 1e5, 1e9, 1e200] {
+        let point = NetworkPoint {
+            id: "p".into(),
+            normal: Some([0.0, 0.0, 1.0]),
+            diameter: Some(diameter),
+            ..NetworkPoint::default()
+        };
+        let network = Network {
+            cameras: vec![Camera { pixel_pitch: Some([0.01; 2]), ..Camera::new("c", 300, 200, Interior::brown(3.0)) }],
+            stations: vec![Station::aimed("s", "c", [0.1, 0.0, 1.0], [0.0; 3], 0.3)],
+            points: vec![point],
+            ..Network::default()
+        };
+        let photo = network::photo(&network, "s").expect("a photo");
+        assert_eq!((photo.width, photo.height), (300, 200), "{diameter}");
+    }
+}
+
 #[test]
 fn what_is_wrong_in_a_document_is_told_with_its_place_in_few_words() {
     let cameras = vec![brown(&[Parameter::C, Parameter::K1]), opencv(&[Parameter::F])];

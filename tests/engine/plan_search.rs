@@ -58,7 +58,7 @@ fn case(seed: u64) -> Case {
             (form, [0.0, -0.8 * size, height / 2.0], 1.2, size * (sweep / 2.0).sin().max(0.5))
         }
     };
-    let (points, faces) = targets_on(&form);
+    let (points, faces) = targets_on(&form).expect("targets");
     let c = draw.between(18.0, 40.0);
     let mut camera = Camera { pixel_pitch: Some([0.006; 2]), ..Camera::new("c", 6000, 4000, Interior::brown(c)) };
     if seed % 2 == 1 {

@@ -133,7 +133,7 @@ fn simulations_scatter_as_predicted() {
 #[test]
 fn a_dragged_station_is_predicted_at_once() {
     let form = Form::Plane { width: 4000.0, height: 2500.0, columns: 20, rows: 10, upright: true, diameter: 20.0 };
-    let (points, faces) = targets_on(&form);
+    let (points, faces) = targets_on(&form).expect("targets");
     let mut camera = Camera { pixel_pitch: Some([0.006; 2]), ..Camera::new("c", 6000, 4000, Interior::brown(20.0)) };
     camera.free = Parameter::BROWN[..8].to_vec();
     let stations = (0..20).map(|k| PlanStation {

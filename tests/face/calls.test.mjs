@@ -61,6 +61,17 @@ function network() {
   return { format: 'sightline', version: 1, cameras, photos, points, observations, datum: { kind: 'control', points: null } };
 }
 
+/** A network on paper, small enough that a photo of it is rendered in a moment. */
+const paper = () => ({
+  cameras: [{ id: 'c', width: 100, height: 80, pixel_pitch: null, model: 'brown', c: 120, free: ['c'], sigma: { x0: 1 } }],
+  stations: [0, 1, 2].map((k) => ({ id: `s${k}`, camera: 'c', position: [2 * Math.cos(1.6 * k), 2 * Math.sin(1.6 * k), 3], look_at: [0, 0, 0], roll: 1.5 * k })),
+  points: Array.from({ length: 6 }, (_, k) => ({ id: `p${k}`, xyz: [(k % 3) * 0.6 - 0.6, Math.floor(k / 3) * 0.6, 0.1 * (k % 2)], normal: [0, 0, 1], diameter: 0.2, role: k === 0 ? 'control' : 'tie', sigma: k ? null : [0.01, 0.01, 0.01] })),
+  distances: [{ from: 'p0', to: 'p5', sigma: 0.001 }],
+});
+
+const plate =
+  'c 100\nfiducial a 0 0\nfiducial b 50 0\nfiducial c 0 40\nfiducial d 50 40\ndistortion 10 1\ndistortion 20 2\ndistortion 30 4\ndistortion 40 6\n1 a 0 0\n1 b 50 0\n1 c 0 40\n1 d 50 40\n1 7 10 10';
+
 const grey = Uint8Array.from({ length: 64 * 48 }, (_, k) => ((k % 64) - 30) ** 2 + (Math.floor(k / 64) - 22) ** 2 < 60 ? 220 : 30);
 
 /** Sound arguments of every function that is not asynchronous, and how often it is called beside the others. */
@@ -74,6 +85,10 @@ function calls() {
   const control = sightline.exportProject('control-csv', project);
   // The smallest of pictures: 2 x 2, grey, as a BMP.
   const bmp = Uint8Array.from(Buffer.from('424d4600000000000000360000002800000002000000020000000100180000000000100000000000000000000000000000000000000000000000ffffff000000808080ffffff0000', 'hex'));
+  const form = { kind: 'plane', width: 2000, height: 1200, columns: 4, rows: 3, upright: true, diameter: 12 };
+  const kim = sightline.planExample('kim');
+  const plan = { ...kim, stations: kim.stations.slice(0, 2), ...sightline.targetsOn(form) };
+  const film = sightline.runExperiment('film');
   const named = [{ photo: 'p0', targets: detection.targets }, { photo: 'p1', targets: detection.targets }];
   const known = {
     version: [[], 1],
@@ -94,6 +109,21 @@ function calls() {
     nearestNames: [[project, project, 0.1], 10],
     importProject: [['package', pack], 10],
     exportProject: [['csv', project, adjustment], 10],
+    simulate: [[paper()], 5],
+    renderPhoto: [[paper(), 's0'], 2],
+    coloursApart: [[bmp, {}], 4],
+    reduceFilm: [[{ 'plate.txt': new TextEncoder().encode(plate) }], 20],
+    experimentCsv: [[film], 2],
+    runExperiment: [['film', {}], 0.1],
+    codeCounts: [['ring-12'], 1],
+    targetAdvice: [[{ c_px: 4000, distances: [1000], angles: [0, 1], diameter: 10 }], 5],
+    targetSheet: [[{ codes: 3, dots: 2, bars: 1, bar_length: 100, field: { columns: 1, rows: 1 }, measured: 99.5 }], 0.5],
+    targetsOn: [[form], 10],
+    planOfProject: [[project], 5],
+    planExample: [['kim'], 1],
+    plan: [[plan], 2],
+    nextPhoto: [[plan, { kind: 'mean' }], 0.02],
+    makePlan: [[{ ...plan, form, stations: [], control: [], distances: [], datum: { kind: 'free' } }, { most: 4 }], 0.02],
   };
   // The same functions again with other formats.
   const more = [
@@ -109,7 +139,7 @@ function calls() {
     ['exportProject', ['plots', project, adjustment], 0.2],
   ];
   const all = [...Object.entries(known).map(([name, [sound, weight]]) => [name, sound, weight]), ...more];
-  // What is not listed is called with what is odd alone.
+  // What is not listed has come lately, and is called with what is odd alone.
   const apart = new Set(['default', 'initSync', 'initCodecs', 'initCodecsSync', 'start']);
   for (const name of Object.keys(sightline)) {
     if (typeof sightline[name] === 'function' && !apart.has(name) && !(name in known)) all.push([name, [{}, {}, {}], 5]);
