@@ -1,4 +1,8 @@
-//! What a picture of a network is made of: the places of cameras and their photos, error ellipsoids, a size to draw them at.
+//! What a picture of a network is made of: the places of cameras and their photos, error ellipsoids, measured forms, a size to draw them at.
+
+mod forms;
+
+pub use forms::{Drawn, drawn};
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -6,10 +6,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use nalgebra::Vector3;
-
 use super::spatial::{Spatial, colour};
-use crate::adjustment::{Adjustment, MeasuredFeature};
+use crate::adjustment::Adjustment;
 use crate::project::{Project, Role};
 
 /// The drawing.
@@ -48,9 +46,13 @@ pub fn write(project: &Project, adjustment: Option<&Adjustment>) -> String {
         }
         label(&mut body, &layer, centre, text_height, view.id);
     }
-    for feature in adjustment.iter().flat_map(|a| &a.features).filter(|f| f.error.is_none()) {
+    // A circle is 72 chords: that of release 12 lies in a system of its own, which readers build differently.
+    for (feature, drawn) in &spatial.features {
         let layer = layers.named("FEATURES", [160, 0, 120]);
-        form(&mut body, &layer, feature, text_height);
+        drawn.outline.iter().for_each(|[from, to]| entity(&mut body, "LINE", &layer, &[(10, *from), (11, *to)]));
+        if let Some(at) = drawn.label {
+            label(&mut body, &layer, at, text_height, &feature.id);
+        }
     }
     let mut text = String::new();
     pair(&mut text, 999, &ascii(&format!("Sightline, unit {}", project.unit)));
@@ -99,41 +101,6 @@ fn ascii(words: &str) -> String {
         c => c.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\U+{unit:04X}")).collect(),
     };
     words.chars().map(shown).collect()
-}
-
-/// A circle as 72 chords (a circle of release 12 lies in a system of its own, which readers build differently), an axis, a line, a
-/// distance, a sphere's centre; each with its name.
-fn form(text: &mut String, layer: &str, feature: &MeasuredFeature, height: f64) {
-    let (position, direction) = (feature.position.map(Vector3::from), feature.direction.map(Vector3::from));
-    let radius = feature.value.unwrap_or(0.0) / 2.0;
-    let mut ring = |centre: Vector3<f64>, n: Vector3<f64>| {
-        let [e, f] = across(&n);
-        let at = |k: usize| -> [f64; 3] {
-            let t = std::f64::consts::TAU * k as f64 / 72.0;
-            (centre + radius * (t.cos() * e + t.sin() * f)).into()
-        };
-        (0..72).for_each(|k| entity(text, "LINE", layer, &[(10, at(k)), (11, at(k + 1))]));
-    };
-    match (feature.kind.as_str(), position, direction) {
-        ("circle", Some(centre), Some(n)) => ring(centre, n),
-        ("cylinder", _, Some(n)) => feature.ends.iter().for_each(|end| ring((*end).into(), n)),
-        ("sphere", Some(centre), _) => {
-            [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().for_each(|n| ring(centre, n))
-        }
-        _ => {}
-    }
-    for pair in feature.ends.windows(2) {
-        entity(text, "LINE", layer, &[(10, pair[0]), (11, pair[1])]);
-    }
-    if let Some(at) = feature.position.or_else(|| feature.ends.first().copied()) {
-        label(text, layer, at, height, &feature.id);
-    }
-}
-
-fn across(n: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let least = n.iamin();
-    let e = n.cross(&Vector3::from_fn(|k, _| if k == least { 1.0 } else { 0.0 })).normalize();
-    [e, n.cross(&e)]
 }
 
 fn header(text: &mut String, spatial: &Spatial) {

@@ -1,4 +1,4 @@
-//! A scene for 3-D viewers (glTF 2.0, binary): points, exaggerated error ellipsoids, cameras and lines as nodes of their own.
+//! A scene for 3-D viewers (glTF 2.0, binary): points, exaggerated error ellipsoids, cameras, lines and features as nodes of their own.
 //!
 //! There Y is up and lengths are metres: the root turns and scales. Coordinates are single precision about the points' middle, whose place is
 //! that of a node, so that no digits are lost in large coordinates.
@@ -18,6 +18,9 @@ const UNSIGNED_BYTE: u32 = 5121;
 const POINTS: u32 = 0;
 const LINES: u32 = 1;
 const TRIANGLES: u32 = 4;
+
+/// Colour of features.
+const FEATURE: [u8; 3] = [160, 0, 120];
 
 /// Metres of a unit; 1 where it is not known.
 fn metres(unit: &str) -> f64 {
@@ -81,6 +84,19 @@ pub fn write(project: &Project, adjustment: Option<&Adjustment>) -> Vec<u8> {
         let name = if layer.is_empty() { "lines".to_owned() } else { format!("lines {layer}") };
         scene.lines(&name, &ends, colour, json!({ "layer": layer }));
     }
+    for (feature, drawn) in &spatial.features {
+        let name = format!("feature {}", feature.id);
+        let extras = json!({ "kind": feature.kind, "value": feature.value, "sigma": feature.sigma });
+        let outline: Vec<[f32; 3]> = drawn.outline.iter().flatten().map(about).collect();
+        scene.lines(&name, &outline, FEATURE, extras.clone());
+        let surface: Vec<[f32; 3]> = drawn.surface.iter().flatten().map(about).collect();
+        if !surface.is_empty() {
+            let position = scene.positions(&surface);
+            let attributes = json!({ "POSITION": position });
+            scene.mesh(&format!("{name} surface"), attributes, None, TRIANGLES, FEATURE, extras);
+            scene.see_through(0.3);
+        }
+    }
     scene.packed(&spatial, metres(&project.unit))
 }
 
@@ -126,6 +142,15 @@ impl Scene {
         }
         self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
         self.nodes.push(json!({ "name": name, "mesh": self.meshes.len() - 1, "extras": extras }));
+    }
+
+    /// Lets what lies behind the last mesh be seen, from both of its sides.
+    fn see_through(&mut self, opacity: f64) {
+        if let Some(material) = self.materials.last_mut() {
+            material["pbrMetallicRoughness"]["baseColorFactor"][3] = json!(opacity);
+            material["alphaMode"] = json!("BLEND");
+            material["doubleSided"] = json!(true);
+        }
     }
 
     fn lines(&mut self, name: &str, ends: &[[f32; 3]], colour: [u8; 3], extras: Value) {

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use nalgebra::Matrix3;
 
-use crate::adjustment::Adjustment;
-use crate::depiction::{ellipsoid, exaggeration, extent, frustum};
+use crate::adjustment::{Adjustment, MeasuredFeature};
+use crate::depiction::{Drawn, drawn, ellipsoid, exaggeration, extent, frustum};
 use crate::project::{Point, Project, Role};
 
 /// A point as it is drawn.
@@ -29,6 +29,8 @@ pub struct View<'a> {
 pub struct Spatial<'a> {
     pub spots: Vec<Spot<'a>>,
     pub views: Vec<View<'a>>,
+    /// What was measured on the result.
+    pub features: Vec<(&'a MeasuredFeature, Drawn)>,
     /// Middle of the points.
     pub centre: [f64; 3],
     /// Diagonal of the box around the points.
@@ -63,7 +65,12 @@ impl<'a> Spatial<'a> {
             Some(View { id: &photo.id, frustum: frustum(camera, position, rotation, 0.1 * size)? })
         };
         let views = project.photos.iter().filter(|p| p.enabled).filter_map(view).collect();
-        Self { spots, views, centre, size, factor }
+        let place = |id: &str| adjusted.get(id).map(|p| p.xyz);
+        let measured = adjustment.iter().flat_map(|a| &a.features).filter(|f| f.error.is_none());
+        let features = measured
+            .map(|f| (f, drawn(f, &f.residuals.iter().filter_map(|r| place(&r.point)).collect::<Vec<_>>())))
+            .collect();
+        Self { spots, views, features, centre, size, factor }
     }
 }
 

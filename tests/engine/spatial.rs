@@ -22,7 +22,11 @@ fn result() -> (Project, Adjustment) {
     project.layers =
         vec![Layer { id: "모서리".into(), colour: [255, 0, 0] }, Layer { id: "edge/2".into(), colour: [0, 0, 250] }];
     let points = (0..3).map(|k| format!("p{k}")).chain((4..10).map(|k| format!("p{k}"))).collect();
-    project.features = vec![Feature { id: "ball".into(), kind: FeatureKind::Sphere { points } }];
+    let plane = FeatureKind::Plane { points: (4..12).map(|k| format!("p{k}")).collect() };
+    project.features = vec![
+        Feature { id: "ball".into(), kind: FeatureKind::Sphere { points } },
+        Feature { id: "wall".into(), kind: plane },
+    ];
     let adjustment = adjust(&project, &AdjustOptions::default(), &mut |_| true).expect("solvable");
     (project, adjustment)
 }
@@ -78,10 +82,19 @@ fn a_drawing_has_points_names_lines_layers_and_cameras() {
     let radius = adjustment.features[0].value.expect("a diameter") / 2.0;
     let centre = adjustment.features[0].position.expect("a centre");
     let rings: Vec<_> = lines.iter().filter(|v| v[&8] == "FEATURES").collect();
-    assert_eq!(rings.len(), 3 * 72);
-    for v in rings {
+    let (ball, wall) = rings.split_at(3 * 72);
+    for v in ball {
         let d: f64 = (0..3).map(|k| (number(v, 10 * (k as i32 + 1)) - centre[k]).powi(2)).sum();
         assert!((d.sqrt() / radius - 1.0).abs() < 1e-9);
+    }
+    // The plane's edge: closed, and in the plane.
+    let plane = &adjustment.features[1];
+    let (foot, normal) = (plane.position.expect("a foot"), plane.direction.expect("a normal"));
+    assert!(wall.len() >= 3);
+    for (k, v) in wall.iter().enumerate() {
+        let off: f64 = (0..3).map(|a| (number(v, 10 * (a as i32 + 1)) - foot[a]) * normal[a]).sum();
+        assert!(off.abs() < 1e-6, "{off}");
+        assert_eq!([11, 21, 31].map(|c| &v[&c]), [10, 20, 30].map(|c| &wall[(k + 1) % wall.len()][&c]));
     }
     assert_eq!(all.last().expect("an end").0, "EOF");
 }
@@ -169,6 +182,23 @@ fn a_scene_is_a_sound_binary_gltf() {
             let value = f32::from_le_bytes(data[at..at + 4].try_into().expect("four"));
             assert!((f64::from(value) + shift[axis] - point.xyz[axis]).abs() < 1e-4, "{}", point.id);
         }
+    }
+    // Every corner of the sphere's surface is on the sphere.
+    let ball = &adjustment.features[0];
+    let surface = json["meshes"].as_array().expect("meshes").iter().find(|m| m["name"] == "feature ball surface");
+    let primitive = &surface.expect("a surface")["primitives"][0];
+    assert_eq!(json["materials"][number(&primitive["material"])]["alphaMode"], "BLEND");
+    let accessor = &json["accessors"][number(&primitive["attributes"]["POSITION"])];
+    let offset = number(&json["bufferViews"][number(&accessor["bufferView"])]["byteOffset"]);
+    let (centre, radius) = (ball.position.expect("a centre"), ball.value.expect("a diameter") / 2.0);
+    assert!(number(&accessor["count"]) > 1000);
+    for k in 0..number(&accessor["count"]) {
+        let squares = (0..3).map(|axis| {
+            let at = offset + 12 * k + 4 * axis;
+            let value = f32::from_le_bytes(data[at..at + 4].try_into().expect("four"));
+            (f64::from(value) + shift[axis] - centre[axis]).powi(2)
+        });
+        assert!((squares.sum::<f64>().sqrt() / radius - 1.0).abs() < 1e-4);
     }
     let names: Vec<&str> =
         json["nodes"].as_array().expect("nodes").iter().map(|n| n["name"].as_str().expect("a name")).collect();

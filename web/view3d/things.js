@@ -1,5 +1,5 @@
 // What is drawn, made of the page's arrays: lines, grid, frusta with all photos on one sheet; and the colours of the theme.
-import { BufferAttribute, BufferGeometry, CanvasTexture, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, SRGBColorSpace } from 'three';
+import { BufferAttribute, BufferGeometry, CanvasTexture, Color, DoubleSide, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial, SRGBColorSpace } from 'three';
 
 /** Side of the sheet with all photos. */
 const SHEET = 2048;
@@ -28,6 +28,16 @@ export const segments = (positions, material) => {
 };
 
 export const line = (colour, opacity = 1) => new LineBasicMaterial({ color: colour, transparent: opacity < 1, opacity });
+
+/** A surface that what lies behind it is seen through, lighter where it faces whoever looks. */
+export function surface(positions, opacity) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(positions, 3));
+  geometry.computeVertexNormals();
+  const mesh = new Mesh(geometry, new MeshLambertMaterial({ side: DoubleSide, transparent: true, opacity, depthWrite: false }));
+  mesh.frustumCulled = false;
+  return mesh;
+}
 
 /** Numbers below n in an order whose every beginning is spread over them: bits turned around. */
 export function spread(n) {

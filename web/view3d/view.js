@@ -9,7 +9,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
-import { POINT_SHADER, edges, grid, line, parts, segments, sheet, spread, token } from './things.js';
+import { POINT_SHADER, edges, grid, line, parts, segments, sheet, spread, surface, token } from './things.js';
 import { words } from './words.js';
 
 /** A frame may take this long while the view moves: thirty a second. */
@@ -134,10 +134,12 @@ export function open(host, tell) {
     made.distances = segments(scene.distances, line(token('--ink')));
     made.residuals = segments(new Float32Array(scene.residuals.length), line(token('--bad')));
     made.forms = segments(scene.forms, line(token('--accent')));
+    made.surfaces = surface(scene.surfaces, 0.12);
+    made.chosenSurface = surface(scene.chosenSurface, 0.3);
     made.sticks = segments(new Float32Array(scene.sticks.length), new LineBasicMaterial({ vertexColors: true }));
     made.sticks.geometry.setAttribute('color', new BufferAttribute(new Float32Array(scene.sticks.length), 3));
     made.rays = segments(new Float32Array(0), line(token('--accent'), 0.8));
-    for (const name of ['lines', 'distances', 'residuals', 'forms', 'sticks', 'rays']) {
+    for (const name of ['lines', 'distances', 'residuals', 'forms', 'surfaces', 'chosenSurface', 'sticks', 'rays']) {
       made[name].frustumCulled = false;
       group.add(made[name]);
     }
@@ -169,6 +171,8 @@ export function open(host, tell) {
     made.distances.material.color.set(token('--ink'));
     made.residuals.material.color.set(token('--bad'));
     made.forms.material.color.set(token('--accent'));
+    made.surfaces.material.color.set(token('--edge'));
+    made.chosenSurface.material.color.set(token('--accent'));
     made.rays.material.color.set(token('--accent'));
     const ink = new Color(token('--ink'));
     const lineColours = made.lines.geometry.attributes.color;
@@ -187,7 +191,7 @@ export function open(host, tell) {
       stickColours.array.set([r, g, b, r, g, b], 6 * k);
     }
     stickColours.needsUpdate = true;
-    const show = { ellipsoids: options.ellipsoids, cameras: options.photos, grid: options.grid, forms: options.features, distances: options.features, sticks: options.deviations, residuals: options.deviations, rays: options.rays };
+    const show = { ellipsoids: options.ellipsoids, cameras: options.photos, grid: options.grid, forms: options.features, surfaces: options.features, chosenSurface: options.features, distances: options.features, sticks: options.deviations, residuals: options.deviations, rays: options.rays };
     for (const [name, on] of Object.entries(show)) if (made[name]) made[name].visible = on;
     rays();
     swell();
@@ -364,7 +368,8 @@ export function open(host, tell) {
     request = requestAnimationFrame(frame);
     if (moving && time - lastFrame > 0 && lastFrame) adapt(time - lastFrame);
     lastFrame = moving ? time : 0;
-    if (moving && time > moving + 250) rest();
+    // A move that is not drawn yet comes first, thinned out: where frames are slow, all of it between two moves would keep them slow.
+    if (moving && !dirty && time > moving + 250) rest();
     if (!dirty) return;
     dirty = false;
     render();
@@ -551,9 +556,12 @@ export function open(host, tell) {
       paint();
     },
     look,
-    /** Where a point is drawn, for tests and for what is put beside it. */
-    place: (k) => scene && screen(scene.points[3 * k], scene.points[3 * k + 1], scene.points[3 * k + 2]),
-    counts: () => ({ ...drawn, points: scene ? scene.points.length / 3 : 0, photos: scene ? scene.photos.length / 15 : 0, budget, quality, bare }),
+    /** Where a point is drawn, by its number or its name: for tests and for what is put beside it. */
+    place(point) {
+      const k = typeof point === 'string' ? scene?.names.indexOf(point) : point;
+      return scene && screen(scene.points[3 * k], scene.points[3 * k + 1], scene.points[3 * k + 2]);
+    },
+    counts: () => ({ ...drawn, surfaces: scene ? (scene.surfaces.length + scene.chosenSurface.length) / 9 : 0, residuals: scene ? scene.residuals.length / 6 : 0, points: scene ? scene.points.length / 3 : 0, photos: scene ? scene.photos.length / 15 : 0, budget, quality, bare }),
     labels: () => shownNames.map(({ words, box: place }) => ({ words, box: place })),
     /** The view with its caption as a PNG. */
     async picture(lines) {

@@ -32,6 +32,8 @@ export function words(draw, { scene, options, order, quick, screen, camera, perP
     draw.font = `${bold ? 600 : 400} 11px ${family}`;
     const w = draw.measureText(text).width;
     if (x + w < 0 || x > width || y < 0 || y - 12 > height) return;
+    // What stands at the edge is not cut.
+    x = Math.max(3, Math.min(x, width - w - 3));
     if (!free(x - 2, y - 11, w + 4, 14) && !must) return;
     draw.lineWidth = 3;
     draw.lineJoin = 'round';

@@ -42,6 +42,9 @@ pub struct Scene {
     pub residuals: Vec<f32>,
     /// Outlines of features, six a piece.
     pub forms: Vec<f32>,
+    /// Surfaces of features as triangles, nine numbers each; those of the chosen feature apart.
+    pub surfaces: Vec<f32>,
+    pub chosen_surface: Vec<f32>,
     /// Place and vector of the deviations of the chosen feature, and their signs.
     pub sticks: Vec<f32>,
     pub stick_signs: Vec<i8>,
@@ -132,6 +135,8 @@ impl View {
         floats("distances", &scene.distances);
         floats("residuals", &scene.residuals);
         floats("forms", &scene.forms);
+        floats("surfaces", &scene.surfaces);
+        floats("chosenSurface", &scene.chosen_surface);
         floats("sticks", &scene.sticks);
         floats("box", &scene.bounds);
         set(&object, "roles", &Uint8Array::from(scene.roles.as_slice()));

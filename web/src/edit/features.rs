@@ -192,6 +192,15 @@ pub fn rename(project: &mut Project, from: &str, to: &str) -> bool {
     true
 }
 
+/// Whether the scale of a best fit is fitted too.
+pub fn scale(project: &mut Project, id: &str, fitted: bool) {
+    for system in project.systems.iter_mut().filter(|s| s.id == id) {
+        if let SystemKind::BestFit { scale, .. } = &mut system.kind {
+            *scale = fitted;
+        }
+    }
+}
+
 /// Joins points by lines, one after the other, where they are not joined yet; how many lines.
 pub fn join(project: &mut Project, points: &[String], layer: &str) -> usize {
     let before = project.lines.len();

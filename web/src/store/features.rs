@@ -80,6 +80,12 @@ impl Desk {
         true
     }
 
+    /// Fits the scale of a coordinate system too, or keeps lengths.
+    pub fn scale_system(self, id: &str, scale: bool) {
+        let name = id.to_owned();
+        self.change_features(Change::SystemScaled(name), |project| features::scale(project, id, scale));
+    }
+
     /// Joins the chosen points by lines in a layer, or parts them.
     pub fn join_points(self, points: &[String], layer: &str) {
         if points.len() < 2 {

@@ -78,8 +78,8 @@ pub fn Features() -> impl IntoView {
                 <span class="aside">
                     {move || stale.get().then(|| view! { <span class="warn"><Glyph icon=Icon::Clock size=12/> " " {text::out_of_date}</span> " " })}
                     "± 1σ "
-                    {["dxf", "ply", "gltf"].map(|format| view! {
-                        <button class="link" data-export=format on:click=move |_| desk.export(format)>{format.to_uppercase()}</button>
+                    {[("dxf", "DXF"), ("ply", "PLY"), ("gltf", "glTF")].map(|(format, name)| view! {
+                        <button class="link" data-export=format on:click=move |_| desk.export(format)>{name}</button>
                     }).collect_view()}
                 </span>
             </h2>
@@ -393,10 +393,17 @@ fn Systems() -> impl IntoView {
     });
     let point = Signal::derive(move || desk.selection.with(|s| s.point.clone()));
     let on_choose = Callback::new(move |id: String| desk.select_point(&id));
+    // The one that is open, and whether its scale is fitted, where that can be chosen.
+    let opened = Memo::new(move |_| {
+        let id = open.get()?;
+        desk.document.with(|d| {
+            let system = d.project.systems.iter().find(|s| s.id == id)?;
+            Some((id, if let SystemKind::BestFit { scale, .. } = system.kind { Some(scale) } else { None }))
+        })
+    });
     view! {
         <Show when=move || !all.with(Vec::is_empty)>
-            <h2 class="section-head"><span>{words::systems}</span>
-                <span class="aside"><Show when=move || open.with(Option::is_some)><CopyButton columns rows/></Show></span></h2>
+            <h2 class="section-head"><span>{words::systems}</span></h2>
             <ul class="feature-list">
                 {move || all.get().into_iter().map(|(id, word, weighted, measured)| {
                     let (key, gone, shown) = (id.clone(), id.clone(), id.clone());
@@ -414,6 +421,29 @@ fn Systems() -> impl IntoView {
                     }
                 }).collect_view()}
             </ul>
+            {move || opened.get().map(|(id, scale)| {
+                let (from, scaled) = (id.clone(), id.clone());
+                view! {
+                    <h2 class="section-head">
+                        <span>
+                            <input class="feature-name" name="system-name" type="text" aria-label=words::system_name prop:value=id
+                                on:change=move |e| {
+                                    let to = event::value(&e);
+                                    if desk.rename_feature(&from, &to) {
+                                        open.set(Some(to.trim().to_owned()));
+                                    }
+                                }/>
+                        </span>
+                        <span class="aside">
+                            {scale.map(|on| view! {
+                                <label class="tick"><input type="checkbox" name="system-scale" prop:checked=on
+                                    on:change=move |e| desk.scale_system(&scaled, event::checked(&e))/> <span>{words::with_scale}</span></label>
+                            })}
+                            <CopyButton columns rows/>
+                        </span>
+                    </h2>
+                }
+            })}
             <Show when=move || !rows.with(Vec::is_empty)>
                 <NumberTable label=words::systems columns rows chosen=point on_choose sorting/>
             </Show>

@@ -3,15 +3,12 @@
 use std::collections::{BTreeSet, HashMap};
 
 use sightline::adjustment::{MeasuredFeature, Quantity};
-use sightline::depiction::{ellipsoid, exaggeration, extent, frustum, round};
+use sightline::depiction::{drawn, ellipsoid, exaggeration, extent, frustum, round};
 use sightline::project::{Project, Role};
 
 use crate::browser::object::{Label, Scene, numbered};
 use crate::format;
 use crate::store::document::Outcome;
-
-/// Pieces of a drawn circle.
-const ROUND: usize = 72;
 
 /// The scene of a result; `chosen` is the feature whose deviations are drawn.
 pub fn scene(result: &Outcome, project: &Project, chosen: Option<&str>) -> Scene {
@@ -102,7 +99,9 @@ pub fn scene(result: &Outcome, project: &Project, chosen: Option<&str>) -> Scene
         }
     }
     for feature in adjustment.features.iter().filter(|f| f.error.is_none()) {
-        outline(&mut scene, feature, &about, chosen == Some(feature.id.as_str()), &at);
+        let own = feature.residuals.iter().filter_map(|r| number.get(r.point.as_str()));
+        let own: Vec<[f64; 3]> = own.map(|k| adjustment.points[*k].xyz).collect();
+        feature_drawn(&mut scene, feature, &own, &about, chosen == Some(feature.id.as_str()));
     }
     if let Some(feature) = chosen.and_then(|id| adjustment.features.iter().find(|f| f.id == id)) {
         sticks(&mut scene, feature, adjustment.features.as_slice(), project, &about, &at);
@@ -130,104 +129,27 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|k| a[k] * b[k]).sum()
 }
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 fn unit(a: [f64; 3]) -> [f64; 3] {
     let length = dot(a, a).sqrt();
     if length > 0.0 { a.map(|x| x / length) } else { a }
 }
 
-/// Two directions across a third.
-fn across(n: [f64; 3]) -> [[f64; 3]; 2] {
-    let other = if n[0].abs() < 0.8 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-    let e = unit(cross(n, other));
-    [e, cross(n, e)]
-}
-
-/// What is drawn of a feature: rings and edges, the box of a plane's points, lines between ends.
-fn outline(scene: &mut Scene, feature: &MeasuredFeature, about: About, chosen: bool, at: At) {
-    let mut piece = |a: [f64; 3], b: [f64; 3]| scene.forms.extend(about(a).into_iter().chain(about(b)));
-    let radius = feature.value.unwrap_or(0.0) / 2.0;
-    let mut label = feature.position;
-    let ring = |piece: &mut dyn FnMut([f64; 3], [f64; 3]), centre: [f64; 3], n: [f64; 3]| {
-        let [e, f] = across(n);
-        let place = |k: usize| {
-            let t = std::f64::consts::TAU * k as f64 / ROUND as f64;
-            add(add(centre, radius * t.cos(), e), radius * t.sin(), f)
-        };
-        (0..ROUND).for_each(|k| piece(place(k), place(k + 1)));
-    };
-    match (feature.kind.as_str(), feature.position, feature.direction) {
-        ("circle", Some(centre), Some(n)) => ring(&mut piece, centre, n),
-        ("sphere", Some(centre), _) => {
-            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].into_iter().for_each(|n| ring(&mut piece, centre, n));
-        }
-        ("cylinder", _, Some(n)) => {
-            let [e, f] = across(n);
-            feature.ends.iter().for_each(|end| ring(&mut piece, *end, n));
-            if let [a, b] = feature.ends[..] {
-                piece(a, b);
-                for (s, side) in [(radius, e), (-radius, e), (radius, f), (-radius, f)] {
-                    piece(add(a, s, side), add(b, s, side));
-                }
-                label = Some(b);
-            }
-        }
-        ("plane", Some(p), Some(n)) => {
-            let [e, f] = across(n);
-            let middle = about(p).map(f64::from);
-            let inside = feature.residuals.iter().filter_map(|r| at(&r.point)).map(|x| {
-                let v = std::array::from_fn(|k| f64::from(x[k]) - middle[k]);
-                [dot(v, e), dot(v, f)]
-            });
-            let corners: Vec<[f64; 3]> =
-                hull(inside.collect()).into_iter().map(|[a, b]| add(add(p, a, e), b, f)).collect();
-            (0..corners.len()).for_each(|k| piece(corners[k], corners[(k + 1) % corners.len()]));
-            label = corners.first().copied().or(label);
-        }
-        _ => {
-            feature.ends.windows(2).for_each(|pair| piece(pair[0], pair[1]));
-            if let (Some(first), Some(last)) = (feature.ends.first(), feature.ends.last()) {
-                label = Some(std::array::from_fn(|k| (first[k] + last[k]) / 2.0));
-            }
-        }
-    }
-    if let Some(place) = label {
-        // What a length or an angle is stands with it; of the others the panel has it.
-        let shown = feature.value.filter(|_| matches!(feature.kind.as_str(), "distance" | "angle")).map(|value| {
-            let angle = feature.quantity == Some(Quantity::Angle);
-            let shown = |x: f64| if angle { x.to_degrees() } else { x };
-            let decimals = feature.sigma.map(shown).filter(|s| *s > 0.0).map_or(3, format::decimals_for);
-            format!("  {}{}", format::fixed(shown(value), decimals), if angle { "°" } else { "" })
-        });
-        let words = format!("{}{}", feature.id, shown.unwrap_or_default());
-        scene.labels.push(Label { words, place: about(place), chosen });
-    }
-}
-
-/// What a rubber band around places in a plane would touch, counter-clockwise (Andrew's monotone chain).
-fn hull(mut all: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    all.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let half = |places: &mut dyn Iterator<Item = &[f64; 2]>| {
-        let mut chain: Vec<[f64; 2]> = Vec::new();
-        for c in places {
-            while let [.., a, b] = chain[..] {
-                if (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0 {
-                    break;
-                }
-                chain.pop();
-            }
-            chain.push(*c);
-        }
-        // Its last place is the first of the other half.
-        chain.pop();
-        chain
-    };
-    let mut chain = half(&mut all.iter());
-    chain.extend(half(&mut all.iter().rev()));
-    chain
+/// A feature's outline, its surface and its name.
+fn feature_drawn(scene: &mut Scene, feature: &MeasuredFeature, points: &[[f64; 3]], about: About, chosen: bool) {
+    let drawn = drawn(feature, points);
+    scene.forms.extend(drawn.outline.into_iter().flatten().flat_map(about));
+    let surface = if chosen { &mut scene.chosen_surface } else { &mut scene.surfaces };
+    surface.extend(drawn.surface.into_iter().flatten().flat_map(about));
+    let Some(place) = drawn.label else { return };
+    // What a length or an angle is stands with it; of the others the panel has it.
+    let shown = feature.value.filter(|_| matches!(feature.kind.as_str(), "distance" | "angle")).map(|value| {
+        let angle = feature.quantity == Some(Quantity::Angle);
+        let shown = |x: f64| if angle { x.to_degrees() } else { x };
+        let decimals = feature.sigma.map(shown).filter(|s| *s > 0.0).map_or(3, format::decimals_for);
+        format!("  {}{}", format::fixed(shown(value), decimals), if angle { "°" } else { "" })
+    });
+    let words = format!("{}{}", feature.id, shown.unwrap_or_default());
+    scene.labels.push(Label { words, place: about(place), chosen });
 }
 
 /// Deviations of a feature's points as vectors across the form.
@@ -273,14 +195,6 @@ mod tests {
     use sightline::project::{Camera, Interior, Photo, Point};
 
     use super::*;
-
-    #[test]
-    fn a_plane_is_drawn_around_its_outermost_points() {
-        let places = [[0.0, 0.0], [4.0, 0.0], [2.0, 1.0], [4.0, 3.0], [0.0, 3.0], [2.0, 0.0]];
-        assert_eq!(hull(places.into()), [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]);
-        assert_eq!(hull(vec![[1.0, 1.0]]).len(), 0);
-        assert_eq!(hull(vec![[1.0, 1.0], [0.0, 0.0], [2.0, 2.0]]), [[0.0, 0.0], [2.0, 2.0]]);
-    }
 
     #[test]
     fn the_scene_has_every_point_photo_and_ray_about_the_middle() {
