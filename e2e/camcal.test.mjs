@@ -5,6 +5,7 @@ import { join } from 'node:path';
 
 import { open } from './browser.mjs';
 import { adjust, data, detect, downloads, drop, figure, files, go, idle, notice, number, parameter, photos, rows } from './desk.mjs';
+import { printed, printedPoints, unreadable } from './printed.mjs';
 
 const folder = data('camcal');
 
@@ -91,6 +92,16 @@ test('21 photos become a calibration', { skip: folder ? false : 'skipped, no dat
     const freed = (await parameter(page, 'C4040Z', 'c')).value;
     assert.ok(freed !== uncorrected && Math.abs(freed - uncorrected) < 0.001, `c ${freed}, ${uncorrected} before`);
     await idle(page);
+
+    if (!unreadable) {
+      const shown = await page.$$eval('[data-result]', (all) => all.map((element) => element.textContent));
+      const decimals = (await page.textContent('.results .c1 tbody tr.data td:nth-child(3)')).split('.')[1].length;
+      const tables = await downloads(page, 4, () => page.getByRole('button', { name: 'Export CSV' }).click());
+      const table = Object.entries(tables).find(([name]) => name.includes('points'))[1];
+      await go(page, 'report');
+      await page.waitForSelector('.paper[data-ready=true]', { timeout: 60_000 });
+      await printed(page, { figures: shown, points: printedPoints(table, decimals), without: ['Length measurement errors', 'Features'] });
+    }
     assert.deepEqual(errors, []);
   } finally {
     await close();

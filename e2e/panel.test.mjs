@@ -6,6 +6,7 @@ import { test } from 'node:test';
 
 import { open } from './browser.mjs';
 import { adjust, data, detect, downloads, files, go, idle, photos, predicted, rows, similarityRms } from './desk.mjs';
+import { printed, printedPoints, unreadable } from './printed.mjs';
 
 const folder = data('panel');
 
@@ -58,6 +59,28 @@ test('8 photos become coordinates', { skip: folder ? false : 'skipped, no data',
         assert.ok(far < 1, `photo ${photo.id}: the target named ${p.id} is ${far} px from its place`);
       }
     }
+
+    // Lengths of the other program's points, far apart, that take no part: errors within what eight photos promise, and told with the limit.
+    await go(page, 'control');
+    const pairs = [['1', '70'], ['10', '61'], ['5', '66'], ['2', '69'], ['9', '62']].filter((pair) => pair.every((id) => coded.some((p) => p.id === id)));
+    assert.ok(pairs.length >= 3, JSON.stringify(pairs));
+    for (const [from, to] of pairs) {
+      const known = Math.hypot(...aicon.get(from).map((v, k) => v - aicon.get(to)[k]));
+      for (const [name, value] of Object.entries({ from, to, length: known, sigma: 0.01 })) await page.fill(`[name=${name}]`, String(value));
+      await page.click('.distance-form button');
+      await page.locator('[name=distance-check]').last().check();
+    }
+    await adjust(page);
+    const shown = await page.$$eval('[data-result]', (all) => all.map((element) => element.textContent));
+    const decimals = (await page.textContent('.results .c1 tbody tr.data td:nth-child(3)')).split('.')[1].length;
+    const tables = await downloads(page, 4, () => page.getByRole('button', { name: 'Export CSV' }).click());
+    const printable = Object.entries(tables).find(([name]) => name.includes('points'))[1];
+    await go(page, 'report');
+    await page.waitForSelector('.paper[data-ready=true]', { timeout: 60_000 });
+    await page.fill('[name=limit-constant]', '0.1');
+    await page.press('[name=limit-constant]', 'Tab');
+    await page.waitForFunction(() => document.querySelector('.paper').shadowRoot.querySelector('[data-section=lengths]')?.textContent.includes('All of them keep the limit'));
+    if (!unreadable) await printed(page, { figures: [...shown, '0.1 mm'], points: printedPoints(printable, decimals), without: ['Features'] });
     assert.deepEqual(errors, []);
   } finally {
     await close();

@@ -17,7 +17,7 @@ pub use features::{CoordinateSystem, DrawnLine, End, Feature, FeatureKind, Given
 use identifier::{identifier, identifier_option_list};
 pub use parameter::{Interior, Parameter};
 pub use plan::{Form, Lens, Plan, PlanDistance, PlanFace, PlanStation, Region, Variant, Wanted};
-pub use report::{LengthLimit, Paper, ReportLanguage, ReportSettings, Section};
+pub use report::{ColourShift, LengthLimit, Paper, PhotoColours, ReportLanguage, ReportSettings, Section};
 
 /// The document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

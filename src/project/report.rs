@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::identifier::identifier;
+
 /// Language of a report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ReportLanguage {
@@ -99,6 +101,37 @@ impl LengthLimit {
     }
 }
 
+/// How far a lens images a colour from green: pixels outwards at the picture's corner.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ColourShift {
+    /// Part that grows with the radius.
+    pub linear: f64,
+    /// Part that grows with its third power.
+    pub cubic: f64,
+    /// Standard error of both together.
+    pub sigma: f64,
+    /// Rms of what is left of a target's difference.
+    pub rms: f64,
+    /// Targets that it is from.
+    pub targets: usize,
+}
+
+/// Lateral chromatic aberration as the targets of one photo show it, which were measured in every colour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PhotoColours {
+    /// Identifier of the photo.
+    #[serde(deserialize_with = "identifier")]
+    pub photo: String,
+    /// Radius of the picture's corners in pixels.
+    pub corner: f64,
+    /// Red against green.
+    #[serde(default)]
+    pub red: Option<ColourShift>,
+    /// Blue against green.
+    #[serde(default)]
+    pub blue: Option<ColourShift>,
+}
+
 /// What a report says besides its numbers, and how it is printed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -130,6 +163,9 @@ pub struct ReportSettings {
     /// The largest length measurement error that is permitted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_limit: Option<LengthLimit>,
+    /// Colours that were measured apart, photo by photo: told with their cameras, no input of any adjustment.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub colours: Vec<PhotoColours>,
 }
 
 impl Default for ReportSettings {
@@ -145,11 +181,20 @@ impl Default for ReportSettings {
             left_out: vec![Section::AllObservations],
             coverage_factor: 2.0,
             length_limit: None,
+            colours: Vec::new(),
         }
     }
 }
 
 impl ReportSettings {
+    /// Takes the colours of a photo in place of what was known of them.
+    pub fn take_colours(&mut self, colours: PhotoColours) {
+        self.colours.retain(|known| known.photo != colours.photo);
+        if colours.red.is_some() || colours.blue.is_some() {
+            self.colours.push(colours);
+        }
+    }
+
     /// Whether nothing was ever set.
     pub fn is_default(&self) -> bool {
         *self == Self::default()

@@ -11,13 +11,14 @@ pub fn page(context: &Context) -> String {
     };
     let words = context.words;
     let version = format!("Sightline {}", env!("CARGO_PKG_VERSION"));
+    // Alike on both sides of the middle, so that their lines meet.
     let boxes = [
-        ("top-left", "left", 40, quoted(context.title())),
+        ("top-left", "left", 35, quoted(context.title())),
         ("top-center", "center", 30, quoted(words.report_title())),
-        ("top-right", "right", 30, "counter(page) \" / \" counter(pages)".to_owned()),
-        ("bottom-left", "left", 40, quoted(&words.all_sigmas(&context.unit))),
+        ("top-right", "right", 35, "counter(page) \" / \" counter(pages)".to_owned()),
+        ("bottom-left", "left", 35, quoted(&words.all_sigmas(&context.unit))),
         ("bottom-center", "center", 30, quoted(&version)),
-        ("bottom-right", "right", 30, quoted(&context.settings().date)),
+        ("bottom-right", "right", 35, quoted(&context.settings().date)),
     ];
     let mut text = format!("@page {{\n  size: {size};\n  margin: 24mm 18mm 22mm;\n");
     for (place, align, width, content) in boxes {

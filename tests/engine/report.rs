@@ -10,8 +10,8 @@ use sightline::error::{Error, Lack, Reason};
 use sightline::exchange;
 use sightline::noise::Noise;
 use sightline::project::{
-    CoordinateSystem, DatumKind, Distance, End, Feature, FeatureKind, LengthLimit, Paper, Parameter, Project,
-    ReportLanguage, ReportSettings, Role, Section, SystemKind,
+    ColourShift, CoordinateSystem, DatumKind, Distance, End, Feature, FeatureKind, LengthLimit, Paper, Parameter,
+    PhotoColours, Project, ReportLanguage, ReportSettings, Role, Section, SystemKind,
 };
 use sightline::report::number::{count, decimals_for, fixed, with_sigma};
 use sightline::report::plots::{comparison, plots};
@@ -59,6 +59,12 @@ fn project() -> Project {
         text: "First line\nsecond line".into(),
         left_out: Vec::new(),
         length_limit: Some(LengthLimit { constant: 0.5, per: Some(10_000.0) }),
+        colours: vec![PhotoColours {
+            photo: project.photos[1].id.clone(),
+            corner: 2500.0,
+            red: Some(ColourShift { linear: 0.7, cubic: -0.213, sigma: 0.011, rms: 0.03, targets: 187 }),
+            blue: None,
+        }],
         ..ReportSettings::default()
     };
     project
@@ -126,6 +132,9 @@ fn every_section_is_there_with_the_results_own_numbers() {
             assert!(all["cameras"].contains(&format!("{value} {sigma}")), "{parameter} {value} {sigma}");
         }
         let check = adjustment.check_statistics.as_ref().expect("check points");
+        let unit = &project.unit;
+        assert!(all["lengths"].contains(&format!("0.5 {unit} + L / 10 000")), "{}", all["lengths"]);
+        assert!(all["cameras"].contains("0.487 0.011 0.700 −0.213 0.030 187"), "{}", all["cameras"]);
         assert!(all["control"].contains(&fixed(check.rms_all, decimals)));
         assert!(all["statistics"].contains(&fixed(adjustment.sigma0.expect("redundant"), 4)));
         assert!(all["settings"].contains(&sha256(b"a photo")) && all["settings"].contains(&digest(&project).unwrap()));
@@ -268,6 +277,21 @@ fn a_report_of_300_points_and_40_photos_is_made_at_once() {
     let took = start.elapsed().as_secs_f64();
     println!("report of 300 points and 40 photos: {took:.3} s, {} kB", html.len() / 1000);
     assert!(took < 3.0, "{took} s");
+    // Of forty stations those are named whose names lie on no other.
+    let plots = plots(&project, Some(&adjustment)).expect("plots");
+    let above = plots.iter().find(|plot| plot.name == "network-above").expect("one");
+    let value = |line: &str, name: &str| -> f64 {
+        let rest = line.split_once(&format!(" {name}=\"")).expect("a place").1;
+        rest.split_once('"').expect("its end").0.parse().expect("a number")
+    };
+    let names = above.svg.lines().filter(|line| line.contains("class=\"strong\"") && line.contains("\"middle\""));
+    let places: Vec<[f64; 2]> = names.map(|line| [value(line, "x"), value(line, "y")]).collect();
+    assert!(places.len() > 10, "{}", places.len());
+    for (k, a) in places.iter().enumerate() {
+        for b in &places[k + 1..] {
+            assert!((a[0] - b[0]).abs() > 12.0 || (a[1] - b[1]).abs() > 12.0, "{a:?} {b:?}");
+        }
+    }
 }
 
 #[test]

@@ -11,7 +11,7 @@ use super::{Group, Plot, file_name};
 use crate::adjustment::AdjustedCamera;
 use crate::project::{Interior, Parameter};
 use crate::report::context::Context;
-use crate::report::number::{fixed, round, round_below};
+use crate::report::number::{decimals_for, fixed, round, round_below};
 
 /// Places along the radius.
 const STEPS: usize = 120;
@@ -198,9 +198,10 @@ impl<'a> Lens<'a> {
             .collect();
         let title = words.plot_decentring(&self.name);
         let (value, sigma) = at(self.outermost);
+        let decimals = decimals_for(sigma);
         let sentence = words.plot_decentring_says(
-            &fixed(value, 2),
-            &fixed(sigma, 2),
+            &fixed(value, decimals),
+            &fixed(sigma, decimals),
             &unit,
             &fixed(self.outermost, 1),
             &self.unit,

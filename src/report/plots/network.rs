@@ -76,8 +76,10 @@ impl View<'_> {
             svg.dots(if known { "point given" } else { "point" }, &places, if known { 4.0 } else { 2.2 });
         }
         let labels = a.photos.len() <= 60;
+        let mut taken = Vec::new();
         for photo in &a.photos {
-            self.camera(&mut svg, photo.position, photo.rotation, if labels { &photo.id } else { "" });
+            let name = if labels { photo.id.as_str() } else { "" };
+            self.camera(&mut svg, photo.position, photo.rotation, name, &mut taken);
         }
         let bottom = height - 10.0;
         let bar = round_below(90.0 / self.scale);
@@ -122,8 +124,15 @@ impl View<'_> {
         }
     }
 
-    /// A triangle that opens to where the camera looks.
-    fn camera(&self, svg: &mut Svg, position: [f64; 3], angles: [f64; 3], name: &str) {
+    /// A triangle that opens to where the camera looks, with its name where that lies on none of the `taken` places.
+    fn camera(
+        &self,
+        svg: &mut Svg,
+        position: [f64; 3],
+        angles: [f64; 3],
+        name: &str,
+        taken: &mut Vec<([f64; 2], f64)>,
+    ) {
         let m = rotation::object_to_camera(angles);
         let [h, v] = self.axes;
         let view = [-m[(2, h)], m[(2, v)]];
@@ -145,7 +154,19 @@ impl View<'_> {
             } else {
                 name.to_owned()
             };
-            svg.label("strong", [place[0] - d[0] * 9.0, place[1] - d[1] * 9.0 + 4.0], Anchor::Middle, &name);
+            // Behind the camera, else beside it; half the width that it has in print.
+            let half = 4.0 * name.chars().count() as f64;
+            let beside = [[-9.0 * d[0], -9.0 * d[1]], [0.0, -13.0], [0.0, 15.0], [half + 8.0, 0.0], [-half - 8.0, 0.0]];
+            let free = |at: &[f64; 2]| {
+                taken
+                    .iter()
+                    .all(|(other, wide)| (at[0] - other[0]).abs() > half + wide || (at[1] - other[1]).abs() > 13.0)
+            };
+            let at = beside.map(|by| [place[0] + by[0], place[1] + by[1] + 4.0]).into_iter().find(free);
+            if let Some(at) = at {
+                taken.push((at, half));
+                svg.label("strong", at, Anchor::Middle, &name);
+            }
         }
     }
 }

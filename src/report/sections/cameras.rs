@@ -1,11 +1,11 @@
 //! Cameras: interior orientation with standard errors, what was held, and which parameters go together.
 
 use crate::adjustment::AdjustedCamera;
-use crate::project::{Interior, Parameter};
+use crate::project::{Camera, Interior, Parameter, PhotoColours};
 use crate::report::context::Context;
 use crate::report::html::{Html, Table};
 use crate::report::names::{parameter_name, parameter_unit};
-use crate::report::number::{compact, count, fixed, maybe, power, with_sigma};
+use crate::report::number::{compact, count, decimals_for, fixed, maybe, power, with_sigma};
 
 /// Correlations from here on are told.
 const TOLD: f64 = 0.9;
@@ -82,6 +82,34 @@ fn one(context: &Context, adjusted: &AdjustedCamera, html: &mut Html) {
     if !pairs.is_empty() {
         html.note(&words.correlated(&fixed(TOLD, 1), &pairs.join("; ")));
     }
+    if adjusted.photo.is_none() {
+        colours(context, camera, html);
+    }
+}
+
+/// How far red and blue are imaged from green, where their targets were measured in every colour.
+fn colours(context: &Context, camera: &Camera, html: &mut Html) {
+    let words = context.words;
+    let of_camera = |photo: &str| context.camera_of(photo).is_some_and(|own| own.id == camera.id);
+    let known: Vec<&PhotoColours> = context.settings().colours.iter().filter(|c| of_camera(&c.photo)).collect();
+    let Some(corner) = known.iter().map(|c| c.corner).reduce(f64::max) else { return };
+    html.h3(words.lateral_colour());
+    html.note(&words.lateral_colour_means(&fixed(corner, 0)));
+    let mut table = Table::new().words(words.photo()).words(words.colour());
+    table = table.low(words.at_corner(), "", "px").low("σ", "", "px").low("~ r", "", "px").low("~ r³", "", "px");
+    table = table.low(words.rms(), "", "px").number(words.targets());
+    for colours in known {
+        for (name, shift) in [(words.red(), &colours.red), (words.blue(), &colours.blue)] {
+            let Some(shift) = shift else { continue };
+            let decimals = decimals_for(shift.sigma);
+            let mut row = vec![colours.photo.clone(), name.to_owned()];
+            let sizes = [shift.linear + shift.cubic, shift.sigma, shift.linear, shift.cubic, shift.rms];
+            row.extend(sizes.map(|size| fixed(size, decimals)));
+            row.push(count(shift.targets));
+            table.row(row);
+        }
+    }
+    html.table(table);
 }
 
 fn correlated(adjusted: &AdjustedCamera) -> Vec<String> {

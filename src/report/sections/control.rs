@@ -57,7 +57,8 @@ fn tested(context: &Context, given: &GivenObservation, decimals: usize) -> [Stri
     [
         given.residual.map_or("–".into(), |v| fixed(v, decimals_of(v, decimals))),
         fixed(given.sigma, decimals),
-        redundancy.map_or("–".into(), |r| fixed(r, decimals_of(r, 2))),
+        // Of what nothing checks all digits are rounding.
+        redundancy.map_or("–".into(), |r| fixed(r, if unchecked { 2 } else { decimals_of(r, 2) })),
         maybe(w, 2),
     ]
 }

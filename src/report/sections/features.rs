@@ -1,6 +1,7 @@
 //! What was measured on the result: features with their standard errors, and the object's own coordinate systems.
 
 use crate::adjustment::{MeasuredFeature, MeasuredSystem, Quantity};
+use crate::error::{Error, Reason};
 use crate::project::{CoordinateSystem, End, Feature, FeatureKind, SystemKind};
 use crate::report::context::{Context, listed};
 use crate::report::html::{Html, Table};
@@ -40,8 +41,8 @@ fn figures<'a>(context: &Context<'a>, html: &mut Html, measured: &dyn Fn(&str) -
                 figure(context, found)
             }
             Some(found) => {
-                let code = found.error.as_ref().map_or("", |error| error.code());
-                notes.push(words.feature_failed(&feature.id, &code));
+                let why = found.error.as_ref().map(|error| why(context, error)).unwrap_or_default();
+                notes.push(words.feature_failed(&feature.id, &why));
                 nothing()
             }
             None => {
@@ -132,7 +133,7 @@ fn coordinates(context: &Context, html: &mut Html, system: &CoordinateSystem, fo
         return;
     };
     if let Some(error) = &found.error {
-        html.note(&words.feature_failed(&system.id, &error.code()));
+        html.note(&words.feature_failed(&system.id, &why(context, error)));
         return;
     }
     if let Some(sigma0) = found.sigma0 {
@@ -195,5 +196,21 @@ fn made_of(context: &Context, feature: &Feature) -> String {
         FeatureKind::Deviations { feature: Some(from), .. } => context.words.feature_from(from),
         FeatureKind::Deviations { given, .. } => context.words.feature_from_given(&count(given.len())),
         other => some(other.points()),
+    }
+}
+
+/// Why a feature or a system could not be measured.
+fn why(context: &Context, error: &Error) -> String {
+    let words = context.words;
+    match error {
+        Error::Invalid { reason: Reason::FeaturePoints { needed, given }, .. } => {
+            words.lacks_points(&count(*given), &count(*needed))
+        }
+        Error::Invalid { reason: Reason::FeaturePointMissing { name }, .. } => words.lacks_point(name),
+        Error::Invalid { reason: Reason::FeatureUndetermined, .. } => words.points_undetermined().to_owned(),
+        Error::Invalid { reason: Reason::FeatureNotFitted { name }, .. } => words.not_fitted(name),
+        Error::Invalid { reason: Reason::FeatureBroken { name }, .. } => words.built_on_broken(name),
+        Error::Invalid { reason: Reason::FeatureNoDirection, .. } => words.lacks_direction().to_owned(),
+        other => other.code().to_owned(),
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::report::context::Context;
 use crate::report::html::{Html, Table};
-use crate::report::number::{compact, count, maybe};
+use crate::report::number::{count, maybe, round};
 
 pub fn write(context: &Context, html: &mut Html) {
     let (words, unit, limit) = (context.words, context.unit, context.settings().length_limit);
@@ -51,10 +51,16 @@ pub fn write(context: &Context, html: &mut Html) {
     html.p(&words.largest_length_error(&context.with_unit(worst), &count(measured)));
     if let Some(limit) = limit {
         let formula = match limit.per {
-            Some(per) => format!("{} {unit} + L / {}", compact(limit.constant), compact(per)),
-            None => format!("{} {unit}", compact(limit.constant)),
+            Some(per) => format!("{} {unit} + L / {}", as_agreed(limit.constant), as_agreed(per)),
+            None => format!("{} {unit}", as_agreed(limit.constant)),
         };
         html.p(&if over == 0 { words.limit_kept(&formula) } else { words.limit_broken(&formula, &count(over)) });
     }
     html.note(words.lengths_of_the_guideline());
+}
+
+/// A number of the limit as people write it: 0.02, 100 000.
+fn as_agreed(value: f64) -> String {
+    let whole = value.fract() == 0.0 && (1.0..1e12).contains(&value);
+    if whole { count(value as usize) } else { round(value) }
 }

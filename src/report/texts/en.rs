@@ -125,6 +125,13 @@ declare! {
     decentring_distortion: "decentring distortion";
     affinity: "affinity";
     shear: "shear";
+    lateral_colour: "Lateral chromatic aberration";
+    lateral_colour_means(corner): "Red and blue against green, positive outwards, at the corner of the picture, {corner} px from its middle. No coordinate is corrected by it: it tells how far another colour than the one measured would lie.";
+    colour: "colour";
+    red: "red";
+    blue: "blue";
+    at_corner: "at the corner";
+    targets: "targets";
 
     // Network
     network_line(photos, points, mean, fewest): "{photos} {photos:photo sees|photos see} {points} {points:point|points}. A point has {mean} rays on average and {fewest} at least.";
@@ -260,7 +267,13 @@ declare! {
     smallest_largest: "smallest … largest";
     features_explained: "Forms fitted to the adjusted points by least squares of their orthogonal distances, without weights; standard errors (1σ) from the full covariance of the points. rms, smallest and largest are distances of the points from the form.";
     feature_lacks(id, points): "{id} is without points that this adjustment has not: {points}.";
-    feature_failed(id, code): "{id} could not be measured ({code}).";
+    feature_failed(id, why): "{id} could not be measured: {why}.";
+    lacks_points(given, needed): "this adjustment determines {given} of its points, it needs {needed}";
+    lacks_point(name): "point {name} is not determined by this adjustment";
+    points_undetermined: "its points lie in one place, on one line, in one plane or too near to it";
+    not_fitted(name): "{name} is not fitted to points";
+    built_on_broken(name): "it is built on {name}, which could not be measured";
+    lacks_direction: "an angle is between two directions, or at a point between two others";
     feature_not_measured(id): "{id} was defined after this result and has not been measured on it.";
     system_named(id): "Coordinate system {id}";
     system_automatic: "In the object's plane: Z is its normal towards the photos, X its longer extent, the origin its centroid.";

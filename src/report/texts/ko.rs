@@ -122,6 +122,13 @@ translate! { Korean {
     decentring_distortion: "편심왜곡";
     affinity: "축척차";
     shear: "전단";
+    lateral_colour: "배율 색수차";
+    lateral_colour_means(corner): "녹색에 대한 적색과 청색의 차이로, 바깥쪽이 양(+)이며 사진 모서리(중심에서 {corner} px)에서의 값입니다. 좌표 보정에는 쓰지 않으며, 측정한 색이 아닌 다른 색이 얼마나 벗어나는지를 나타냅니다.";
+    colour: "색";
+    red: "적색";
+    blue: "청색";
+    at_corner: "모서리";
+    targets: "표적";
 
     // Network
     network_line(photos, points, mean, fewest): "사진 {photos}매가 {points}점을 봅니다. 점마다 광선은 평균 {mean}개, 최소 {fewest}개입니다.";
@@ -257,7 +264,13 @@ translate! { Korean {
     smallest_largest: "최소 … 최대";
     features_explained: "조정한 점에서 직교거리의 최소제곱으로 맞춘 형상이며 가중치는 쓰지 않습니다. 표준오차(1σ)는 점의 전체 공분산에서 구합니다. RMS, 최소, 최대는 점과 형상 사이의 거리입니다.";
     feature_lacks(id, points): "{id}: 이 조정에 없는 점은 빠졌습니다({points}).";
-    feature_failed(id, code): "{id}: 측정할 수 없습니다({code}).";
+    feature_failed(id, why): "{id}: 측정할 수 없습니다. {why}.";
+    lacks_points(given, needed): "이 조정에서 결정된 점이 {given}개인데 {needed}개가 필요합니다";
+    lacks_point(name): "점 {name}의 좌표가 이 조정에서 결정되지 않았습니다";
+    points_undetermined: "점들이 한곳, 한 직선이나 한 평면 위에 있거나 그에 너무 가깝습니다";
+    not_fitted(name): "{name}{name:은|는} 점에 맞춘 형상이 아닙니다";
+    built_on_broken(name): "{name} 형상을 측정할 수 없어 그에 따른 값도 없습니다";
+    lacks_direction: "각은 두 방향 사이, 또는 한 점에서 다른 두 점 사이에서 잽니다";
     feature_not_measured(id): "{id}: 이 결과 뒤에 정의하여 아직 측정하지 않았습니다.";
     system_named(id): "좌표계 {id}";
     system_automatic: "대상물 평면 기준: Z는 사진 쪽을 향한 법선, X는 긴 방향, 원점은 무게중심.";
