@@ -30,6 +30,7 @@ mod panel;
 mod photos;
 mod plan_search;
 mod planning;
+mod print_shot;
 mod published;
 mod report;
 mod reports;

@@ -108,7 +108,17 @@ fn seeded_networks_are_oriented_and_none_is_wrong_in_silence() {
 /// Photos with few measurements, which a rough model refuses, and the networks beyond them are oriented once everything else stands.
 #[test]
 fn photos_left_over_are_oriented_in_the_end() {
-    for seed in [206, 247, 265, 300] {
+    for seed in [206, 240, 247, 265, 300] {
+        let network = network::network(&Case::of(seed, 60));
+        let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
+        assert!(verdict.right && verdict.silent == 0, "seed {seed}: {verdict:?}");
+    }
+}
+
+/// Plates and reliefs of which no two photos share nine points, once with every tenth name wrong and c unknown: nothing was oriented.
+#[test]
+fn nearly_flat_objects_need_no_pair_of_photos_with_many_points() {
+    for seed in [29, 112, 218, 232] {
         let network = network::network(&Case::of(seed, 60));
         let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
         assert!(verdict.right && verdict.silent == 0, "seed {seed}: {verdict:?}");
@@ -128,7 +138,7 @@ fn a_given_distance_is_held_where_the_network_fails_otherwise() {
 /// What was found wrong one after the other left photos of these networks with a pose and next to no measurement, wrong and unsaid.
 #[test]
 fn a_pose_that_nothing_bears_out_is_withdrawn_and_said_to_be() {
-    for seed in [218, 240, 250] {
+    for seed in [160, 195, 250] {
         let network = network::network(&Case::of(seed, 60));
         let oriented = orient(&network.given).expect("a valid project");
         let verdict = judged(&network, &oriented);

@@ -55,9 +55,10 @@ fn orient() -> Outcome {
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "orient", "--", "dots"]))
 }
 
-/// Ring codes are drawn and read natively.
+/// Ring codes are drawn and read natively, then printed sheets of them.
 fn codes() -> Outcome {
-    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "codes"]))
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "codes"]))?;
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "prints"]))
 }
 
 fn script(name: &str) -> Outcome {
