@@ -107,21 +107,47 @@ fn modules(profile: Profile, packages: &[&str]) -> Outcome {
 
 /// What cargo knows of the workspace on this machine and as wasm, from the lock file; offline where all is downloaded.
 pub fn metadata() -> Outcome<Value> {
+    let host = host()?;
+    let text = known_offline(&[
+        "metadata",
+        "--format-version",
+        "1",
+        "--locked",
+        "--filter-platform",
+        &host,
+        "--filter-platform",
+        TARGET,
+    ])?;
+    serde_json::from_str(&text).map_err(|error| format!("cargo metadata: {error}"))
+}
+
+/// Packages that are built in several versions on this machine or as wasm, a line each; some with one version stand there too.
+pub fn duplicates() -> Outcome<String> {
+    let host = host()?;
+    let platforms = ["--target", &host, "--target", TARGET];
+    let shown =
+        ["tree", "--locked", "--workspace", "--duplicates", "--depth", "0", "--prefix", "none", "--format", "{p}"];
+    known_offline(&[&shown[..], &platforms].concat())
+}
+
+fn host() -> Outcome<String> {
     let version = output(Command::new("rustc").arg("-vV"))?;
-    let host = version.lines().find_map(|line| line.strip_prefix("host: ")).ok_or("rustc -vV names no host")?;
-    let arguments =
-        ["metadata", "--format-version", "1", "--locked", "--filter-platform", host, "--filter-platform", TARGET];
-    let offline = cargo(&arguments)
+    let host = version.lines().find_map(|line| line.strip_prefix("host: "));
+    Ok(host.ok_or("rustc -vV names no host")?.to_owned())
+}
+
+/// What cargo says, offline where all is downloaded.
+fn known_offline(arguments: &[&str]) -> Outcome<String> {
+    let offline = cargo(arguments)
         .arg("--offline")
         .stderr(Stdio::null())
         .output()
-        .map_err(|error| format!("cargo metadata: {error}"))?;
-    let text = if offline.status.success() {
-        String::from_utf8(offline.stdout).map_err(|_| "cargo metadata: its output is not UTF-8")?
+        .map_err(|error| format!("cargo {}: {error}", arguments[0]))?;
+    if offline.status.success() {
+        String::from_utf8(offline.stdout).map_err(|_| format!("cargo {}: its output is not UTF-8", arguments[0]))
     } else {
-        output(&mut cargo(&arguments))?
-    };
-    serde_json::from_str(&text).map_err(|error| format!("cargo metadata: {error}"))
+        output(&mut cargo(arguments))
+    }
 }
 
 /// What native builds are asked for: always the same packages, since cargo compiles a crate anew for other features, and those

@@ -119,14 +119,16 @@ fn browser(products: &Products) -> Outcome<Count> {
     node_tests("e2e", &[("SIGHTLINE_URL", &address), ("CHROMIUM", &chromium), ("SIGHTLINE_EXAMPLES", &examples)])
 }
 
-/// What lasts, for `cargo xtask bench field`: a hundred large photos in one sitting, and the page killed 200 times, which the tests do a
-/// few times.
+/// What lasts, for `cargo xtask bench field`: a hundred large photos in one sitting, a million damaged calls of the face, and the page killed
+/// 200 times, of which the tests do a few.
 pub fn field() -> Outcome {
     install::packages()?;
     let chromium = install::chromium()?;
     build::all()?;
     let address = serve::background(root().join("dist"))?;
     run(program("node", &["benches/field.mjs", "dist"]).env("CHROMIUM", &chromium))?;
+    let calls = ["--test", "--test-reporter=spec", "tests/face/calls.test.mjs"];
+    run(program("node", &calls).env("SIGHTLINE_CALLS", "1000000"))?;
     let mut command = program("node", &["--test", "--test-reporter=spec", "e2e/kills.test.mjs"]);
     command.envs([("SIGHTLINE_URL", address.as_str()), ("CHROMIUM", &chromium), ("SIGHTLINE_KILLS", "200")]);
     run(&mut command)

@@ -15,7 +15,7 @@ struct Order {
     children: &'static [&'static str],
 }
 
-const ORDERS: [Order; 2] = [
+const ORDERS: [Order; 3] = [
     Order {
         parent: &[],
         children: &[
@@ -54,6 +54,29 @@ const ORDERS: [Order; 2] = [
             "sheets",
             "plan",
             "experiments",
+        ],
+    },
+    Order {
+        parent: &["detect"],
+        children: &[
+            "acceptance",
+            "median",
+            "normal",
+            "ellipse",
+            "picture",
+            "edges",
+            "search",
+            "rendered",
+            "centroid",
+            "code",
+            "measure",
+            "covered",
+            "alike",
+            "click",
+            "whole",
+            "sites",
+            "shot",
+            "colours",
         ],
     },
     Order {
