@@ -104,7 +104,7 @@ pub fn targets_on_form(#[wasm_bindgen(unchecked_param_type = "PlanForm")] form: 
         points: Vec<Point>,
         faces: Vec<PlanFace>,
     }
-    let made = value::read::<Form>(&form, "form").map(|form| targets_on(&form));
+    let made = value::read::<Form>(&form, "form").and_then(|form| targets_on(&form));
     made.map(|(points, faces)| value::write(&Targets { points, faces })).map_err(|error| thrown(&error))
 }
 

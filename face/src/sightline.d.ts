@@ -129,6 +129,31 @@ export interface ReportSettings {
   coverage_factor?: number;
   /** The largest length measurement error that is permitted: constant + length / per, in the project's unit. */
   length_limit?: { constant: number; per?: number | null } | null;
+  /** Colours that were measured apart, photo by photo: told with their cameras. */
+  colours?: PhotoColours[];
+}
+
+/** How far a lens images a colour from green: pixels outwards at the picture's corner. */
+export interface ColourShift {
+  /** Part that grows with the radius. */
+  linear: number;
+  /** Part that grows with its third power. */
+  cubic: number;
+  /** Standard error of both together. */
+  sigma: number;
+  /** Rms of what is left of a target's difference. */
+  rms: number;
+  /** Targets that it is from. */
+  targets: number;
+}
+
+/** Lateral chromatic aberration as the targets of one photo show it. */
+export interface PhotoColours {
+  photo: string | number;
+  /** Radius of the picture's corners in pixels. */
+  corner: number;
+  red?: ColourShift | null;
+  blue?: ColourShift | null;
 }
 
 export interface Datum {

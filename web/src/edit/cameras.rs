@@ -204,6 +204,7 @@ pub fn remove_photos(document: &mut Document, photos: &BTreeSet<String>) {
     let project = document.project_mut();
     project.photos.retain(|p| !photos.contains(&p.id));
     project.observations.retain(|o| !photos.contains(&o.photo));
+    project.report.colours.retain(|c| !photos.contains(&c.photo));
     drop_unused(project);
     super::points::tidy(project);
     document.detections_mut().retain(|photo, _| !photos.contains(photo));

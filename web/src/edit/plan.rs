@@ -230,7 +230,7 @@ pub fn set_control_sigma(plan: &mut Plan, sigma: Option<f64>) {
 
 /// How many of the plan's faces, the first, are its form's.
 pub fn faces_of_form(plan: &Plan) -> usize {
-    plan.form.as_ref().map_or(0, |form| sightline::plan::targets_on(form).1.len()).min(plan.faces.len())
+    plan.form.as_ref().map_or(0, sightline::plan::faces_on).min(plan.faces.len())
 }
 
 /// A face from three corners, as "x, y, z, x, y, z, x, y, z": the middle one lies between the two others.
@@ -274,7 +274,7 @@ pub fn set_camera(plan: &mut Plan, camera: Camera) {
 
 /// Puts targets on another form; what names points that are gone goes with them.
 pub fn set_form(plan: &mut Plan, form: Form) {
-    let (points, faces) = sightline::plan::targets_on(&form);
+    let Ok((points, faces)) = sightline::plan::targets_on(&form) else { return };
     let own = faces_of_form(plan);
     plan.faces.splice(..own, faces);
     plan.form = Some(form);

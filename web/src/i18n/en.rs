@@ -277,6 +277,7 @@ declare! { desk {
     save: "Save";
     save_all: "Save with photos";
     save_hint: "Save the project file without the photos";
+    save_all_hint: "Save the project file with the photos in it, as the camera wrote them: with the place where they were taken if they have it";
     save_with_photos: "Save the project file with the photos in it";
     saving: "Saving";
     cannot_save(detail): "The file could not be saved: {detail}";
@@ -307,6 +308,7 @@ declare! { desk {
     show: "Show";
     discard: "Discard";
     found_by_orientation: "unknown: found";
+    not_zero_or_more(typed): "\"{typed}\" is not 0 or more: type a number of pixels such as 0.1.";
     not_a_number(typed): "\"{typed}\" is no number: type one such as -0.0034.";
 
     // What this browser keeps
@@ -341,6 +343,7 @@ declare! { desk {
     not_kept(detail): "The last changes could not be stored and are in this page only ({detail}). Save the project as a file.";
     photos_not_copied(n, detail):
         "{n} {n:photo is|photos are} not copied into the browser's storage ({detail}). They are needed again when the project is reopened, unless it is saved with photos.";
+    no_room: "no room";
     kept_unreadable(detail): "What is stored could not be read ({detail}). Nothing of it was deleted.";
     kept_by_newer(version): "A newer version of Sightline stored this project (format {version}). Reload the page to get that version.";
     storage_cleared(n): "The browser has cleared its storage: {n} {n:project is|projects are} gone from this list. Open them from their saved files.";
@@ -1118,6 +1121,9 @@ declare! { object {
     missing_points(names): "not determined here: {names}";
     deviation: "deviation";
     feature_name: "Name of the feature";
+    system_name: "Name of the coordinate system";
+    with_scale: "with scale";
+    change_system_scaled(id): "scale of coordinate system {id}";
     remove: "Remove";
     position: "Position";
     direction: "Direction";

@@ -269,6 +269,7 @@ translate! { Korean desk {
     save: "저장";
     save_all: "사진과 함께 저장";
     save_hint: "사진 없이 프로젝트 파일 저장";
+    save_all_hint: "사진을 포함하여 프로젝트 파일 저장. 사진은 카메라가 기록한 그대로이며 촬영 위치가 기록되어 있으면 함께 저장됨";
     save_with_photos: "사진을 포함하여 프로젝트 파일 저장";
     saving: "저장 중";
     cannot_save(detail): "파일을 저장하지 못했습니다: {detail}";
@@ -299,6 +300,7 @@ translate! { Korean desk {
     show: "보기";
     discard: "버리기";
     found_by_orientation: "미상: 자동 추정";
+    not_zero_or_more(typed): "\"{typed}\"{typed:은|는} 0 이상의 수가 아닙니다. 0.1과 같이 화소 수를 입력하십시오.";
     not_a_number(typed): "\"{typed}\"{typed:은|는} 수가 아닙니다. -0.0034와 같이 입력하십시오.";
 
     // What this browser keeps
@@ -333,6 +335,7 @@ translate! { Korean desk {
     not_kept(detail): "마지막 변경을 보관하지 못해 이 페이지에만 있습니다({detail}). 프로젝트를 파일로 저장하십시오.";
     photos_not_copied(n, detail):
         "사진 {n}매를 브라우저 저장소에 복사하지 못했습니다({detail}). 사진과 함께 저장하지 않으면 프로젝트를 다시 열 때 사진이 필요합니다.";
+    no_room: "공간 부족";
     kept_unreadable(detail): "보관된 내용을 읽지 못했습니다({detail}). 삭제된 것은 없습니다.";
     kept_by_newer(version): "더 새로운 Sightline에서 보관한 프로젝트입니다(형식 {version}). 페이지를 새로 고쳐 그 버전을 받으십시오.";
     storage_cleared(n): "브라우저가 저장소를 비웠습니다. 프로젝트 {n}개가 목록에서 사라졌습니다. 저장한 파일에서 여십시오.";
@@ -1082,6 +1085,9 @@ translate! { Korean object {
     missing_points(names): "여기서 결정되지 않은 점: {names}";
     deviation: "편차";
     feature_name: "형상 이름";
+    system_name: "좌표계 이름";
+    with_scale: "축척 포함";
+    change_system_scaled(id): "좌표계 {id}의 축척";
     remove: "삭제";
     position: "위치";
     direction: "방향";

@@ -82,7 +82,7 @@ pub fn reason(reason: &Reason) -> String {
         }
         R::FeatureBroken { name } => return format!("\"{name}\" 형상을 측정할 수 없어 그에 따른 값도 없습니다"),
         R::FeatureNoDirection => "각은 두 방향(직선, 평면, 원, 원통) 사이, 또는 한 점에서 다른 두 점 사이에서 잽니다",
-        R::GivenSigma => "주어진 좌표의 표준오차는 0보다 커야 합니다. 무게가 모두 같으면 비워 두십시오",
+        R::GivenSigma => "주어진 좌표의 표준오차는 0보다 커야 합니다. 가중치가 모두 같으면 비워 두십시오",
         R::Unmodelled { value } => {
             return format!("모형화되지 않은 오차가 {value}입니다. 0 이상의 화소 수여야 합니다");
         }
@@ -276,6 +276,7 @@ pub fn reason(reason: &Reason) -> String {
         R::SheetAdvice => "화면거리, 거리, 지름은 0보다 크고 각은 89°보다 작아야 합니다",
 
         R::PlanCamera => "촬영 계획에는 카메라가 필요합니다",
+        R::FormTooMany { limit } => return format!("한 형상의 표적은 {limit}개까지입니다. 열이나 행을 줄이십시오"),
         R::PlanTooLarge { limit } => {
             return format!("표적 수와 사진 수의 곱이 {limit}을 넘습니다. 대상물을 나누어 계획하십시오");
         }

@@ -124,7 +124,7 @@ impl Desk {
     pub fn set_unmodelled(self, typed: &str) {
         match format::parse(typed).filter(|px| *px >= 0.0 && *px < 1000.0) {
             Some(px) => self.set_options(|options| options.unmodelled = px),
-            None => self.refuse(typed, text::not_a_number),
+            None => self.refuse(typed, text::not_zero_or_more),
         }
     }
 

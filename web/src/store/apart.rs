@@ -57,11 +57,18 @@ impl Desk {
             };
             match outcome {
                 Outcome::Progress(nothing) => match nothing {},
-                Outcome::Done(found, _) => self.apart.update(|all| {
-                    if let Some(apart) = all.iter_mut().find(|a| a.digest == digest && a.options == options) {
-                        apart.found = Some(Arc::new(found));
+                Outcome::Done(found, _) => {
+                    let colours = found.of_photo(&photo);
+                    self.apart.update(|all| {
+                        if let Some(apart) = all.iter_mut().find(|a| a.digest == digest && a.options == options) {
+                            apart.found = Some(Arc::new(found));
+                        }
+                    });
+                    // The report tells it, whatever is measured next; a photo that was taken out meanwhile has no colours.
+                    if self.document.with_untracked(|d| d.project.photos.iter().any(|p| p.id == photo)) {
+                        self.edit_report(|settings| settings.take_colours(colours));
                     }
-                }),
+                }
                 Outcome::Failed(Failure::Refused(error)) => failed(Box::new(move || errors::sentence(&error))),
                 Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => {
                     failed(Box::new(move || text::worker_lost(&detail)));

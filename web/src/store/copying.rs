@@ -6,12 +6,11 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use serde::de::IgnoredAny;
 
-use super::keeping::{Copied, Keys};
+use super::keeping::{Copied, Keys, uncopied_words};
 use super::{Desk, PhotoFile, Until};
 use crate::browser::file::Blob;
 use crate::browser::page;
 use crate::browser::storage::{Extra, LOST};
-use crate::i18n::text;
 
 /// Time, in milliseconds, after which photos that found no room are tried again.
 const AGAIN_MS: f64 = 60_000.0;
@@ -67,7 +66,7 @@ impl Desk {
                 uncopied.extend(missed.iter().cloned());
             });
             if let Some((_, why)) = missed.first().cloned().filter(|_| !told) {
-                self.say(true, Until::NextWork, move || text::photos_not_copied(missed.len(), &why));
+                self.say(true, Until::NextWork, move || uncopied_words(missed.len(), &why));
             }
             self.measure_space();
         });

@@ -121,6 +121,7 @@ pub enum Change {
     FeatureMade(String),
     FeatureRemoved(String),
     FeatureRenamed { from: String, to: String },
+    SystemScaled(String),
     LinesDrawn,
     LayerColoured(String),
     ReportEdited,

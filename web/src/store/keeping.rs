@@ -560,6 +560,12 @@ pub fn unkept_words(name: &str, detail: &str) -> String {
     }
 }
 
+/// The sentence for photos that are in this page alone, out of the browser's words for why.
+pub fn uncopied_words(photos: usize, why: &str) -> String {
+    // What browsers say of a full disk is for programmers, and in English.
+    text::photos_not_copied(photos, if why.starts_with("QuotaExceededError") { text::no_room() } else { why })
+}
+
 fn data_fault(detail: String) -> Fault {
     Fault { name: "DataError".into(), detail }
 }

@@ -38,6 +38,7 @@ pub fn change_words(change: &Change) -> String {
         Change::ReportEdited => text::change_report().to_owned(),
         Change::FeatureMade(id) => words::change_made(id),
         Change::FeatureRemoved(id) => words::change_removed(id),
+        Change::SystemScaled(id) => words::change_system_scaled(id),
         Change::FeatureRenamed { from, to } => words::change_renamed(from, to),
         Change::LayerColoured(id) => words::change_layer(id),
         Change::LinesDrawn => words::change_lines().to_owned(),

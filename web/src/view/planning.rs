@@ -4,6 +4,7 @@ mod camera;
 mod drawing;
 mod frame;
 mod inputs;
+mod labels;
 mod object;
 mod print;
 mod stations;

@@ -9,7 +9,7 @@ use crate::browser::{event, page};
 use crate::format;
 use crate::i18n::{language, text};
 use crate::store::Desk;
-use crate::store::keeping::{CardOutcome, Kept, unkept_words};
+use crate::store::keeping::{CardOutcome, Kept, uncopied_words, unkept_words};
 use crate::store::shelf::Shelved;
 
 /// The list, where there is anything in it.
@@ -201,7 +201,7 @@ pub fn StorageLine() -> impl IntoView {
         Kept::Nowhere => text::keeps_nothing().to_owned(),
         Kept::Failed(name, detail) => unkept_words(&name, &detail),
         _ => match (desk.not_copied(), desk.space.get()) {
-            (Some((missed, why)), _) => text::photos_not_copied(missed, &why),
+            (Some((missed, why)), _) => uncopied_words(missed, &why),
             (None, Some((used, all))) => {
                 let lasts = if desk.persistent.get() { text::lasts() } else { text::may_be_cleared() };
                 format!("{} · {lasts}", text::space_used(bytes_words(used), bytes_words(all)))

@@ -126,7 +126,7 @@ fn Head() -> impl IntoView {
                 <div class="more" class:open=more on:click=move |_| more.set(false)>
                 <Show when=move || !empty.get()>
                     <button class="text-button" title=text::save_hint on:click=move |e| desk.save(e.shift_key())>{text::save}</button>
-                    <button class="text-button" title=text::save_with_photos on:click=move |_| desk.save(true)>{text::save_all}</button>
+                    <button class="text-button" title=text::save_all_hint on:click=move |_| desk.save(true)>{text::save_all}</button>
                 </Show>
                 <Show when=move || !empty.get()>
                     <button class="text-button to-tables" aria-current=move || (desk.step.get() == Step::Tables).then_some("page")

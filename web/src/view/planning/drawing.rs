@@ -7,6 +7,7 @@ use sightline::plan::Prediction;
 use sightline::project::{DatumKind, Plan, Role};
 
 use super::frame::{Frame, HEIGHT, Look, WIDTH};
+use super::labels::{Sign, labels};
 use super::predicted;
 use crate::browser::event;
 use crate::format;
@@ -283,7 +284,7 @@ fn hints(frame: &Frame, desk: &Desk) -> impl IntoView + use<> {
     hints.collect_view()
 }
 
-/// Stations, and what the chosen one sees: its picture's corners at the object's distance.
+/// Stations with their numbers, and what the chosen one sees: its picture's corners at the object's distance.
 fn stations(
     frame: &Frame,
     plan: &Plan,
@@ -304,7 +305,8 @@ fn stations(
         );
         Some(view! { <path class="cone" d=outline></path><path class="cone-rays" d=rays></path> })
     });
-    let signs = plan.stations.iter().enumerate().map(|(k, station)| {
+    let (mut signs, mut marks) = (Vec::new(), Vec::new());
+    for (k, station) in plan.stations.iter().enumerate() {
         let [x, y] = frame.at(&station.position);
         let sight = prediction.and_then(|p| p.stations.get(k)).filter(|s| s.id == station.id);
         let [dx, dy] = frame.along(&sight.map_or([0.0, 1.0, 0.0], |s| s.direction));
@@ -322,19 +324,23 @@ fn stations(
             if chosen == Some(station.id.as_str()) { " chosen" } else { "" },
             if station.taken { " taken" } else { "" }
         );
-        let (id, label) = (station.id.clone(), station.id.clone());
+        let id = station.id.clone();
         // Behind the camera, where its sign is not.
-        let (lx, ly) =
-            if length < 0.3 { (x, y + 18.0) } else { (x - 10.0 * dx / length, y - 10.0 * dy / length + 4.0) };
-        view! {
-            <g class=class data-station=id>
-                <path d=path></path>
-                <text class="axis" x=lx y=ly text-anchor="middle">{label}</text>
-            </g>
-        }
+        let back = if length < 0.3 { [0.0, 1.0] } else { [-dx / length, -dy / length] };
+        marks.push(Sign { at: [x, y], back, id: id.clone() });
+        signs.push(view! { <g class=class data-station=id><path d=path></path></g> });
+    }
+    let labels = labels(&marks).into_iter().map(|label| {
+        let leader = label.leader.map(|[x, y]| {
+            let d = format!("M{x:.1} {y:.1}L{:.1} {:.1}", label.at[0], label.at[1] - 4.0);
+            view! { <path class="leader" d=d></path> }
+        });
+        let chosen = label.of.iter().any(|k| chosen == Some(plan.stations[*k].id.as_str()));
+        let (x, y) = (format!("{:.1}", label.at[0]), format!("{:.1}", label.at[1]));
+        view! { {leader}<text class="axis station-label" class:chosen=chosen x=x y=y text-anchor="middle">{label.text}</text> }
     });
-    let signs = signs.collect_view();
-    view! { {cone}{signs} }
+    let labels = labels.collect_view();
+    view! { {cone}{labels}{signs} }
 }
 
 /// The scale of the drawing, and how much larger the ellipses are.

@@ -143,8 +143,8 @@ fn axis_of(vector: &[f64; 3]) -> Option<usize> {
 pub fn rounded(value: f64) -> f64 {
     let step = 10f64.powf((value.abs().max(1e-9)).log10().floor() - 3.0);
     let round = (value / step).round() * step;
-    // Without the last bits that the step leaves behind.
-    format!("{round:.6e}").parse().unwrap_or(round)
+    // Without the last bits that the step leaves behind, nor a sign on nothing.
+    format!("{round:.6e}").parse().unwrap_or(round) + 0.0
 }
 
 #[cfg(test)]
@@ -173,6 +173,12 @@ mod tests {
         }
         assert_eq!(Frame::of(&plan, Look::Top).moved(&from, [1.0, 2.0])[2], from[2]);
         assert_eq!(Frame::of(&plan, Look::Side).moved(&from, [1.0, 2.0])[0], from[0]);
+    }
+
+    #[test]
+    fn nothing_has_no_sign() {
+        assert_eq!(rounded(-3e-13).to_string(), "0");
+        assert_eq!(rounded(-1586.04).to_string(), "-1586");
     }
 
     #[test]

@@ -5,15 +5,17 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use sightline::plan::Prediction;
 
+use super::frame::rounded;
 use super::predicted;
 use crate::format;
 use crate::i18n::Language;
 use crate::i18n::planning::{Words, words};
 use crate::store::Desk;
 
-/// A phrase in both languages.
+/// A phrase in both languages, once where they say the same.
 fn both(say: fn(&dyn Words) -> &'static str) -> String {
-    format!("{} / {}", say(words(Language::English)), say(words(Language::Korean)))
+    let [english, korean] = [Language::English, Language::Korean].map(|language| say(words(language)));
+    if english == korean { english.to_owned() } else { format!("{english} / {korean}") }
 }
 
 #[component]
@@ -36,8 +38,9 @@ pub fn ShootingPlan() -> impl IntoView {
         let prediction = settled.get();
         let row = |(k, station): (usize, sightline::project::PlanStation)| {
             let sight = prediction.as_ref().and_then(|p| p.stations.get(k));
-            let place = station.position.map(format::compact);
-            let aim = station.look_at.map_or(String::new(), |aim| aim.map(format::compact).join(", "));
+            let told = |place: [f64; 3]| place.map(|x| format::compact(rounded(x)));
+            let place = told(station.position);
+            let aim = station.look_at.map_or(String::new(), |aim| told(aim).join(", "));
             let distance = sight.and_then(|s| s.distance).map_or(String::new(), format::compact);
             let sees = sight.map_or(String::new(), |s| format::count(s.points.len()));
             let roll = format::compact(station.roll.to_degrees().round());
