@@ -1,6 +1,7 @@
-// Many large photos in one sitting: taken in, measured, saved with the project, opened again; the most memory that all processes of the
-// browser take together (PSS: what they share is counted once). Photos are dots in noise that Chromium encodes, 24 megapixels each.
+// Many large photos in one sitting: taken in, measured, adjusted, saved with the project, opened again; the most memory that all processes
+// of the browser take together (PSS: what they share is counted once). Photos are dots in noise that Chromium encodes, 24 megapixels each.
 //   cd e2e && npm ci; cd ..; node benches/field.mjs [--count 100] [--cores 8] [--photos DIR] DIST
+// Marks and control points come as lists, so that all of it is adjusted.
 // It fails where the peak is above 1.5 GB.
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -34,12 +35,37 @@ const server = createServer((request, answer) => {
 await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
 process.env.SIGHTLINE_URL = `http://127.0.0.1:${server.address().port}/`;
 const { open, processes } = await import('../e2e/browser.mjs');
-const { detect, drop, idle, photos } = await import('../e2e/desk.mjs');
+const { adjust, detect, drop, figure, go, idle, photos } = await import('../e2e/desk.mjs');
+
+/** Principal distance in pixels of 5 micrometres. */
+const C = 6000;
+/** Targets on uneven ground, mm. */
+const POINTS = Array.from({ length: 150 }, (_, k) => [170 * ((k % 15) - 7), 170 * (Math.floor(k / 15) - 4.5), 60 * ((7 * k) % 5)]);
+/** What is given: the four corners and three more. */
+const CONTROL = [0, 14, 135, 149, 22, 67, 112];
+
+/** Where the targets are in one of the pictures: all around, looking down at the middle, each turned another way. */
+function projected(seed) {
+  const turn = (2 * Math.PI * seed) / DRAWN;
+  const place = [1500 * Math.cos(turn), 1500 * Math.sin(turn), 3200];
+  const length = Math.hypot(...place);
+  const back = place.map((x) => x / length);
+  const across = [-Math.sin(turn), Math.cos(turn), 0];
+  const up = [back[1] * across[2] - back[2] * across[1], back[2] * across[0] - back[0] * across[2], back[0] * across[1] - back[1] * across[0]];
+  const [sin, cos] = [Math.sin(seed), Math.cos(seed)];
+  const all = POINTS.map((point, i) => {
+    const ray = point.map((x, axis) => x - place[axis]);
+    const [x, y, z] = [across, up, back].map((axis) => axis.reduce((sum, a, k) => sum + a * ray[k], 0));
+    const [right, above] = [(-C * x) / z, (-C * y) / z];
+    return { name: `P${i}`, u: WIDTH / 2 + cos * right - sin * above, v: HEIGHT / 2 - sin * right - cos * above };
+  });
+  return all.filter(({ u, v }) => Math.min(u, v, WIDTH - u, HEIGHT - v) > 40);
+}
 
 /** Dots in noise, as a JPEG. */
 async function draw(page, seed) {
   const url = await page.evaluate(
-    async ([width, height, seed]) => {
+    async ([width, height, seed, dots]) => {
       let state = seed;
       const random = () => (state = (state * 48_271) % 2_147_483_647) / 2_147_483_647;
       const canvas = new OffscreenCanvas(width, height);
@@ -50,20 +76,18 @@ async function draw(page, seed) {
         tile.data.set([grey, grey, grey, 255], i);
       }
       for (let y = 0; y < height; y += 512) for (let x = 0; x < width; x += 512) pen.putImageData(tile, x, y);
-      for (let i = 0; i < 15; i++) {
-        for (let j = 0; j < 10; j++) {
-          pen.fillStyle = '#e8e8e8';
-          pen.beginPath();
-          pen.ellipse(200 + 400 * i + 60 * random(), 200 + 400 * j + 60 * random(), 14 + 8 * random(), 13 + 5 * random(), random(), 0, 7);
-          pen.fill();
-        }
+      for (const { u, v } of dots) {
+        pen.fillStyle = '#e8e8e8';
+        pen.beginPath();
+        pen.ellipse(u, v, 14 + 8 * random(), 13 + 5 * random(), random(), 0, 7);
+        pen.fill();
       }
       const bytes = new Uint8Array(await (await canvas.convertToBlob({ type: 'image/jpeg', quality: 0.95 })).arrayBuffer());
       let text = '';
       for (let at = 0; at < bytes.length; at += 32_768) text += String.fromCharCode(...bytes.subarray(at, at + 32_768));
       return btoa(text);
     },
-    [WIDTH, HEIGHT, seed],
+    [WIDTH, HEIGHT, seed, projected(seed)],
   );
   return Buffer.from(url, 'base64');
 }
@@ -83,6 +107,16 @@ async function pictures(folder) {
     writeFileSync(path, Buffer.concat([photo.subarray(0, 2), comment, photo.subarray(2)]));
   }
   return paths;
+}
+
+/** Marks of every photo and the control points, as files. */
+function lists(folder) {
+  const marks = Array.from({ length: COUNT }, (_, k) => projected(1 + (k % Math.min(DRAWN, COUNT))).map((dot) => `${k + 1}, ${dot.name}, ${dot.u}, ${dot.v}, 0.1`));
+  const control = CONTROL.map((i) => [`P${i}`, ...POINTS[i], 0.1, 0.1, 0.1].join(', '));
+  const files = [join(folder, 'marks.txt'), join(folder, 'control.txt')];
+  writeFileSync(files[0], marks.flat().join('\n'));
+  writeFileSync(files[1], ['id, X, Y, Z, sX, sY, sZ', ...control].join('\n'));
+  return files;
 }
 
 /** Watches the memory of a browser. */
@@ -119,6 +153,7 @@ const cores = values.cores && Number(values.cores);
 let failed = false;
 try {
   const paths = await pictures(values.photos ?? join(scratch, 'photos'));
+  const [marks, control] = lists(scratch);
   const size = paths.reduce((sum, path) => sum + statSync(path).size, 0);
   console.log(`${COUNT} photos of ${(WIDTH * HEIGHT) / 1e6} megapixels, ${(size / 1e6).toFixed(0)} MB${cores ? `, ${cores} processors told` : ''}`);
   const { page, profile, url, errors, close } = await open({ cores });
@@ -141,9 +176,26 @@ try {
     await phase('start', () => page.waitForTimeout(1000));
     await phase('photos taken', () => photos(page, paths));
     await phase('targets detected', () => detect(page, {}));
+    await phase('adjusted', async () => {
+      await go(page, 'photos');
+      for (const [field, value] of [['pitch', 5], ['c', (C * 5) / 1000]]) {
+        await page.fill(`[data-field=${field}]`, String(value));
+        await page.press(`[data-field=${field}]`, 'Tab');
+      }
+      await go(page, 'identities');
+      await drop(page, [marks]);
+      await page.click('.marks .primary', { timeout: 300_000 });
+      await go(page, 'control');
+      await drop(page, [control]);
+      await page.selectOption('[name=pasted-unit]', 'mm').catch(() => {});
+      await page.click('.columns .primary');
+      await adjust(page);
+    });
+    const redundancy = await figure(page, 'redundancy');
+    console.log(`adjusted with redundancy ${redundancy}, rms ${await figure(page, 'rms-px')} px`);
+    assert.ok(redundancy > COUNT * POINTS.length, `${redundancy}`);
     const before = [await shown('photos'), await shown('targets')];
     await phase('kept', kept);
-    // A document of points that could be adjusted is measured elsewhere: here it is the size of photos that counts.
     const file = await phase('saved with photos', async () => {
       const saving = page.waitForEvent('download', { timeout: 600_000 });
       await page.getByRole('button', { name: 'Save with photos', exact: true }).click();

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { open } from './browser.mjs';
-import { downloads, go, number, sample } from './desk.mjs';
+import { adjust, downloads, drop, go, number, rows, sample, scratch } from './desk.mjs';
 
 /** Whether the view's file was fetched. */
 const fetched = (page) => page.evaluate(() => performance.getEntriesByType('resource').some((entry) => entry.name.endsWith('view3d.js')));
@@ -53,11 +53,32 @@ test('points are chosen in space and in tables alike, features have their sigmas
     await page.waitForFunction((name) => document.querySelector('.space-host').view.labels().some(({ words }) => words === name), other);
 
     // All points in a plane, and how far one lies from it.
-    const points = [...new Set(rows)].slice(0, 10);
+    const corners = ['1', '3', '9', '7'];
+    const points = [...corners, ...[...new Set(rows)].filter((id) => !corners.includes(id)).slice(0, 6)];
     await page.fill('[name=chosen-points]', points.join(' '));
     await page.press('[name=chosen-points]', 'Enter');
     await page.click('[data-make=plane]');
     await page.waitForFunction(() => document.querySelector('[data-feature=A] .value')?.textContent !== undefined);
+    // It is a surface, which is seen where features are shown.
+    const covered = async () => {
+      await page.click('[data-side=top]');
+      return view(page, async () => {
+        const bitmap = await createImageBitmap(await document.querySelector('.space-host').view.picture([]));
+        const pen = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+        pen.drawImage(bitmap, 0, 0);
+        const { data } = pen.getImageData(0, 0, bitmap.width, bitmap.height);
+        const paper = data.slice(0, 3);
+        let count = 0;
+        for (let i = 0; i < data.length; i += 4) count += [0, 1, 2].some((c) => Math.abs(data[i + c] - paper[c]) > 8);
+        return count;
+      });
+    };
+    assert.ok((await view(page, () => document.querySelector('.space-host').view.counts().surfaces)) >= 1);
+    const shaded = await covered();
+    await page.click('[data-show=features]');
+    const unshaded = await covered();
+    assert.ok(shaded > 1.1 * unshaded, `${shaded} pixels drawn with the plane, ${unshaded} without`);
+    await page.click('[data-show=features]');
     // How far its points lie from it is drawn over the plane.
     await page.waitForFunction(() => document.querySelector('.detail .drawing')?.shadowRoot?.querySelector('.stick-a, .stick-b'));
     await page.fill('[name=chosen-points]', points.slice(0, 2).join(' '));
@@ -133,15 +154,61 @@ test('points are chosen in space and in tables alike, features have their sigmas
     await page.click('[data-action=full-screen]');
     await page.waitForFunction(() => !document.fullscreenElement);
 
+    // As large as the view, and two lines of caption below it.
     const picture = await downloads(page, 1, () => page.click('[data-action=picture]'));
     const [png] = Object.values(picture);
     assert.equal(png.subarray(1, 4).toString(), 'PNG');
-    assert.ok(png.readUInt32BE(16) >= 800 && png.length > 10_000);
+    const room = await page.locator('.space-host').boundingBox();
+    assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [Math.round(room.width), Math.round(room.height) + 54]);
+    assert.ok(png.length > 10_000);
     const drawing = await downloads(page, 1, () => page.click('[data-export=dxf]'));
     assert.match(String(Object.values(drawing)[0]), /AC1009[\s\S]*FEATURES/);
     for (const key of ['1', '2', '3', '4', 'f', 'p', 'ArrowLeft', 'Shift+ArrowUp', '+', '-']) {
       await page.focus('.space-host');
       await page.keyboard.press(key);
+    }
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('each side is looked at straight, and differences at control and check points are drawn', async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await sample(page);
+    const tables = await downloads(page, 4, () => page.getByRole('button', { name: 'Export CSV' }).click());
+    const points = rows(Object.entries(tables).find(([name]) => name.includes('points'))[1]);
+    const of = (row) => ['X [mm]', 'Y [mm]', 'Z [mm]'].map((name) => Number(row[name]));
+    // Four points as control, .2 mm off in Z by turns, and two to compare.
+    const given = [0, 5, 10, 15, 20, 25].map((k, n) => [points[k].id, n < 4 ? 'control' : 'check', ...of(points[k]).map((x, axis) => x + (axis === 2 ? 0.2 * (n % 2) : 0))]);
+    await go(page, 'control');
+    const list = ['id,role,X,Y,Z,sX,sY,sZ', ...given.map((row) => [...row, 0.1, 0.1, 0.1].join(','))].join('\n');
+    await drop(page, [scratch('control.csv', list)]);
+    await page.waitForSelector('.preview tr');
+    const unit = page.locator('[name=pasted-unit]');
+    if (await unit.count()) await unit.selectOption('mm');
+    await page.click('.columns .primary');
+    await page.locator('[name=datum]').first().check();
+    await adjust(page);
+    await object(page);
+    const compared = new Set([...given.map(([id]) => id), ...points.filter(({ role }) => role === 'control').map(({ id }) => id)]);
+    assert.equal(await view(page, () => document.querySelector('.space-host').view.counts().residuals), compared.size);
+
+    // Without perspective a side shows its two axes at one scale, to the right and upwards, and nothing of the third.
+    await page.locator('.toggles [aria-pressed]', { hasText: 'Perspective' }).click();
+    for (const [side, right, up] of [['top', 0, 1], ['front', 0, 2], ['right', 1, 2]]) {
+      await page.click(`[data-side=${side}]`);
+      // Places are those of the frame that was drawn last.
+      await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+      const places = await page.evaluate((names) => names.map((name) => document.querySelector('.space-host').view.place(name)), points.map(({ id }) => id));
+      const scales = [];
+      for (const [axis, screen, sign] of [[right, 0, 1], [up, 1, -1]]) {
+        const order = points.map((_, k) => k).sort((a, b) => of(points[a])[axis] - of(points[b])[axis]);
+        const [low, high] = [order[0], order.at(-1)];
+        scales.push((sign * (places[high][screen] - places[low][screen])) / (of(points[high])[axis] - of(points[low])[axis]));
+      }
+      assert.ok(scales.every((scale) => scale > 0) && Math.abs(scales[0] / scales[1] - 1) < 0.01, `${side}: ${scales} pixels a millimetre`);
     }
     assert.deepEqual(errors, []);
   } finally {
@@ -212,7 +279,7 @@ test('twenty thousand points and three hundred photos move at thirty frames a se
       view.show({
         key: 'many', unit: 'mm', names: Array.from({ length: n }, (_, k) => String(k)), points, roles: new Uint8Array(n), ellipsoids, photos, photoNames: Array.from({ length: m }, (_, k) => `p${k}`),
         pictures: new Array(m).fill(null), rayStart: new Uint32Array(n + 1), rayPhotos: new Uint32Array(0), lines: nothing, lineColours: new Uint8Array(0), distances: nothing, residuals: nothing,
-        forms: nothing, sticks: nothing, stickSigns: new Int8Array(0), labels: [], box: Float32Array.of(-500, -500, -100, 500, 500, 100), size: 1400, grid: 200,
+        forms: nothing, surfaces: nothing, chosenSurface: nothing, sticks: nothing, stickSigns: new Int8Array(0), labels: [], box: Float32Array.of(-500, -500, -100, 500, 500, 100), size: 1400, grid: 200,
       });
       view.state({ factor: 500, selected: 7 });
       const canvas = host.querySelector('.object-text');
