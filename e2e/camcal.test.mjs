@@ -46,7 +46,7 @@ test('21 photos become a calibration', { skip: folder ? false : 'skipped, no dat
     assert.ok((await figure(page, 'rms-px')) <= 0.25);
     assert.equal(await figure(page, 'redundancy'), 2 * good - 422 + 0);
 
-    const exported = await downloads(page, 4, () => page.getByRole('button', { name: 'Export CSV' }).click());
+    const exported = await downloads(page, ['points'], () => page.getByRole('button', { name: 'Export CSV' }).click());
     const points = Object.entries(exported).find(([name]) => name.includes('points'));
     assert.equal(rows(points[1]).length, 100);
 
@@ -96,7 +96,7 @@ test('21 photos become a calibration', { skip: folder ? false : 'skipped, no dat
     if (!unreadable) {
       const shown = await page.$$eval('[data-result]', (all) => all.map((element) => element.textContent));
       const decimals = (await page.textContent('.results .c1 tbody tr.data td:nth-child(3)')).split('.')[1].length;
-      const tables = await downloads(page, 4, () => page.getByRole('button', { name: 'Export CSV' }).click());
+      const tables = await downloads(page, ['points'], () => page.getByRole('button', { name: 'Export CSV' }).click());
       const table = Object.entries(tables).find(([name]) => name.includes('points'))[1];
       await go(page, 'report');
       await page.waitForSelector('.paper[data-ready=true]', { timeout: 60_000 });

@@ -96,13 +96,14 @@ export async function parameter(page, camera, name) {
 /** What the page tells in its notice row. */
 export const notice = (page) => page.textContent('.notice p');
 
-/** Files that a click hands over, by name. */
-export async function downloads(page, count, click) {
+/** Files that a click hands over, by name: so many, or until the name of one has each of these words. */
+export async function downloads(page, wanted, click) {
   const seen = [];
   const listen = (download) => seen.push(download);
+  const there = () => (Array.isArray(wanted) ? wanted.every((word) => seen.some((one) => one.suggestedFilename().includes(word))) : seen.length >= wanted);
   page.on('download', listen);
   await click();
-  for (let i = 0; i < 1200 && seen.length < count; i++) await page.waitForTimeout(50);
+  for (let i = 0; i < 1200 && !there(); i++) await page.waitForTimeout(50);
   page.off('download', listen);
   const all = {};
   for (const download of seen) all[download.suggestedFilename()] = readFileSync(await download.path());
