@@ -214,7 +214,8 @@ try {
     await phase('opened from its file', async () => {
       await page.click('.mark');
       await drop(page, [file]);
-      await page.waitForFunction(() => location.hash === '#photos', undefined, { timeout: 600_000 });
+      // It has its result.
+      await page.waitForFunction(() => location.hash === '#results', undefined, { timeout: 600_000 });
       await idle(page, 1_200_000);
       await kept();
     });
