@@ -51,7 +51,12 @@ fn cut(picture: &Picture, [left, top, width, height]: [u32; 4]) -> Vec<u8> {
         let begin = (y as usize * picture.width as usize + left as usize) * 4;
         &picture.rgba[begin..begin + width as usize * 4]
     };
-    (top..top + height).flat_map(line).copied().collect()
+    // Of its size from the beginning: tiles that grew would take twice the memory of the picture.
+    let mut tile = Vec::with_capacity(width as usize * height as usize * 4);
+    for y in top..top + height {
+        tile.extend_from_slice(line(y));
+    }
+    tile
 }
 
 /// Half as wide and high, rounded up: the mean of two by two pixels, the last column and row taken twice where they are odd.
@@ -93,6 +98,7 @@ mod tests {
             assert_eq!(made.levels[0], [width, height]);
             assert!(made.levels.last().is_some_and(|level| level.iter().all(|side| *side <= made.side)));
             assert_eq!(tiles.len(), (0..made.levels.len()).map(|level| made.tiles(level).len()).sum::<usize>());
+            assert!(tiles.iter().all(|tile| tile.capacity() == tile.len()));
             let mut covered = 0;
             for ([left, top, across, down], tile) in made.tiles(0).into_iter().zip(&tiles) {
                 assert_eq!(tile.len() as u32, 4 * across * down);

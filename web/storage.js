@@ -14,7 +14,7 @@
 /** A part is written whole again after so many that only say what changed, or when those outgrow it: reading it stays short. */
 const CHAIN = 64;
 /** Bytes read or written of a photo at a time. */
-const PIECE = 4 << 20;
+const PIECE = 1 << 20;
 /** What must stay free when a photo is copied: room for the journal. */
 const RESERVE = 32 << 20;
 /** Versions of the journal that are read here. */
@@ -77,6 +77,23 @@ async function patiently(work) {
       if (error.name !== 'NoModificationAllowedError' || attempt === 60) throw error;
       await pause(50);
     }
+  }
+}
+
+/** A file's bytes in pieces, through one buffer where its stream allows that: others lie there until the collector comes. */
+async function* pieces(blob) {
+  let reader;
+  try {
+    reader = blob.stream().getReader({ mode: 'byob' });
+  } catch {
+    for (let at = 0; at < blob.size; at += PIECE) yield new Uint8Array(await blob.slice(at, at + PIECE).arrayBuffer());
+    return;
+  }
+  for (let buffer = new Uint8Array(PIECE); ; ) {
+    const { value, done } = await reader.read(buffer);
+    if (done) return;
+    yield value;
+    buffer = new Uint8Array(value.buffer);
   }
 }
 
@@ -198,7 +215,11 @@ async function fileSystem() {
       const handle = await open(photos, key);
       try {
         handle.truncate(0);
-        for (let at = 0; at < blob.size; at += PIECE) whole(handle, new Uint8Array(await blob.slice(at, at + PIECE).arrayBuffer()), at);
+        let at = 0;
+        for await (const piece of pieces(blob)) {
+          whole(handle, piece, at);
+          at += piece.length;
+        }
         handle.flush();
       } catch (error) {
         handle.truncate(0);

@@ -59,7 +59,7 @@ impl Surface {
     /// for one of the screen.
     pub fn pyramid(&self, pyramid: &Pyramid, map: Affine, crisp: bool) {
         let scale = self.ratio * map[0].hypot(map[1]);
-        let last = pyramid.tiles.len().saturating_sub(1);
+        let last = pyramid.tiles.0.len().saturating_sub(1);
         let level = if scale < 1.0 { ((1.0 / scale).log2().floor() as usize).min(last) } else { 0 };
         let factor = f64::from(1u32 << level);
         let [a, b, c, d, e, f] = map;
@@ -68,7 +68,7 @@ impl Surface {
         let [m0, m1, m2, m3, m4, m5] = map.map(|x| x * self.ratio);
         let _ = self.context.set_transform(m0, m1, m2, m3, m4, m5);
         self.context.set_image_smoothing_enabled(!crisp);
-        let Some(tiles) = pyramid.tiles.get(level) else { return };
+        let Some(tiles) = pyramid.tiles.0.get(level) else { return };
         for ([x, y, width, height], tile) in pyramid.plan.tiles(level).into_iter().zip(tiles) {
             let [x, y, width, height] = [x, y, width, height].map(f64::from);
             if x < right && x + width > left && y < bottom && y + height > top {

@@ -50,21 +50,31 @@ impl Picture {
 pub struct Pyramid {
     pub(super) plan: Rc<Plan>,
     /// Level by level, in the order of the plan.
-    pub(super) tiles: Rc<Vec<Vec<ImageBitmap>>>,
+    pub(super) tiles: Rc<Tiles>,
+}
+
+/// Tiles that go with the last who has them: the collector sees little of what a bitmap takes, and lets it lie.
+#[derive(Default)]
+pub(super) struct Tiles(pub(super) Vec<Vec<ImageBitmap>>);
+
+impl Drop for Tiles {
+    fn drop(&mut self) {
+        self.0.iter().flatten().for_each(ImageBitmap::close);
+    }
 }
 
 impl Pyramid {
     /// From the bytes of the tiles. Between two of them the page does what it has to: no tile takes long.
     pub async fn from_tiles(plan: Plan, bytes: Vec<Bytes>) -> Result<Self, String> {
         let mut bytes = bytes.into_iter();
-        let mut levels = Vec::new();
+        let mut levels = Tiles::default();
         for level in 0..plan.levels.len() {
-            let mut made = Vec::new();
+            levels.0.push(Vec::new());
             for [_, _, width, height] in plan.tiles(level) {
                 let tile = bytes.next().ok_or("a tile is missing")?;
-                made.push(Picture::from_rgba(tile, width, height).await?.bitmap);
+                let bitmap = Picture::from_rgba(tile, width, height).await?.bitmap;
+                levels.0.last_mut().ok_or("no level")?.push(bitmap);
             }
-            levels.push(made);
         }
         Ok(Self { plan: Rc::new(plan), tiles: Rc::new(levels) })
     }

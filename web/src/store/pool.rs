@@ -49,6 +49,10 @@ type Listener = Rc<dyn Fn(Heard) -> Understood>;
 /// Of a photo whose size is not known yet.
 const USUAL_PIXELS: f64 = 24e6;
 
+/// A worker whose engine has grown beyond this, in bytes, with a document or a picture for the screen is not kept for what comes next: its
+/// memory never shrinks. To measure a photo of usual size takes less, and what takes so much takes longer than a worker to start.
+const GROWN: f64 = 192e6;
+
 /// Tasks that are cancelled together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Batch(usize);
@@ -66,6 +70,15 @@ struct Slot {
     worker: Worker,
     ready: bool,
     task: Option<Job>,
+    /// Bytes that its engine had taken when its last task ended.
+    taken: f64,
+}
+
+impl Job {
+    /// Whether it takes what no other photo takes: it works on a document, or makes a whole photo ready for the screen.
+    fn is_apart(&self) -> bool {
+        self.files.is_empty() || self.request.streams() || matches!(self.request, Request::ShowPhoto(_))
+    }
 }
 
 struct Inner {
@@ -186,7 +199,7 @@ impl Pool {
             let pool = self.clone();
             match Worker::start(move |message| pool.hear(id, message)) {
                 Ok(worker) => {
-                    let slot = Slot { worker, ready: false, task: None };
+                    let slot = Slot { worker, ready: false, task: None, taken: 0.0 };
                     self.0.borrow_mut().slots.insert(id, slot);
                 }
                 Err(detail) => {
@@ -239,30 +252,36 @@ impl Pool {
     }
 
     /// Takes note of what a worker's engine has taken, and has it free when its task has ended; or gone, where they have become too large
-    /// for so many.
+    /// for so many, or this one has with what is not to come again for each photo.
     fn free(&self, id: usize, taken: f64, ended: bool) {
         let mut inner = self.0.borrow_mut();
-        inner.taken = inner.taken.max(taken);
-        if !ended {
-            return;
+        let Some(slot) = inner.slots.get_mut(&id) else { return };
+        let apart = slot.task.as_ref().is_some_and(Job::is_apart);
+        let outgrown = apart && taken > slot.taken.max(GROWN);
+        if ended {
+            (slot.task, slot.taken) = (None, taken);
         }
-        if inner.slots.len() > inner.room() {
+        // What is taken once says nothing of all the photos.
+        if !apart {
+            inner.taken = inner.taken.max(taken);
+        }
+        if ended && (inner.slots.len() > inner.room() || outgrown) {
             let slot = inner.slots.remove(&id);
             drop(inner);
             discard(slot.into_iter().collect());
-        } else if let Some(slot) = inner.slots.get_mut(&id) {
-            slot.task = None;
         }
     }
 
-    /// A worker's memory only grows: when nothing is left to do, one fresh enough worker stays.
+    /// A worker's memory only grows: when nothing is left to do, the one that has least stays.
     fn shrink(&self) {
         let ended = {
             let mut inner = self.0.borrow_mut();
             if !inner.queue.is_empty() || inner.slots.values().any(|slot| slot.task.is_some()) {
                 return;
             }
-            let ids = inner.slots.keys().skip(1).copied().collect::<Vec<_>>();
+            let ready = inner.slots.iter().filter(|(_, slot)| slot.ready);
+            let stays = ready.min_by(|a, b| a.1.taken.total_cmp(&b.1.taken)).map(|(&id, _)| id);
+            let ids = inner.slots.keys().copied().filter(|id| Some(*id) != stays).collect::<Vec<_>>();
             ids.into_iter().filter_map(|id| inner.slots.remove(&id)).collect::<Vec<_>>()
         };
         discard(ended);

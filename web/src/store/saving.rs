@@ -177,8 +177,9 @@ impl Desk {
         }
     }
 
-    /// What belonged to the project before is not asked any more.
+    /// What belonged to the project before is not asked any more, and its pictures are let go.
     pub(super) fn forget_waiting(self) {
+        self.pictures.set(Vec::new());
         self.notes.set(Vec::new());
         self.adjust_failure.set(None);
         self.marks.set(None);

@@ -9,7 +9,7 @@ use sightline::image::Samples;
 use sightline_protocol::{Given, Request, from_text};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
-use web_sys::{Blob, DedicatedWorkerGlobalScope, FileReaderSync, MessageEvent};
+use web_sys::{Blob, DedicatedWorkerGlobalScope, FileReaderSync, MessageEvent, ReadableStreamByobReader};
 
 use crate::tasks::Engine;
 
@@ -121,8 +121,33 @@ fn words(error: &JsValue) -> String {
 
 async fn read(file: &JsValue) -> Result<Vec<u8>, String> {
     let blob = file.dyn_ref::<Blob>().ok_or("no file")?;
-    let buffer = JsFuture::from(blob.array_buffer()).await.map_err(|error| words(&error))?;
-    Ok(Uint8Array::new(&buffer).to_vec())
+    read_in_pieces(blob).await.map_err(|error| words(&error))
+}
+
+/// Bytes of a file that are read at a time.
+const PIECE: u32 = 1 << 20;
+
+/// Reads a file through one small buffer: photo after photo in a buffer of its own lies there until the collector comes, a hundred
+/// megabytes and more in each worker.
+async fn read_in_pieces(blob: &Blob) -> Result<Vec<u8>, JsValue> {
+    let Ok(reader) = ReadableStreamByobReader::new(&blob.stream()) else {
+        // Browsers whose files are no streams of bytes.
+        let buffer = JsFuture::from(blob.array_buffer()).await?;
+        return Ok(Uint8Array::new(&buffer).to_vec());
+    };
+    let mut content = Vec::with_capacity(blob.size() as usize);
+    let mut buffer = Uint8Array::new_with_length(PIECE);
+    loop {
+        let read = JsFuture::from(reader.read_with_array_buffer_view(&buffer)).await?;
+        if Reflect::get(&read, &"done".into())?.is_truthy() {
+            return Ok(content);
+        }
+        let piece = Reflect::get(&read, &"value".into())?.dyn_into::<Uint8Array>()?;
+        let at = content.len();
+        content.resize(at + piece.length() as usize, 0);
+        piece.copy_to(&mut content[at..]);
+        buffer = Uint8Array::new(&piece.buffer());
+    }
 }
 
 fn stream(file: &JsValue) -> Result<Given, String> {
