@@ -25,8 +25,8 @@ pub const PHOTOS_RATIO: u64 = 20;
 /// See [`PHOTOS_RATIO`].
 pub const PHOTOS_FREE: u64 = 64 << 20;
 
-/// Most targets on a form of a plan.
-pub const TARGETS: usize = 100_000;
+/// Most targets on a form of a plan: the page draws each of them in every view.
+pub const TARGETS: usize = 10_000;
 
 /// Most targets times stations of a plan.
 pub const RAYS: usize = 1_000_000;

@@ -20,7 +20,7 @@ use crate::adjustment::{AdjustedCamera, Advice};
 use crate::error::{Defect, Result};
 use crate::project::{Parameter, Plan, PlanStation};
 
-pub use form::{faces_on, least_diameter, targets_on};
+pub use form::{check_form, faces_on, least_diameter, targets_on};
 pub use make::{Made, MakeOptions, make};
 pub use origin::{from_network, from_project};
 pub use suggest::{Suggested, suggest};

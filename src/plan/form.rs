@@ -41,9 +41,9 @@ pub fn faces_on(form: &Form) -> usize {
 /// Points and faces of a form; counts are at least 1.
 ///
 /// # Errors
-/// [`Error::Invalid`] for more targets than [`limits::TARGETS`], and sizes beyond all measure.
+/// Those of [`check_form`].
 pub fn targets_on(form: &Form) -> Result<(Vec<Point>, Vec<PlanFace>)> {
-    check(form)?;
+    check_form(form)?;
     let mut made = Made::default();
     match *form {
         Form::Plane { width, height, columns, rows, upright, diameter } => {
@@ -102,7 +102,11 @@ pub fn targets_on(form: &Form) -> Result<(Vec<Point>, Vec<PlanFace>)> {
     Ok((made.points, made.faces))
 }
 
-fn check(form: &Form) -> Result<()> {
+/// Whether a form's targets can be made.
+///
+/// # Errors
+/// [`Error::Invalid`] for more targets than [`limits::TARGETS`], and sizes beyond all measure.
+pub fn check_form(form: &Form) -> Result<()> {
     let (sizes, with_targets, columns, rows) = match *form {
         Form::Plane { width, height, columns, rows, diameter, .. } => {
             ([width, height, 0.0, diameter], 1, columns, rows)

@@ -137,8 +137,8 @@ fn an_adjustment_that_no_longer_gains_ends_however_many_iterations_are_allowed()
 fn what_would_take_all_memory_is_refused_before() {
     let plane = |width, columns, rows| Form::Plane { width, height: 1.0, columns, rows, upright: true, diameter: 0.1 };
     for (form, fits) in [
-        (plane(1.0, 250, 400), true),
-        (plane(1.0, 250, 401), false),
+        (plane(1.0, 250, 40), true),
+        (plane(1.0, 250, 41), false),
         (plane(1.0, u32::MAX, u32::MAX), false),
         (plane(1e300, 1, 1), false),
         (Form::Box { size: [1.0; 3], columns: 65_536, rows: 65_536, diameter: 0.1 }, false),

@@ -291,23 +291,24 @@ fn drop_unknown(plan: &mut Plan) {
     }
 }
 
-/// Whether the form's counts and sizes can be made; a form of very many targets is none.
+/// Whether the form has sizes and counts; how many targets it may have is the engine's to say.
 pub fn is_form(form: &Form) -> bool {
     let size = |values: &[f64]| values.iter().all(|v| *v > 0.0 && *v < 1e9);
-    let count = |faces: u32, columns: u32, rows: u32| {
-        columns > 0 && rows > 0 && u64::from(faces) * u64::from(columns) * u64::from(rows) <= 5000
-    };
+    let count = |columns: u32, rows: u32| columns > 0 && rows > 0;
     match *form {
         Form::Plane { width, height, columns, rows, diameter, .. } => {
-            size(&[width, height]) && diameter >= 0.0 && count(1, columns, rows)
+            size(&[width, height]) && diameter >= 0.0 && count(columns, rows)
         }
-        Form::Box { size: sides, columns, rows, diameter } => {
-            size(&sides) && diameter >= 0.0 && count(5, columns, rows)
-        }
+        Form::Box { size: sides, columns, rows, diameter } => size(&sides) && diameter >= 0.0 && count(columns, rows),
         Form::Cylinder { radius, height, sweep, columns, rows, diameter, .. } => {
-            size(&[radius, height, sweep]) && diameter >= 0.0 && count(1, columns, rows)
+            size(&[radius, height, sweep]) && diameter >= 0.0 && count(columns, rows)
         }
     }
+}
+
+/// A number as a count; 0, which is none, for what is no whole number.
+pub fn counted(number: f64) -> u32 {
+    if number.fract() == 0.0 { number as u32 } else { 0 }
 }
 
 /// Adds a station in front of the object, aimed at its middle; its identifier.
@@ -428,7 +429,8 @@ mod tests {
         for kind in ["plane", "box", "cylinder"] {
             assert!(is_form(&first_form(kind, 1000.0)));
         }
-        assert!(!is_form(&Form::Box { size: [1.0; 3], columns: 100, rows: 100, diameter: 1.0 }));
+        assert!(!is_form(&Form::Box { size: [1.0; 3], columns: 100, rows: 0, diameter: 1.0 }));
+        assert_eq!([2.0, 2.5, -1.0, f64::MAX].map(counted), [2, 0, 0, u32::MAX]);
     }
 
     #[test]

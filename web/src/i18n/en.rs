@@ -80,6 +80,7 @@ declare! { desk {
     name: "name";
     name_taken(name): "The name \"{name}\" is empty or in use: names are unique.";
     not_a_length(typed): "\"{typed}\" is no positive number: type one such as 3.19.";
+    not_a_count(typed): "\"{typed}\" is no count: type a whole number such as 5.";
     no_sigma(typed): "\"{typed}\" is no standard error: type a number above 0, or nothing.";
     centre_without_sigma: "An observed projection centre needs a standard error on one axis at least.";
     pixel_pitch: "pixel pitch";

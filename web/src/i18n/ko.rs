@@ -74,6 +74,7 @@ translate! { Korean desk {
     name: "이름";
     name_taken(name): "이름 \"{name}\"{name:은|는} 비었거나 이미 쓰고 있습니다. 이름은 서로 달라야 합니다.";
     not_a_length(typed): "\"{typed}\"{typed:은|는} 양수가 아닙니다. 3.19와 같이 입력하십시오.";
+    not_a_count(typed): "\"{typed}\"{typed:은|는} 개수가 아닙니다. 5와 같이 자연수를 입력하십시오.";
     no_sigma(typed): "\"{typed}\"{typed:은|는} 표준오차가 아닙니다. 0보다 큰 수를 입력하거나 비워 두십시오.";
     centre_without_sigma: "투영중심을 관측값으로 쓰려면 한 축 이상에 표준오차가 필요합니다.";
     pixel_pitch: "화소 크기";

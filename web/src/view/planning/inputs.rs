@@ -12,7 +12,7 @@ use crate::edit::control::{UNITS, has_lengths};
 use crate::edit::plan;
 use crate::format;
 use crate::i18n::planning as words;
-use crate::i18n::{Text, text};
+use crate::i18n::{Text, errors, text};
 use crate::store::Desk;
 use crate::store::document::Change;
 use crate::view::field::Field;
@@ -111,6 +111,7 @@ fn Number(
 fn FormNumber(
     label: Text,
     name: &'static str,
+    #[prop(optional)] counts: bool,
     read: fn(&Form) -> Option<f64>,
     write: fn(&mut Form, f64),
 ) -> impl IntoView {
@@ -119,14 +120,19 @@ fn FormNumber(
     let value = Signal::derive(move || form().and_then(|f| read(&f)).map_or(String::new(), format::editable));
     let commit = move |typed: String| {
         let Some(mut trial) = untrack(form) else { return };
-        match format::parse(&typed).filter(|v| v.is_finite()) {
-            Some(number) => write(&mut trial, number),
-            None => return,
+        let number = format::parse(&typed).filter(|v| v.is_finite());
+        if let Some(number) = number {
+            write(&mut trial, number);
         }
-        if plan::is_form(&trial) {
-            desk.edit_plan(Change::PlanEdited, |plan| plan::set_form(plan, trial));
-        } else {
-            desk.warn_here(move || text::not_a_length(&typed));
+        if number.is_none() || !plan::is_form(&trial) {
+            return desk.warn_here(move || match counts {
+                true => text::not_a_count(&typed),
+                false => text::not_a_length(&typed),
+            });
+        }
+        match sightline::plan::check_form(&trial) {
+            Ok(()) => desk.edit_plan(Change::PlanEdited, |plan| plan::set_form(plan, trial)),
+            Err(error) => desk.warn_here(move || errors::sentence(&error)),
         }
     };
     view! {
@@ -232,10 +238,10 @@ pub fn Inputs() -> impl IntoView {
         <div class="fields">
             {fields}
             <Show when=move || kind.get() != "given">
-                <FormNumber label=words::columns name="columns" read=of_form!(Plane | Box | Cylinder, columns)
-                    write=to_form!(Plane | Box | Cylinder, columns, v => v.clamp(0.0, 5000.0) as u32)/>
-                <FormNumber label=words::rows name="rows" read=of_form!(Plane | Box | Cylinder, rows)
-                    write=to_form!(Plane | Box | Cylinder, rows, v => v.clamp(0.0, 5000.0) as u32)/>
+                <FormNumber label=words::columns name="columns" counts=true read=of_form!(Plane | Box | Cylinder, columns)
+                    write=to_form!(Plane | Box | Cylinder, columns, v => plan::counted(v))/>
+                <FormNumber label=words::rows name="rows" counts=true read=of_form!(Plane | Box | Cylinder, rows)
+                    write=to_form!(Plane | Box | Cylinder, rows, v => plan::counted(v))/>
                 <FormNumber label=words::diameter name="diameter" read=of_form!(Plane | Box | Cylinder, diameter)
                     write=to_form!(Plane | Box | Cylinder, diameter, v => v)/>
             </Show>
