@@ -123,6 +123,8 @@ pub(crate) mod blob {
         /// Least ratio of the lengths of runs that belong together, and what their ends may be apart: pixels, and share of the shorter.
         LINKED: f32 = 0.35, Judged "clutter and discs of `detect`";
         APART: [f32; 2] = [4.0, 0.25], Judged "as above";
+        /// What a spot may take of a run, and how far its middle may lie from that of the run above, as shares of the run.
+        SPOT: [f32; 2] = [0.3, 0.15], Judged "the spot of Metashape's dots, 0.09, grows by blur and sharpening: `prints`";
     }
 }
 

@@ -3,10 +3,11 @@
 //! A run lies between a rising and the next falling edge (bright) or the other way round (dark). An ellipse is convex:
 //! every row meets it in one run, so a component that is a target is a chain. Where a run meets two runs of the row
 //! above, or two runs meet one, the chains end and new ones begin: touching neighbours come apart by themselves, and what
-//! is left of each still shows most of an outline. Only the runs of unfinished chains are held.
+//! is left of each still shows most of an outline. Two runs with little between them, in the middle of what is above, are
+//! one: the spot in the dot of a printed code, a scratch, a hot pixel. Only the runs of unfinished chains are held.
 
 use super::scan::Edge;
-use crate::detect::acceptance::blob::{APART, LINKED};
+use crate::detect::acceptance::blob::{APART, LINKED, SPOT};
 
 /// Part of a row between two edges, in pixel coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +63,15 @@ fn alike(run: &Chord, above: &Active) -> bool {
     run.cut == above.cut || (run.x0 - above.x0).abs() < near && (run.x1 - above.x1).abs() < near
 }
 
+/// The run of which a spot in the middle of a target leaves these two.
+fn around_a_spot(left: &Chord, right: &Chord, above: &Active) -> Option<Chord> {
+    let whole = Chord { x1: right.x1, cut: left.cut || right.cut, ..*left };
+    let length = whole.x1 - whole.x0;
+    let aside = (right.x0 + left.x1) - (above.x0 + above.x1);
+    let small = right.x0 - left.x1 < SPOT[0] * length && aside.abs() < 2.0 * SPOT[1] * length;
+    (small && alike(&whole, above)).then_some(whole)
+}
+
 /// Runs that a chain has room for at first.
 const FIRST: usize = 32;
 
@@ -106,8 +116,21 @@ impl Linker {
             }
         }
         self.next.clear();
-        for (run, &(count, partner)) in runs.iter().zip(&self.meets) {
-            let continues = count == 1 && self.active[partner].meets == 1 && alike(run, &self.active[partner]);
+        let mut spotted = false;
+        for (i, (run, &(count, partner))) in runs.iter().zip(&self.meets).enumerate() {
+            if std::mem::take(&mut spotted) {
+                continue;
+            }
+            let mut run = *run;
+            let mut continues = count == 1 && self.active[partner].meets == 1 && alike(&run, &self.active[partner]);
+            if count == 1 && self.active[partner].meets == 2 && self.meets.get(i + 1) == Some(&(1, partner)) {
+                let above = &self.active[partner];
+                // Neighbours that touch part as well, below the row in which they met.
+                let begun = self.chains[above.chain].len() > 1;
+                if let Some(whole) = around_a_spot(&run, &runs[i + 1], above).filter(|_| begun) {
+                    (run, continues, spotted) = (whole, true, true);
+                }
+            }
             let chain = if continues {
                 std::mem::replace(&mut self.active[partner].chain, usize::MAX)
             } else {
@@ -117,7 +140,7 @@ impl Linker {
                 })
             };
             if self.chains[chain].len() <= self.max_rows {
-                self.chains[chain].push(*run);
+                self.chains[chain].push(run);
             }
             self.next.push(Active { x0: run.x0, x1: run.x1, cut: run.cut, chain, meets: 0 });
         }
@@ -169,6 +192,17 @@ mod tests {
     fn a_fork_ends_the_chain() {
         assert_eq!(chains(&[&[(1.0, 9.0)], &[(1.0, 9.0)], &[(1.0, 3.0), (6.0, 9.0)], &[(1.0, 3.0)]]), [2, 1, 2]);
         assert_eq!(chains(&[&[(1.0, 3.0), (6.0, 9.0)], &[(1.0, 9.0)]]), [1, 1, 1]);
+    }
+
+    #[test]
+    fn a_spot_in_the_middle_leaves_the_chain_whole() {
+        let spotted: &[(f32, f32)] = &[(1.0, 7.2), (8.8, 15.0)];
+        assert_eq!(chains(&[&[(2.0, 14.0)], &[(1.0, 15.0)], spotted, spotted, &[(1.0, 15.0)], &[(2.0, 14.0)]]), [6]);
+        let aside: &[(f32, f32)] = &[(1.0, 3.0), (4.6, 15.0)];
+        assert_eq!(chains(&[&[(2.0, 14.0)], aside, &[(2.0, 14.0)]]), [1, 1, 1, 1]);
+        // Two neighbours that touch in one row part below it.
+        let parted: &[(f32, f32)] = &[(1.5, 7.5), (10.5, 16.5)];
+        assert_eq!(chains(&[parted, &[(1.0, 17.0)], parted]), [1, 1, 1, 1, 1]);
     }
 
     #[test]
