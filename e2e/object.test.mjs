@@ -52,6 +52,34 @@ test('points are chosen in space and in tables alike, features have their sigmas
     await object(page);
     await page.waitForFunction((name) => document.querySelector('.space-host').view.labels().some(({ words }) => words === name), other);
 
+    // So is a photo that is clicked on.
+    const photos = await page.evaluate(() => {
+      const { view } = document.querySelector('.space-host');
+      const { clientWidth, clientHeight } = document.querySelector('.space-host');
+      const counts = view.counts();
+      const sheets = Array.from({ length: counts.photos }, (_, k) => view.sheet(k)).filter((corners) => corners.every(Boolean));
+      const within = (corners, [x, y]) => new Set(corners.map(([a, b], k) => Math.sign((corners[(k + 1) % 4][0] - a) * (y - b) - (corners[(k + 1) % 4][1] - b) * (x - a)))).size === 1;
+      const middle = (corners) => [0, 1].map((axis) => corners.reduce((sum, corner) => sum + corner[axis] / 4, 0));
+      const clear = ([x, y]) =>
+        x > 0 && y > 0 && x < clientWidth && y < clientHeight &&
+        Array.from({ length: counts.points }, (_, k) => view.place(k)).filter(Boolean).every(([a, b]) => Math.hypot(a - x, b - y) > 14) &&
+        view.labels().every(({ box: [a, b, w, h] }) => x < a || x > a + w || y < b || y > b + h);
+      return sheets.flatMap((corners, k) => {
+        const at = middle(corners);
+        return clear(at) && sheets.every((other, j) => j === k || !within(other, at)) ? [at] : [];
+      });
+    });
+    assert.ok(photos.length >= 2, `${photos.length} photos stand free`);
+    const seen = new Set();
+    for (const at of photos.slice(0, 2)) {
+      await page.mouse.click(box.x + at[0], box.y + at[1]);
+      await page.click('.object-bar .back');
+      await page.waitForSelector('.results');
+      seen.add(await page.getAttribute('.a2 tr.chosen', 'data-key'));
+      await object(page);
+    }
+    assert.equal(seen.size, 2);
+
     // All points in a plane, and how far one lies from it.
     const corners = ['1', '3', '9', '7'];
     const points = [...corners, ...[...new Set(rows)].filter((id) => !corners.includes(id)).slice(0, 6)];

@@ -561,6 +561,8 @@ export function open(host, tell) {
       const k = typeof point === 'string' ? scene?.names.indexOf(point) : point;
       return scene && screen(scene.points[3 * k], scene.points[3 * k + 1], scene.points[3 * k + 2]);
     },
+    /** Where the corners of a photo are drawn. */
+    sheet: (k) => scene && [1, 2, 3, 4].map((c) => screen(...scene.photos.subarray(15 * k + 3 * c, 15 * k + 3 * c + 3))),
     counts: () => ({ ...drawn, surfaces: scene ? (scene.surfaces.length + scene.chosenSurface.length) / 9 : 0, residuals: scene ? scene.residuals.length / 6 : 0, points: scene ? scene.points.length / 3 : 0, photos: scene ? scene.photos.length / 15 : 0, budget, quality, bare }),
     labels: () => shownNames.map(({ words, box: place }) => ({ words, box: place })),
     /** The view with its caption as a PNG. */
