@@ -63,13 +63,16 @@ fn alike(run: &Chord, above: &Active) -> bool {
     run.cut == above.cut || (run.x0 - above.x0).abs() < near && (run.x1 - above.x1).abs() < near
 }
 
-/// The run of which a spot in the middle of a target leaves these two.
+/// The run of which a spot in the middle of a target leaves these two. Their outer ends go on from those above: an arc and the
+/// dot that it surrounds are two things.
 fn around_a_spot(left: &Chord, right: &Chord, above: &Active) -> Option<Chord> {
     let whole = Chord { x1: right.x1, cut: left.cut || right.cut, ..*left };
     let length = whole.x1 - whole.x0;
     let aside = (right.x0 + left.x1) - (above.x0 + above.x1);
     let small = right.x0 - left.x1 < SPOT[0] * length && aside.abs() < 2.0 * SPOT[1] * length;
-    (small && alike(&whole, above)).then_some(whole)
+    let near = APART[1] * length;
+    let onward = (whole.x0 - above.x0).abs() < near && (whole.x1 - above.x1).abs() < near;
+    (small && onward && whole.cut == above.cut).then_some(whole)
 }
 
 /// Runs that a chain has room for at first.
