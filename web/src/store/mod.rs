@@ -342,6 +342,8 @@ pub struct Desk {
     pub pasted: RwSignal<Option<Pasted>>,
     pub files: RwSignal<BTreeMap<String, PhotoFile>, LocalStorage>,
     pictures: RwSignal<Vec<pictures::Shown>, LocalStorage>,
+    /// How many views show photos.
+    showing: StoredValue<usize>,
     parts: RwSignal<Vec<parts::Part>, LocalStorage>,
     apart: RwSignal<Vec<apart::Apart>>,
     values: RwSignal<values::Asked>,
@@ -418,6 +420,7 @@ impl Desk {
             pasted: RwSignal::default(),
             files: RwSignal::new_local(BTreeMap::new()),
             pictures: RwSignal::new_local(Vec::new()),
+            showing: StoredValue::new(0),
             parts: RwSignal::new_local(Vec::new()),
             apart: RwSignal::default(),
             values: RwSignal::default(),

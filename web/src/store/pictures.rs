@@ -7,12 +7,16 @@ use sightline_protocol::ShowPhoto;
 use super::lasting::Stop;
 use super::pool::{Failure, Outcome};
 use super::{Desk, Until};
+use crate::browser::page;
 use crate::browser::picture::Pyramid;
 use crate::i18n::lasting as words;
 use crate::i18n::{errors, text};
 
 /// Decoded pictures kept: a photo of 24 megapixels takes 128 MB with its levels.
 const KEPT: usize = 3;
+
+/// How long they wait for a view to show photos again, in milliseconds.
+const WAITING_MS: i32 = 20_000;
 
 /// A photo's picture, or the asking for it.
 #[derive(Clone)]
@@ -32,6 +36,21 @@ impl Desk {
         }
         self.ask_for_picture(photo.to_owned(), digest);
         None
+    }
+
+    /// A view shows photos from now on.
+    pub fn begin_showing(self) {
+        self.showing.update_value(|views| *views += 1);
+    }
+
+    /// It does not any more: without another view that does, the pictures are let go after a while.
+    pub fn end_showing(self) {
+        self.showing.update_value(|views| *views -= 1);
+        page::after(WAITING_MS, move || {
+            if self.showing.get_value() == 0 {
+                self.pictures.set(Vec::new());
+            }
+        });
     }
 
     fn ask_for_picture(self, photo: String, digest: u64) {

@@ -79,6 +79,8 @@ pub fn PhotoView(
     children: Option<Children>,
 ) -> impl IntoView {
     let desk = expect_context::<Desk>();
+    desk.begin_showing();
+    on_cleanup(move || desk.end_showing());
     let canvas = NodeRef::<Canvas>::new();
     // The picture has a canvas of its own, so that brightness and contrast leave the marks alone.
     let below = NodeRef::<Canvas>::new();
