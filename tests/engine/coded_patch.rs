@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use sightline::image::{GreyView, SamplesView};
 use sightline::noise::Noise;
-use sightline::ring_code::{Design, Family};
+use sightline::ring_code::{Design, Family, smallest_rotation};
 
 use super::painter::Uniform;
 
@@ -99,7 +99,7 @@ pub struct CodedPatch {
     pub kind: Kind,
     /// The family that is to be read.
     pub family: Family,
-    /// The number, where one is there.
+    /// The number, where one is there: that of the code, or of one that another ring looks exactly like.
     pub number: Option<u32>,
     pub size: usize,
     pub samples: Vec<u8>,
@@ -135,6 +135,21 @@ fn arcs(code: u32, bits: u32, start: f64) -> Vec<[f64; 2]> {
     set.map(|k| start + sector * f64::from(k)).map(|from| [from, from + sector]).collect()
 }
 
+/// The number in `family` of the code that this ring of `bits` sectors looks exactly like: where all its arcs end on the grid of both,
+/// one drawing is a code of both, whoever drew it.
+fn same_drawing(code: u32, bits: u32, family: Family) -> Option<u32> {
+    let n = family.bits();
+    let set = |k: u32| code >> (bits - 1 - k % bits) & 1;
+    // ends of arcs in units of which bits n make a turn
+    let ends: Vec<u32> = (0..bits).filter(|k| set(*k) != set(k + bits - 1)).map(|k| k * n).collect();
+    let first = *ends.first()?;
+    if ends.iter().any(|end| (end - first) % bits != 0) {
+        return None;
+    }
+    let again = (0..n).fold(0, |again, k| again << 1 | set((first + k * bits) / n));
+    family.number(smallest_rotation(again, n))
+}
+
 fn draw(kind: Kind, family: Family, random: &mut Uniform) -> (Drawing, Option<u32>) {
     let mut drawing = Drawing { bands: vec![([0.0, 1.0], Vec::new(), 1.0)], ..Drawing::default() };
     let start = random.within(0.0, TAU);
@@ -165,7 +180,11 @@ fn draw(kind: Kind, family: Family, random: &mut Uniform) -> (Drawing, Option<u3
         }
         Kind::Other => {
             let others: Vec<Family> = Family::ALL.into_iter().filter(|other| *other != family).collect();
-            code_of(choose(random, &others), random, &mut drawing);
+            let other = choose(random, &others);
+            let drawn = code_of(other, random, &mut drawing);
+            if other.design() == design {
+                number = same_drawing(other.codes()[drawn as usize - 1], other.bits(), family);
+            }
         }
         Kind::Full => drawing.bands.push((choose(random, &[ring, [2.0, 3.0]]), Vec::new(), 1.0)),
         Kind::Concentric => {
@@ -236,7 +255,9 @@ fn draw(kind: Kind, family: Family, random: &mut Uniform) -> (Drawing, Option<u3
                 }
                 arcs
             } else {
-                arcs((random.next() * f64::from(1u32 << bits)) as u32, bits, start)
+                let drawn = (random.next() * f64::from(1u32 << bits)) as u32;
+                number = if radii == ring { same_drawing(drawn, bits, family) } else { None };
+                arcs(drawn, bits, start)
             };
             drawing.bands.push((radii, arcs, 1.0));
         }
