@@ -34,6 +34,9 @@ pub const RAYS: usize = 1_000_000;
 /// Most sheets of targets that are made at once.
 pub const SHEETS: usize = 2000;
 
+/// Most targets that are printed at once, more than any family has codes: each takes some three kilobytes with its marks and its label.
+pub const PRINTED: usize = 30_000;
+
 /// Most bytes of equipment: some hundred thousand calibrations.
 pub const EQUIPMENT_BYTES: usize = 64 << 20;
 

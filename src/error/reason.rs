@@ -162,6 +162,7 @@ reasons! {
     SheetNumbers { text: String } => "\"{text}\" is no list of numbers: write it as 1-20, 35";
     SheetNumberUnknown { number: u32, family: usize } => "there is no code {number}: the family has the numbers 1 to {family}";
     SheetTooManyCodes { wanted: usize, family: usize } => "{wanted} codes are wanted and the family has {family}: take fewer, or a family with more bits";
+    SheetTooManyTargets { limit: usize } => "these are more than {limit} targets: print them in parts";
     SheetTooMany { limit: usize } => "these are more than {limit} sheets: print them in parts";
     SheetNoRoom { value: Number, width: Number, height: Number } => "a dot of {value} mm with what belongs to it has no room on paper of {width} x {height} mm: take larger paper or smaller dots";
     SheetAdvice => "principal distance, distances and diameter are above 0, angles below 89°";

@@ -63,8 +63,15 @@ pub fn sheets(options: &SheetOptions) -> Result<Sheets> {
     let too_many =
         || Err(Error::Invalid { reason: Reason::SheetTooMany { limit: limits::SHEETS }, at: Place::field("codes") });
     // Before anything is counted out: on 32 bits the products of what is asked for would run over.
-    if [options.bars as usize, fields, options.dots as usize / 50].iter().any(|count| *count > limits::SHEETS) {
+    if [options.bars as usize, fields].iter().any(|count| *count > limits::SHEETS) {
         return too_many();
+    }
+    // Codes are no more than their family has.
+    for (count, field) in [(options.dots as usize, "dots"), (fields * codes.count(), "field")] {
+        if count > limits::PRINTED {
+            let reason = Reason::SheetTooManyTargets { limit: limits::PRINTED };
+            return Err(Error::Invalid { reason, at: Place::field(field) });
+        }
     }
     let in_a_field = codes.cells().filter(|cell| is_code(*cell)).count() * fields;
     let (first, more) =

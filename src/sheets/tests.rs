@@ -31,7 +31,10 @@ fn what_cannot_be_printed_is_named() {
     assert_eq!(field(SheetOptions { diameter: f64::NAN, ..SheetOptions::default() }), "diameter");
     assert_eq!(field(SheetOptions { measured: Some(10.0), ..SheetOptions::default() }), "measured");
     assert_eq!(field(SheetOptions { codes: 0, ..SheetOptions::default() }), "codes");
-    assert_eq!(field(SheetOptions { codes: 0, dots: u32::MAX, ..SheetOptions::default() }), "codes");
+    assert_eq!(field(SheetOptions { codes: 0, dots: u32::MAX, ..SheetOptions::default() }), "dots");
+    assert_eq!(field(SheetOptions { codes: 0, dots: 30_001, diameter: 2.0, ..SheetOptions::default() }), "dots");
+    let plates = Some(Field { columns: 20, rows: 20 });
+    assert_eq!(field(SheetOptions { codes: 0, field: plates, diameter: 2.0, ..SheetOptions::default() }), "field");
     assert_eq!(field(SheetOptions { bars: 1, bar_length: -1.0, ..SheetOptions::default() }), "bar_length");
 }
 

@@ -17,7 +17,7 @@ const below = (n) => Math.floor(n * random());
 const one = (all) => all[below(all.length)];
 
 const ODD = [
-  () => undefined, () => null, () => NaN, () => Infinity, () => -1, () => 0, () => 1e300, () => -0.5, () => 4294967296, () => '', () => 'tie', () => '1001', () => '\u0000',
+  () => undefined, () => null, () => NaN, () => Infinity, () => -1, () => 0, () => 1e300, () => -0.5, () => 65_536, () => 4_294_967_295, () => 4_294_967_296, () => '', () => 'tie', () => '1001', () => '\u0000',
   () => '=1+1', () => 'x'.repeat(below(3000)), () => true, () => [], () => ({}), () => [null], () => [[], {}], () => Symbol('s'), () => 10n, () => () => 1, () => new Date(NaN),
   () => new Map(), () => new Uint8Array(below(100)), () => new Float64Array(3), () => new Array(5), () => Object.create(null), () => ({ toJSON: null }),
 ];

@@ -267,6 +267,7 @@ pub fn reason(reason: &Reason) -> String {
                 "코드 {wanted}개가 필요한데 이 계열에는 {family}개가 있습니다. 수를 줄이거나 비트 수가 큰 계열을 고르십시오"
             );
         }
+        R::SheetTooManyTargets { limit } => return format!("표적이 {limit}개를 넘습니다. 나누어 인쇄하십시오"),
         R::SheetTooMany { limit } => return format!("{limit}장을 넘습니다. 나누어 인쇄하십시오"),
         R::SheetNoRoom { value, width, height } => {
             return format!(
