@@ -1,4 +1,4 @@
-//! Ring codes read from pictures drawn at random (`tests/engine/coded_patch.rs`): how many are read, how many wrongly.
+//! Ring codes read from pictures drawn at random (`tests/engine/support/coded_patch.rs`): how many are read, how many wrongly.
 //!
 //!   cargo bench --package sightline --bench codes -- [pictures] [seed] [kind]
 //!   cargo bench --package sightline --bench codes -- state STATE KIND FAMILY [FILE]
@@ -13,9 +13,9 @@ use sightline::detection::{Codes, DetectOptions, Polarity, Quality, Target};
 use sightline::ring_code::Family;
 
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
-#[path = "../../tests/engine/coded_patch.rs"]
+#[path = "../../tests/engine/support/coded_patch.rs"]
 mod coded_patch;
-#[path = "../../tests/engine/painter.rs"]
+#[path = "../../tests/engine/support/painter.rs"]
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
 mod painter;
 

@@ -8,7 +8,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 use sightline::image::Samples;
 
-#[path = "../../tests/engine/painter.rs"]
+#[path = "../../tests/engine/support/painter.rs"]
 mod painter;
 
 mod clutter;

@@ -3,9 +3,9 @@
 
 #![allow(dead_code, reason = "the networks are shared with the tests, which want more of them")]
 
-#[path = "../../tests/engine/networks.rs"]
+#[path = "../../tests/engine/support/networks.rs"]
 mod networks;
-#[path = "../../tests/engine/trials.rs"]
+#[path = "../../tests/engine/support/trials.rs"]
 mod trials;
 
 use sightline::adjustment::{AdjustOptions, Robust};

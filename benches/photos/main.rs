@@ -8,14 +8,14 @@ use sightline::detection::{DetectOptions, Detection};
 use sightline::image::{Grey, GreyView, Samples, SamplesView};
 use sightline::{decode, detect};
 
-#[path = "../../tests/engine/camera_model.rs"]
+#[path = "../../tests/engine/support/camera_model.rs"]
 mod camera_model;
-#[path = "../../tests/engine/conditions.rs"]
+#[path = "../../tests/engine/support/conditions.rs"]
 mod conditions;
-#[path = "../../tests/engine/grid_fit.rs"]
+#[path = "../../tests/engine/support/grid_fit.rs"]
 mod grid_fit;
 #[allow(dead_code, reason = "the tests use the rest")]
-#[path = "../../tests/engine/painter.rs"]
+#[path = "../../tests/engine/support/painter.rs"]
 mod painter;
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -1,4 +1,4 @@
-//! Printed sheets photographed (`tests/engine/print_shot.rs`): how many numbers are read rightly, wrongly or not, and whether centres
+//! Printed sheets photographed (`tests/engine/support/print_shot.rs`): how many numbers are read rightly, wrongly or not, and whether centres
 //! are biased along the tilt or across it. It takes poppler's `pdftoppm`.
 //!
 //!   cargo bench --package sightline --bench prints -- [photos of each print] [seed] [family, as "ring-14"]
@@ -15,12 +15,12 @@ use sightline::ring_code::Family;
 use sightline::sheets::{Ground, LEAST_PX, SheetOptions, target_sheets};
 
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
-#[path = "../../tests/engine/coded_patch.rs"]
+#[path = "../../tests/engine/support/coded_patch.rs"]
 mod coded_patch;
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
-#[path = "../../tests/engine/painter.rs"]
+#[path = "../../tests/engine/support/painter.rs"]
 mod painter;
-#[path = "../../tests/engine/print_shot.rs"]
+#[path = "../../tests/engine/support/print_shot.rs"]
 mod print_shot;
 
 use painter::Uniform;

@@ -2,7 +2,7 @@
 //! 14 bits, lossless JPEG, with a preview) and `large.heic` (12 megapixels) there.
 
 #[allow(dead_code, reason = "shared with the engine's tests, which use all of it")]
-#[path = "../../tests/engine/painter.rs"]
+#[path = "../../tests/engine/support/painter.rs"]
 mod painter;
 
 #[path = "../tests/support/dng.rs"]

@@ -1,7 +1,7 @@
 //! HEIC files from the encoder of the decoder's own crates, over pictures of an independent renderer.
 
 #[allow(dead_code, reason = "shared with the engine's tests, which use all of it")]
-#[path = "../../tests/engine/painter.rs"]
+#[path = "../../tests/engine/support/painter.rs"]
 mod painter;
 
 use heifer::{EncodeOptions, Image, Metadata};

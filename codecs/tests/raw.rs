@@ -5,7 +5,7 @@ mod camera;
 #[path = "support/dng.rs"]
 mod dng;
 #[allow(dead_code, reason = "shared with the engine's tests, which use all of it")]
-#[path = "../../tests/engine/painter.rs"]
+#[path = "../../tests/engine/support/painter.rs"]
 mod painter;
 
 use dng::Dng;

@@ -14,7 +14,7 @@
 //! ```
 #![no_main]
 
-#[path = "../../tests/engine/tree.rs"]
+#[path = "../../tests/engine/support/tree.rs"]
 mod tree;
 
 use libfuzzer_sys::{fuzz_mutator, fuzz_target};

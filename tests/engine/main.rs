@@ -1,47 +1,75 @@
-//! The engine from outside, natively: one binary, one topic a module. That it gives the same as wasm is tested in tests/face.
+//! The engine from outside, natively: one binary, one topic a module, in folders like those of `src`. That it gives the same as wasm is
+//! tested in tests/face.
 
-mod aerial;
-mod behaviour;
-mod camera_model;
-#[allow(dead_code, reason = "the benchmark uses the rest")]
-mod coded_patch;
-mod codes;
-mod conditions;
-mod curved;
-mod damage;
-mod data;
-mod dense;
-mod doctor;
-mod document;
-mod estimation;
-mod exchange;
-mod experiments;
-mod features;
-mod grid_fit;
-mod gross_errors;
-mod monte_carlo;
-mod naming;
-mod networks;
-mod oracle;
-mod ordinary;
-mod orientation;
-mod painter;
-mod panel;
-mod photos;
-mod plan_search;
-mod planning;
-mod print_shot;
-mod published;
-mod report;
-mod reports;
-mod round_trips;
-mod sample;
-mod scenes;
-mod seeded;
-mod sharp;
-mod sheets;
-mod slips;
-mod spatial;
-mod targets;
-mod tree;
-mod trials;
+/// Adjustment, statistics and what goes wrong in networks.
+mod adjust {
+    mod aerial;
+    mod behaviour;
+    mod curved;
+    mod damage;
+    mod doctor;
+    mod estimation;
+    mod features;
+    mod gross_errors;
+    mod monte_carlo;
+    mod oracle;
+    mod published;
+    mod reports;
+    mod slips;
+}
+
+/// Sheets to print and plans.
+mod before {
+    mod plan_search;
+    mod planning;
+    mod sheets;
+}
+
+/// Pictures: what is found, how well, and what is not.
+mod detect {
+    mod codes;
+    mod ordinary;
+    mod panel;
+    mod photos;
+    mod scenes;
+    mod sharp;
+    mod targets;
+}
+
+/// Files in and out.
+mod files {
+    mod document;
+    mod exchange;
+    mod report;
+    mod round_trips;
+    mod spatial;
+}
+
+/// From names to initial values.
+mod orient {
+    mod naming;
+    mod orientation;
+    mod seeded;
+}
+
+/// What the papers state, and the sample.
+mod papers {
+    mod experiments;
+    mod sample;
+}
+
+/// What several tests share; benches and fuzz targets use some of it.
+mod support {
+    pub mod camera_model;
+    #[allow(dead_code, reason = "the benchmark uses the rest")]
+    pub mod coded_patch;
+    pub mod conditions;
+    pub mod data;
+    pub mod dense;
+    pub mod grid_fit;
+    pub mod networks;
+    pub mod painter;
+    pub mod print_shot;
+    pub mod tree;
+    pub mod trials;
+}

@@ -5,8 +5,8 @@ use sightline::detection::{Codes, DetectOptions, Target};
 use sightline::ring_code::Family;
 use sightline::sheets::{Ground, LEAST_PX, SheetOptions, Sheets, target_sheets};
 
-use crate::painter::Uniform;
-use crate::print_shot::{Print, Shot, Taken, drawn};
+use crate::support::painter::Uniform;
+use crate::support::print_shot::{Print, Shot, Taken, drawn};
 
 fn options_of(family: Family) -> DetectOptions {
     DetectOptions { codes: Codes::from(family), ..DetectOptions::default() }
@@ -45,7 +45,7 @@ fn the_pdf_is_true_to_scale_and_its_numbers_are_right() {
         let sheets = target_sheets(&options).expect("sheets");
         let Some((place, diameter)) = measured(&sheets, family, dpi, &format!("{family:?}-{dpi}")) else {
             println!("skipped, no poppler");
-            super::data::count_as_skipped();
+            crate::support::data::count_as_skipped();
             return;
         };
         println!("{family:?} {dpi} dpi: places {place:.4} mm, diameters {diameter:.4} mm");
@@ -68,7 +68,7 @@ fn numbers_of_photographed_prints_are_right_and_their_centres_are_not_shifted() 
         let sheets = target_sheets(&options).expect("sheets");
         let Some(greys) = drawn(&sheets.pdf(), dpi, sheets.pages.len(), &format!("shot-{family:?}")) else {
             println!("skipped, no poppler");
-            super::data::count_as_skipped();
+            crate::support::data::count_as_skipped();
             return;
         };
         let print = Print::new(&sheets, 0, greys.into_iter().next().expect("a page"), dpi);

@@ -1,8 +1,8 @@
 //! Accuracy gates of the target operators: bias, scatter against the Cramér-Rao bound, and honest sigmas, on pictures from
 //! an independent renderer; and what must not change a centre.
 
-use crate::data::{data, text};
-use crate::painter::{Canvas, Spot, Uniform};
+use crate::support::data::{data, text};
+use crate::support::painter::{Canvas, Spot, Uniform};
 use sightline::detect::{detect, measure_all, measure_at};
 use sightline::detection::{Channel, Codes, DetectOptions, Detection, Method, Polarity, Target};
 use sightline::image::{Grey, GreyView, Samples, SamplesView};

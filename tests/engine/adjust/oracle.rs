@@ -1,7 +1,7 @@
-//! The adjustment against plain dense least squares ([`crate::dense`]), the datum by the pseudo-inverse's own null space.
+//! The adjustment against plain dense least squares ([`crate::support::dense`]), the datum by the pseudo-inverse's own null space.
 
-use crate::dense::{Dense, Unknown};
-use crate::networks::{Uniform, Wanted, brown, exact, noisy, opencv};
+use crate::support::dense::{Dense, Unknown};
+use crate::support::networks::{Uniform, Wanted, brown, exact, noisy, opencv};
 use nalgebra::{DMatrix, DVector};
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Given, ResidualPlace, Termination};

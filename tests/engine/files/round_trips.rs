@@ -4,7 +4,7 @@ use sightline::error::Error;
 use sightline::exchange::{export, import};
 use sightline::project::{Camera, Interior, Observation, Photo, Point, Project, Role, Sigma};
 
-use crate::painter::Uniform;
+use crate::support::painter::Uniform;
 
 /// What identifiers are made of in the worst of files.
 const LETTERS: [char; 24] = [

@@ -1,7 +1,7 @@
 //! What must hold for every network: datums agree, exact observations converge, large coordinates lose nothing, any
 //! document gives a result or an error.
 
-use crate::networks::{Uniform, Wanted, brown, exact, noisy};
+use crate::support::networks::{Uniform, Wanted, brown, exact, noisy};
 use nalgebra::{Matrix3, Vector3};
 use sightline::adjust::{adjust, apply};
 use sightline::adjustment::{AdjustOptions, Adjustment, StatisticsChoice, Termination};

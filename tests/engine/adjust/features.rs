@@ -7,7 +7,7 @@ use sightline::features::measure;
 use sightline::noise::Noise;
 use sightline::project::{CoordinateSystem, DatumKind, End, Feature, FeatureKind, GivenPoint, Project, SystemKind};
 
-use crate::networks::{Wanted, exact, noisy};
+use crate::support::networks::{Wanted, exact, noisy};
 
 const DRAWS: usize = 12_000;
 /// Whole adjustments: the scatter of so many is known to 1.1 %.

@@ -8,7 +8,7 @@ use sightline::exchange::export;
 use sightline::noise::Noise;
 use sightline::project::{DrawnLine, Feature, FeatureKind, Layer, Project};
 
-use crate::networks::{Wanted, exact, noisy};
+use crate::support::networks::{Wanted, exact, noisy};
 
 fn result() -> (Project, Adjustment) {
     let mut project = noisy(&exact(&Wanted::default(), 3), &mut Noise::new(3, 0));

@@ -5,8 +5,8 @@
 //! k3 = -K3 c⁶, p2 = -P1 c and p1 = P2 c (y points the other way). Model 3 is ours with its affinity taken from the report,
 //! put into the pixel pitch.
 
-use crate::data;
-use crate::published::{DISTORTED, HEIGHT_MM, camcal};
+use super::published::{DISTORTED, HEIGHT_MM, camcal};
+use crate::support::data;
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, Termination};
 use sightline::project::{Interior, Parameter, Project, Sigma};

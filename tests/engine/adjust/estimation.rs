@@ -1,8 +1,8 @@
 //! Estimation that holds what it states: robust weights and snooping on clean data and with gross errors, the global test with strong
 //! distortion, variance components. The bench `estimation` runs the same trials with all samples.
 
-use crate::networks::{Uniform, Wanted, brown, exact, noisy};
-use crate::trials::{clean, distorted, spoil, spoiled, trials};
+use crate::support::networks::{Uniform, Wanted, brown, exact, noisy};
+use crate::support::trials::{clean, distorted, spoil, spoiled, trials};
 use sightline::adjust::adjust;
 use sightline::adjustment::{
     AdjustOptions, Adjustment, Advice, GrossErrorAction, ObservationGroup, Robust, RobustScale, Termination,

@@ -1,8 +1,8 @@
 //! Fuzzing from seeds: documents whose JSON tree is damaged anywhere give a result or an error, in bounded time, and no
 //! number that is none.
 
-use crate::networks::{Uniform, Wanted, brown, exact, noisy, opencv};
-use crate::tree::{damage, is_finite};
+use crate::support::networks::{Uniform, Wanted, brown, exact, noisy, opencv};
+use crate::support::tree::{damage, is_finite};
 use serde_json::{Value, json};
 use sightline::adjust::{adjust, apply};
 use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, Robust};
@@ -131,7 +131,6 @@ fn an_adjustment_that_no_longer_gains_ends_however_many_iterations_are_allowed()
     assert!(ended.get("Diverged").is_some_and(|n| *n > 5), "{ended:?}");
 }
 
-/// An error's words name a place as people write it, and never print the document.
 /// Counts that run over 32 bits, and sizes that leave every picture: found by calls of the JavaScript face with damaged arguments.
 #[test]
 fn what_would_take_all_memory_is_refused_before() {
@@ -191,6 +190,7 @@ fn what_would_take_all_memory_is_refused_before() {
     }
 }
 
+/// An error's words name a place as people write it, and never print the document.
 #[test]
 fn what_is_wrong_in_a_document_is_told_with_its_place_in_few_words() {
     let cameras = vec![brown(&[Parameter::C, Parameter::K1]), opencv(&[Parameter::F])];

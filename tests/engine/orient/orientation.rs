@@ -1,6 +1,6 @@
 //! From nothing to initial values: control fields, free networks, what cannot be oriented.
 
-use crate::data::text;
+use crate::support::data::text;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};

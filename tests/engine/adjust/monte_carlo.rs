@@ -1,7 +1,7 @@
 //! Stated against actual errors: many noisy copies of one network.
 
-use crate::dense::Dense;
-use crate::networks::{Wanted, brown, exact, noisy};
+use crate::support::dense::Dense;
+use crate::support::networks::{Wanted, brown, exact, noisy};
 use nalgebra::DMatrix;
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Given, ResidualPlace};

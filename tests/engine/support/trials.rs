@@ -1,7 +1,7 @@
 //! Seeded trials of estimation: clean networks, networks with gross errors, strong distortion. The gate runs a few of each, the
 //! bench (`cargo xtask bench estimation`) all of them.
 
-use crate::networks::{Uniform, Wanted, brown, exact, noisy};
+use super::networks::{Uniform, Wanted, brown, exact, noisy};
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Termination};
 use sightline::noise::Noise;

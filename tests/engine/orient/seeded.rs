@@ -1,8 +1,8 @@
 //! Orientation over seeded networks and single photos with a truth: the short form of `cargo xtask bench orient`.
 
-#[path = "../../benches/orient/dots.rs"]
+#[path = "../../../benches/orient/dots.rs"]
 pub mod dots;
-#[path = "../../benches/orient/network.rs"]
+#[path = "../../../benches/orient/network.rs"]
 mod network;
 
 use nalgebra::Vector3;

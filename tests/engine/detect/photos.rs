@@ -1,6 +1,6 @@
 //! Photo files of real cameras.
 
-use crate::data::data;
+use crate::support::data::data;
 use sightline::decode::{Size, grey, photo, picture, size};
 use sightline::detect::{detect_photo, measure_in_photo};
 use sightline::detection::{Channel, DetectOptions, Target};

@@ -1,6 +1,6 @@
 //! Networks with published answers: the camera calibration and the aerial block of DBAT, a textbook's resection.
 
-use crate::data;
+use crate::support::data;
 use sightline::adjust::{adjust, apply};
 use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, Termination};
 use sightline::error::{Defect, Error};

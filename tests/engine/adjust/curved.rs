@@ -1,7 +1,7 @@
 //! Circular targets on surfaces of many forms: stating their diameter frees them of the eccentricity, or leaves them as they are, and
 //! never makes the object worse.
 
-use crate::networks::{Uniform, brown};
+use crate::support::networks::{Uniform, brown};
 use nalgebra::{Matrix3, Vector3};
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, AdjustedPoint, Adjustment};

@@ -1,6 +1,6 @@
 //! Planted gross errors: what data snooping and robust weights do with them, and what the record says.
 
-use crate::networks::{Wanted, brown, exact, noisy};
+use crate::support::networks::{Wanted, brown, exact, noisy};
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Given, GrossErrorAction, Robust, Termination};
 use sightline::noise::Noise;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::data::{data, text};
+use crate::support::data::{data, text};
 use nalgebra::Vector3;
 use sightline::adjustment::{AdjustOptions, StatisticsChoice, Termination};
 use sightline::camera::pixel_from_camera_point;

@@ -5,9 +5,9 @@ use sightline::detection::{Codes, DetectOptions, Detection};
 use sightline::image::Grey;
 use sightline::{decode, image};
 
-use super::camera_model::{Camera, Tally};
-use super::grid_fit::{self, Score};
-use super::{camera_model, conditions, data};
+use crate::support::camera_model::{Camera, Tally};
+use crate::support::grid_fit::{self, Score};
+use crate::support::{camera_model, conditions, data};
 
 fn read(name: &str) -> Option<Grey> {
     let bytes = data::data(&format!("photos/{name}"))?;

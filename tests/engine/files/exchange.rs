@@ -1,6 +1,6 @@
 //! Files of other programs, as they come.
 
-use crate::data::{data, text};
+use crate::support::data::{data, text};
 use sightline::exchange::{self, Files, control_csv};
 use sightline::project::{Interior, Project, Role, Sigma};
 

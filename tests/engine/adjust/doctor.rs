@@ -1,7 +1,7 @@
 //! The doctor: every rank defect is told in the network's own words with its cure, every weakness of a solvable network is
 //! named, and a sound network has none.
 
-use crate::networks::{Uniform, Wanted, brown, exact, noisy};
+use crate::support::networks::{Uniform, Wanted, brown, exact, noisy};
 use nalgebra::{Matrix3, Vector3};
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Advice, Given};

@@ -1,6 +1,6 @@
 //! The aerial block of DBAT (Strasbourg, five photos, control in large coordinates): its published runs, repeated.
 
-use crate::data;
+use crate::support::data;
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace};
 use sightline::exchange::{self, photomodeler};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::networks::{Wanted, brown, exact, noisy};
+use crate::support::networks::{Wanted, brown, exact, noisy};
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Quantity};
 use sightline::comparison::compare;

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::orientation::{network, uniform};
-use crate::seeded::dots::target;
+use super::orientation::{network, uniform};
+use super::seeded::dots::target;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use sightline::matching::{MatchOptions, Matching, PhotoTargets, match_uncoded};

@@ -1,8 +1,8 @@
 //! Ring codes of every family, turned, tilted, blurred, in uneven light: read rightly or not at all.
 
-use crate::coded_patch::{Kind, coded_patch};
-use crate::data::data;
-use crate::painter::Uniform;
+use crate::support::coded_patch::{Kind, coded_patch};
+use crate::support::data::data;
+use crate::support::painter::Uniform;
 use sightline::decode;
 use sightline::detect::detect;
 use sightline::detection::{Channel, Codes, DetectOptions, Detection, Reason};

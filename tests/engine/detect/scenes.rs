@@ -1,7 +1,7 @@
 //! What makes targets hard: blur, clipping, flatness, size, neighbours, the border, glare, gradients, 16 bits. Whatever is
 //! reported must be as good as its sigma says; where the light alone limits it, it must reach the Cramér-Rao bound.
 
-use crate::painter::{Canvas, Spot, Uniform, bound};
+use crate::support::painter::{Canvas, Spot, Uniform, bound};
 use sightline::detect::{detect, measure_at};
 use sightline::detection::{DetectOptions, Detection, Reason, Target};
 use sightline::image::{Grey, Samples};

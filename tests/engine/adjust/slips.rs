@@ -1,7 +1,7 @@
 //! What the field brings: cameras that the photos leave open, slips of digits in coordinates and standard errors. The right thing is
 //! named, and what can be solved is solved.
 
-use crate::networks::{Wanted, brown, exact, noisy};
+use crate::support::networks::{Wanted, brown, exact, noisy};
 use nalgebra::Vector3;
 use sightline::adjust::adjust;
 use sightline::adjustment::{AdjustOptions, Adjustment, Advice, Given, Termination};
