@@ -124,7 +124,7 @@ pub(crate) mod blob {
         LINKED: f32 = 0.35, Judged "clutter and discs of `detect`";
         APART: [f32; 2] = [4.0, 0.25], Judged "as above";
         /// What a spot may take of a run, and how far its middle may lie from that of the run above, as shares of the run.
-        SPOT: [f32; 2] = [0.2, 0.1], Judged "the spot of Metashape's dots, 0.09, grows in `prints`; what covers dots in `photos` is wider";
+        SPOT: [f32; 2] = [0.3, 0.15], Judged "the spot of Metashape's dots, 0.09, grows by blur and sharpening: `prints`";
     }
 }
 

@@ -205,12 +205,17 @@ impl Blobs {
         look: &impl Fn(&Outline, bool) -> Result<(), Reason>,
         tried: &mut HashSet<[u32; 6]>,
     ) {
+        let tested = blob::test(chain, limits);
+        // what was taken for a spot may be what lies before a target, or between two
+        if tested.is_err() && component::apart(chain, &mut |part| self.judge(part, bright, limits, look, tried)) {
+            return;
+        }
         // looked at while its rows are still near the processor
         let mut enter = |outline| match look(&outline, bright) {
             Ok(()) => self.candidates.push(Candidate { outline, bright }),
             Err(reason) => self.unlike.push(NoBlob::of(&outline, reason)),
         };
-        match blob::test(chain, limits) {
+        match tested {
             Ok(outline) => enter(outline),
             Err(no) => {
                 // two targets, one above the other, that touch: each may still be one

@@ -271,7 +271,7 @@ mod tests {
             .filter_map(|k| {
                 let y = f64::from(2 * k) + 0.5;
                 let (x0, x1) = outline.chord(y)?;
-                Some(Chord { x0: x0 as f32, x1: x1 as f32, y: y as f32, cut: false })
+                Some(Chord::new(x0 as f32, x1 as f32, y as f32, false))
             })
             .collect()
     }
@@ -299,7 +299,7 @@ mod tests {
             (0..rows)
                 .map(|k| {
                     let x0 = 50.0 + slant * k as f32;
-                    Chord { x0, x1: x0 + width, y: 20.5 + 2.0 * k as f32, cut: false }
+                    Chord::new(x0, x0 + width, 20.5 + 2.0 * k as f32, false)
                 })
                 .collect()
         };
@@ -315,7 +315,7 @@ mod tests {
         let bulging: Vec<Chord> = (0..20)
             .map(|k| {
                 let half = (400.0 - 0.05 * (2.0 * k as f32 - 19.0).powi(2)).sqrt();
-                Chord { x0: 100.0 - half, x1: 100.0 + half, y: 60.5 + 2.0 * k as f32, cut: false }
+                Chord::new(100.0 - half, 100.0 + half, 60.5 + 2.0 * k as f32, false)
             })
             .collect();
         assert_eq!(test(&bulging, &LIMITS).unwrap_err().reason, Reason::NotAnEllipse);
@@ -325,7 +325,7 @@ mod tests {
     fn a_few_rows_show_whether_an_ellipse_is_too_flat() {
         let rows = |count: usize, width: f32, lean: f32| -> Vec<Chord> {
             let x = |k: usize| 100.0 + lean * 2.0 * k as f32;
-            (0..count).map(|k| Chord { x0: x(k), x1: x(k) + width, y: 20.5 + 2.0 * k as f32, cut: false }).collect()
+            (0..count).map(|k| Chord::new(x(k), x(k) + width, 20.5 + 2.0 * k as f32, false)).collect()
         };
         // two rows stand for up to six: a circle of six pixels, an ellipse of twenty by six upright, a bar, a slanted stroke
         assert!((fattest(&rows(2, 6.0, 0.0), 2.0) - 1.0).abs() < 1e-9);

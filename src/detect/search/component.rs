@@ -4,7 +4,8 @@
 //! every row meets it in one run, so a component that is a target is a chain. Where a run meets two runs of the row
 //! above, or two runs meet one, the chains end and new ones begin: touching neighbours come apart by themselves, and what
 //! is left of each still shows most of an outline. Two runs with little between them, in the middle of what is above, are
-//! one: the spot in the dot of a printed code, a scratch, a hot pixel. Only the runs of unfinished chains are held.
+//! one: the spot in the dot of a printed code, a scratch, a hot pixel. Where that gives no outline they are taken as two after
+//! all. Only the runs of unfinished chains are held.
 
 use super::scan::Edge;
 use crate::detect::acceptance::blob::{APART, LINKED, SPOT};
@@ -18,6 +19,18 @@ pub(crate) struct Chord {
     pub y: f32,
     /// One end is the border of the picture.
     pub cut: bool,
+    /// Ends of a spot that lies in it; both the same where there is none.
+    pub spot: [f32; 2],
+}
+
+impl Chord {
+    pub fn new(x0: f32, x1: f32, y: f32, cut: bool) -> Self {
+        Self { x0, x1, y, cut, spot: [x0; 2] }
+    }
+
+    fn spotted(&self) -> bool {
+        self.spot[0] < self.spot[1]
+    }
 }
 
 /// Runs of one polarity between edges of a row; the border of the picture ends a run too.
@@ -26,7 +39,7 @@ pub(crate) fn runs(edges: &[Edge], bright: bool, width: usize, y: f32, out: &mut
     out.clear();
     let mut push = |x0: f32, x1: f32, cut| {
         if x1 > x0 {
-            out.push(Chord { x0, x1, y, cut });
+            out.push(Chord::new(x0, x1, y, cut));
         }
     };
     let (Some(first), Some(last)) = (edges.first(), edges.last()) else { return };
@@ -66,7 +79,7 @@ fn alike(run: &Chord, above: &Active) -> bool {
 /// The run of which a spot in the middle of a target leaves these two. Their outer ends go on from those above: an arc and the
 /// dot that it surrounds are two things.
 fn around_a_spot(left: &Chord, right: &Chord, above: &Active) -> Option<Chord> {
-    let whole = Chord { x1: right.x1, cut: left.cut || right.cut, ..*left };
+    let whole = Chord { x1: right.x1, cut: left.cut || right.cut, spot: [left.x1, right.x0], ..*left };
     let length = whole.x1 - whole.x0;
     let aside = (right.x0 + left.x1) - (above.x0 + above.x1);
     let small = right.x0 - left.x1 < SPOT[0] * length && aside.abs() < 2.0 * SPOT[1] * length;
@@ -86,6 +99,8 @@ pub(crate) struct Linker {
     chains: Vec<Vec<Chord>>,
     free: Vec<usize>,
     max_rows: usize,
+    /// Whether two runs may be one with a spot in it.
+    spots: bool,
 }
 
 impl Linker {
@@ -98,6 +113,7 @@ impl Linker {
             chains: Vec::new(),
             free: Vec::new(),
             max_rows: max_rows.max(1),
+            spots: true,
         }
     }
 
@@ -126,7 +142,11 @@ impl Linker {
             }
             let mut run = *run;
             let mut continues = count == 1 && self.active[partner].meets == 1 && alike(&run, &self.active[partner]);
-            if count == 1 && self.active[partner].meets == 2 && self.meets.get(i + 1) == Some(&(1, partner)) {
+            if self.spots
+                && count == 1
+                && self.active[partner].meets == 2
+                && self.meets.get(i + 1) == Some(&(1, partner))
+            {
                 let above = &self.active[partner];
                 // Neighbours that touch part as well, below the row in which they met.
                 let begun = self.chains[above.chain].len() > 1;
@@ -168,6 +188,21 @@ impl Linker {
     }
 }
 
+/// Gives the chains that a chain with spots is where nothing is taken for a spot; whether it had any.
+pub(crate) fn apart(chain: &[Chord], finish: &mut dyn FnMut(&[Chord])) -> bool {
+    if !chain.iter().any(Chord::spotted) {
+        return false;
+    }
+    let mut linker = Linker { spots: false, ..Linker::new(chain.len()) };
+    let mut finish = |part: &[Chord]| finish(part);
+    for row in chain {
+        let sides = [Chord::new(row.x0, row.spot[0], row.y, row.cut), Chord::new(row.spot[1], row.x1, row.y, row.cut)];
+        linker.row(if row.spotted() { &sides } else { std::slice::from_ref(row) }, &mut finish);
+    }
+    linker.end(&mut finish);
+    true
+}
+
 #[cfg(test)]
 mod tests {
     #[cfg(target_arch = "wasm32")]
@@ -179,7 +214,7 @@ mod tests {
         let mut linker = Linker::new(100);
         let mut lengths = Vec::new();
         for (y, row) in rows.iter().enumerate() {
-            let runs: Vec<Chord> = row.iter().map(|&(x0, x1)| Chord { x0, x1, y: y as f32, cut: false }).collect();
+            let runs: Vec<Chord> = row.iter().map(|&(x0, x1)| Chord::new(x0, x1, y as f32, false)).collect();
             linker.row(&runs, &mut |chain| lengths.push(chain.len()));
         }
         linker.end(&mut |chain| lengths.push(chain.len()));
@@ -209,6 +244,26 @@ mod tests {
     }
 
     #[test]
+    fn without_spots_a_chain_comes_apart_again() {
+        let rows: [&[(f32, f32)]; 5] =
+            [&[(2.0, 14.0)], &[(1.0, 15.0)], &[(1.0, 7.2), (8.8, 15.0)], &[(1.0, 7.0)], &[(1.0, 6.0)]];
+        let mut linker = Linker::new(100);
+        let mut whole = Vec::new();
+        for (y, row) in rows.iter().enumerate() {
+            let runs: Vec<Chord> = row.iter().map(|&(x0, x1)| Chord::new(x0, x1, y as f32, false)).collect();
+            linker.row(&runs, &mut |chain| whole.push(chain.to_vec()));
+        }
+        linker.end(&mut |chain| whole.push(chain.to_vec()));
+        assert_eq!(whole.iter().map(Vec::len).collect::<Vec<_>>(), [5]);
+        let mut parts = Vec::new();
+        assert!(apart(&whole[0], &mut |part| parts.push(part.to_vec())));
+        // above the spot, right of it, and left of it with what is below
+        assert_eq!(parts.iter().map(Vec::len).collect::<Vec<_>>(), [2, 1, 3]);
+        assert_eq!((parts[2][0].x1, parts[2][2].x1), (7.2, 6.0));
+        assert!(!apart(&parts[2], &mut |_| panic!("it has none")));
+    }
+
+    #[test]
     fn a_background_run_does_not_become_a_target() {
         assert_eq!(chains(&[&[(0.0, 100.0)], &[(40.0, 50.0)], &[(38.0, 52.0)], &[(0.0, 100.0)]]), [1, 2, 1]);
     }
@@ -218,14 +273,14 @@ mod tests {
         let mut linker = Linker::new(100);
         let mut lengths = Vec::new();
         for (y, x1, cut) in [(0, 60.0, true), (1, 30.0, false), (2, 32.0, false), (3, 31.0, false)] {
-            linker.row(&[Chord { x0: 10.0, x1, y: y as f32, cut }], &mut |chain| lengths.push(chain.len()));
+            linker.row(&[Chord::new(10.0, x1, y as f32, cut)], &mut |chain| lengths.push(chain.len()));
         }
         linker.end(&mut |chain| lengths.push(chain.len()));
         assert_eq!(lengths, [1, 3]);
         // a large target that the border cuts stays whole
         let mut cut = Linker::new(100);
         for (y, x1) in [(0, 57.0), (1, 59.5), (2, 60.0), (3, 60.0)] {
-            cut.row(&[Chord { x0: 10.0, x1, y: y as f32, cut: x1 == 60.0 }], &mut |_| panic!("it ended"));
+            cut.row(&[Chord::new(10.0, x1, y as f32, x1 == 60.0)], &mut |_| panic!("it ended"));
         }
     }
 

@@ -184,7 +184,7 @@ mod tests {
     fn chain(chord: impl Fn(f64) -> Option<(f64, f64)>) -> Vec<Chord> {
         let row = |k: i32| {
             let y = f64::from(2 * k) + 0.5;
-            chord(y).map(|(x0, x1)| Chord { x0: x0 as f32, x1: x1 as f32, y: y as f32, cut: false })
+            chord(y).map(|(x0, x1)| Chord::new(x0 as f32, x1 as f32, y as f32, false))
         };
         (0..100).filter_map(row).collect()
     }
