@@ -186,7 +186,40 @@ pub struct Quality {
     /// Safety of the code reading, 0 (a coin toss) to 1.
     pub code_margin: Option<f64>,
     /// Why a ring was seen but not read.
-    pub code_note: Option<String>,
+    #[serde(deserialize_with = "known_note")]
+    pub code_note: Option<CodeNote>,
+}
+
+/// Why a ring was seen but not read. The serialised names are part of the JavaScript face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CodeNote {
+    /// The ring is set all around.
+    AllSet,
+    /// The bits are no code of the family.
+    NoCode,
+    /// Something lies beside the ring or on it.
+    Disturbed,
+    /// A sector lies between light and dark.
+    BetweenLevels,
+    /// The sectors may be those of another family.
+    OtherFamily,
+    /// The ring is a code of several families.
+    SeveralFamilies,
+}
+
+/// Kept measurements have sentences here that earlier versions wrote: those say nothing any more.
+fn known_note<'de, D: serde::Deserializer<'de>>(value: D) -> Result<Option<CodeNote>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Note {
+        Known(CodeNote),
+        Other(serde::de::IgnoredAny),
+    }
+    Ok(match Option::<Note>::deserialize(value)? {
+        Some(Note::Known(note)) => Some(note),
+        Some(Note::Other(_)) | None => None,
+    })
 }
 
 /// One way to read a ring.

@@ -183,7 +183,7 @@ fn looked_at(shot: &Shot, found: &Detection, taken: &Taken, print: &str) -> Tabl
                 .filter(|blob| (blob.u - u).hypot(blob.v - v) < 0.5 * b)
                 .map(|blob| (blob.reason, (10.0 * blob.diameter).round() / 10.0))
                 .collect();
-            let note = seen.found(targets).and_then(|target| target.quality.code_note.clone());
+            let note = seen.found(targets).and_then(|target| target.quality.code_note);
             println!(
                 "{what} {print} at {u:.1} {v:.1}: {a:.1} x {b:.1} px, {degrees:.0} deg, {why:?} {note:?}, {taken:.2?}"
             );

@@ -20,7 +20,7 @@ use std::cell::OnceCell;
 
 use super::acceptance::code as limits;
 use super::outline::Outline;
-use crate::detection::{Codes, Polarity, Target};
+use crate::detection::{CodeNote, Codes, Polarity, Target};
 use crate::image::{Plane, Sample};
 use crate::ring_code::{Design, Family, smallest_rotation};
 use polar::Frame;
@@ -38,9 +38,9 @@ pub(super) enum Reading {
     /// A ring that is safely one code.
     Code { number: u32, margin: f64 },
     /// A ring that may be one of these codes, and why it is not safely read.
-    Doubtful { numbers: Vec<u32>, margin: f64, note: &'static str },
+    Doubtful { numbers: Vec<u32>, margin: f64, note: CodeNote },
     /// A ring, and why it is no code.
-    NoCode { margin: f64, note: &'static str },
+    NoCode { margin: f64, note: CodeNote },
 }
 
 /// Whether the dots of these codes have spots in their centres.
@@ -187,19 +187,15 @@ fn judge(family: Family, radial: &Radial, divisions: &Divisions) -> Reading {
     numbers.sort_unstable();
     numbers.dedup();
     if numbers.is_empty() {
-        let note = if division.bits.count_ones() as usize == n {
-            "the ring is set all around"
-        } else {
-            "the bits are no code of the family"
-        };
+        let note = if division.bits.count_ones() as usize == n { CodeNote::AllSet } else { CodeNote::NoCode };
         return Reading::NoCode { margin, note };
     }
     let note = if in_doubt.iter().any(|k| disturbed(*k)) {
-        "something lies beside the ring or on it"
+        CodeNote::Disturbed
     } else if !in_doubt.is_empty() {
-        "a sector lies between light and dark"
+        CodeNote::BetweenLevels
     } else if ratio > limits::AS_GOOD || radial.off_grid(division) > 1.0 {
-        "the sectors may be those of another family"
+        CodeNote::OtherFamily
     } else {
         return Reading::Code { number: numbers[0], margin };
     };

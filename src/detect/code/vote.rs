@@ -5,7 +5,7 @@
 //! counts with whatever family the other rings show.
 
 use super::{Reading, read};
-use crate::detection::{CodeCandidate, Codes, Target};
+use crate::detection::{CodeCandidate, CodeNote, Codes, Target};
 use crate::image::{Plane, Sample};
 use crate::ring_code::Family;
 
@@ -62,18 +62,18 @@ fn enter(target: &mut Target, families: &[Family], readings: Vec<Reading>, chose
                 let candidate = |number| CodeCandidate { family: *family, number, margin: 0.0 };
                 target.code_candidates.extend(numbers.into_iter().map(candidate));
                 target.quality.code_margin = Some(margin);
-                target.quality.code_note = Some(note.to_owned());
+                target.quality.code_note = Some(note);
             }
             Reading::Doubtful { .. } => {}
             Reading::NoCode { margin, note } => {
                 if chosen == Some(k) || families.len() == 1 {
                     target.quality.code_margin = Some(margin);
-                    target.quality.code_note = Some(note.to_owned());
+                    target.quality.code_note = Some(note);
                 }
             }
         }
     }
     if target.code.is_none() && chosen.is_none() && several {
-        target.quality.code_note = Some("the ring is a code of several families".to_owned());
+        target.quality.code_note = Some(CodeNote::SeveralFamilies);
     }
 }

@@ -5,7 +5,7 @@ use crate::support::data::data;
 use crate::support::painter::Uniform;
 use sightline::decode;
 use sightline::detect::detect;
-use sightline::detection::{Channel, Codes, DetectOptions, Detection, Reason};
+use sightline::detection::{Channel, CodeNote, Codes, DetectOptions, Detection, Quality, Reason};
 use sightline::image::{GreyView, SamplesView};
 use sightline::noise::Noise;
 use sightline::ring_code::Family;
@@ -261,4 +261,13 @@ fn photos_of_dots_and_of_anything_have_no_code() {
         assert!(read.is_empty(), "{name}: {read:?}");
         assert_eq!(with.targets.len(), without.targets.len(), "{name}: codes took targets away");
     }
+}
+
+#[test]
+fn notes_that_are_not_known_say_nothing() {
+    let note = |text: &str| serde_json::from_str::<Quality>(text).map(|quality| quality.code_note);
+    assert_eq!(note(r#"{"code_note": "all_set"}"#).ok(), Some(Some(CodeNote::AllSet)));
+    assert_eq!(note(r#"{"code_note": "the ring is set all around"}"#).ok(), Some(None));
+    assert_eq!(note(r#"{"code_note": null}"#).ok(), Some(None));
+    assert_eq!(note("{}").ok(), Some(None));
 }

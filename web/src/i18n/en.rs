@@ -223,6 +223,13 @@ declare! { desk {
     rotation: "rotation";
     contrast: "contrast";
     edge_width: "edge width";
+    code_not_read: "code not read";
+    code_all_set: "the ring is set all around";
+    code_no_code: "its bits are no code of the family";
+    code_disturbed: "something lies beside the ring or on it";
+    code_between_levels: "a sector lies between light and dark";
+    code_other_family: "its sectors may be those of another family";
+    code_several_families: "it is a code of several families";
     picture_sharpened(percent, radius): "sharpened by {percent} % (radius {radius} px)";
     picture_overexposed(percent): "{percent} % over-exposed";
     picture_black(percent): "{percent} % without light";

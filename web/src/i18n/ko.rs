@@ -216,6 +216,13 @@ translate! { Korean desk {
     rotation: "회전";
     contrast: "대비";
     edge_width: "경계 폭";
+    code_not_read: "코드를 읽지 못한 까닭";
+    code_all_set: "링이 끊김 없이 이어져 있음";
+    code_no_code: "이 종류에 없는 비트 배열";
+    code_disturbed: "링 위나 옆에 다른 것이 있음";
+    code_between_levels: "밝기가 흑백 사이인 구획이 있음";
+    code_other_family: "다른 코드 종류의 구획일 수 있음";
+    code_several_families: "여러 종류의 코드에 해당함";
     picture_sharpened(percent, radius): "선명화 {percent} %(반경 {radius} px)";
     picture_overexposed(percent): "밝은 쪽 포화 {percent} %";
     picture_black(percent): "어두운 쪽 포화 {percent} %";

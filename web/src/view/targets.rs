@@ -1,7 +1,7 @@
 //! Step 2: targets found in the photos, shown as what they are, each with its centre, sigma and outline.
 
 use leptos::prelude::*;
-use sightline::detection::{Channel, Codes, Method, PictureReport, Polarity, PolarityChoice, Reason, Target};
+use sightline::detection::{Channel, CodeNote, Codes, Method, PictureReport, Polarity, PolarityChoice, Reason, Target};
 use sightline::ring_code::Family;
 
 use super::apart::ColoursApart;
@@ -272,11 +272,23 @@ pub fn TargetDetails() -> impl IntoView {
                             let numbers = t.code_candidates.iter().map(|c| c.number.to_string()).collect::<Vec<_>>();
                             view! { <dt>{text::code_candidates}</dt><dd>{numbers.join(", ")}</dd> }
                         })}
+                        {t.quality.code_note.map(|note| view! { <dt>{text::code_not_read}</dt><dd data-result="code-note">{move || code_note(note)}</dd> })}
                         <dt>{text::edge_width}</dt><dd>{format!("{} px", format::fixed(t.quality.edge_width, 2))}</dd>
                     </dl>
                 }.into_any()
             }
         }}
+    }
+}
+
+fn code_note(note: CodeNote) -> &'static str {
+    match note {
+        CodeNote::AllSet => text::code_all_set(),
+        CodeNote::NoCode => text::code_no_code(),
+        CodeNote::Disturbed => text::code_disturbed(),
+        CodeNote::BetweenLevels => text::code_between_levels(),
+        CodeNote::OtherFamily => text::code_other_family(),
+        CodeNote::SeveralFamilies => text::code_several_families(),
     }
 }
 
