@@ -20,6 +20,7 @@ mod ellipse;
 mod measure;
 mod median;
 mod normal;
+mod part;
 mod picture;
 mod rendered;
 mod search;

@@ -1,6 +1,7 @@
 //! One target at a click: found in a window, at growing sizes, and measured in the photo.
 
 use super::measure::{Found, Measure};
+use super::part::Part;
 use super::picture::noise;
 use super::{Outline, Plane, code, search};
 use crate::detection::{DetectOptions, Method, MethodResult, Target};
@@ -34,27 +35,6 @@ fn in_ordinary<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptio
         let hit = shifted.filter_map(|target| away(&target).map(|distance| (distance, target)));
         hit.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, target)| target)
     })
-}
-
-/// A window of a picture around a place.
-struct Part<T> {
-    left: usize,
-    top: usize,
-    width: usize,
-    height: usize,
-    samples: Vec<T>,
-}
-
-impl<T: Sample> Part<T> {
-    fn of(plane: &Plane<T>, u: f64, v: f64, size: usize) -> Self {
-        let (left, width) = window(u, size, plane.width);
-        let (top, height) = window(v, size, plane.height);
-        let mut samples = Vec::with_capacity(width * height);
-        for y in top..top + height {
-            samples.extend_from_slice(&plane.row(y)[left..left + width]);
-        }
-        Self { left, top, width, height, samples }
-    }
 }
 
 /// Every method's measurement of the target under the click.
@@ -108,11 +88,4 @@ fn at<T: Sample, R>(
         }
     }
     None
-}
-
-/// First pixel and number of pixels of a window around a place.
-fn window(place: f64, size: usize, whole: usize) -> (usize, usize) {
-    let start = (place - size as f64 / 2.0).max(0.0) as usize;
-    let start = start.min(whole.saturating_sub(size));
-    (start, size.min(whole - start))
 }

@@ -28,6 +28,7 @@ use radial::Radial;
 use sectors::Division;
 
 pub(super) use parts::{drop_parts, settle_grounds};
+pub(super) use radial::contrast;
 pub(super) use vote::{read_all, read_in};
 
 /// What was read around a dot.

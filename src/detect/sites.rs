@@ -4,6 +4,7 @@
 //! pictures, and measured on these sites alone: no sample is interpolated, every one has its own place and its own standard error
 //! ([`noise`]), and what the white level clips says no more than that ([`fit`]).
 
+mod codes;
 mod curve;
 mod fit;
 mod noise;
@@ -19,6 +20,7 @@ use crate::detection::{
 use crate::error::{Error, Place, Reason as Wrong, Result};
 use crate::image::{Grey, GreyView, Plane, Samples, SamplesView};
 use crate::sensor::{Sensor, measured_colour};
+use curve::Curve;
 use noise::NoiseModel;
 
 /// The sites of one colour, with all that a fit needs to know of them.
@@ -78,8 +80,10 @@ impl<'a> Sites<'a> {
 /// As for [`detect`](super::detect).
 pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<Detection> {
     let sites = Sites::of(sensor, options);
-    let (photo, hot) = searched(&sites)?;
+    let (photo, curve, hot) = searched(&sites)?;
     let mut detection = detect_photo(&photo, options)?;
+    codes::read_in_light(&photo, &curve, &mut detection.targets, options.codes);
+    super::code::drop_parts(&mut detection);
     let shift = [sites.lit[0] as f64, sites.lit[1] as f64];
     for blob in &mut detection.rejected_blobs {
         (blob.u, blob.v) = (blob.u + shift[0], blob.v + shift[1]);
@@ -114,7 +118,7 @@ pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<
 /// As for [`measure_at`](super::measure_at).
 pub(super) fn measure_in_sensor(sensor: &Sensor, u: f64, v: f64, options: &DetectOptions) -> Result<Option<Target>> {
     let sites = Sites::of(sensor, options);
-    let (photo, _) = searched(&sites)?;
+    let (photo, curve, _) = searched(&sites)?;
     let shift = [sites.lit[0] as f64, sites.lit[1] as f64];
     let whole = [(u, sensor.width, "u"), (v, sensor.height, "v")];
     if let Some((value, size, name)) =
@@ -128,7 +132,8 @@ pub(super) fn measure_in_sensor(sensor: &Sensor, u: f64, v: f64, options: &Detec
         // in the masked border, where no light falls
         return Ok(None);
     }
-    let Some(target) = measure_in_photo(&photo, u - shift[0], v - shift[1], options)? else { return Ok(None) };
+    let Some(mut target) = measure_in_photo(&photo, u - shift[0], v - shift[1], options)? else { return Ok(None) };
+    codes::read_in_light(&photo, &curve, std::slice::from_mut(&mut target), options.codes);
     Ok(sites.measured(&view, target, options, &mut Field::default()).ok())
 }
 
@@ -142,7 +147,7 @@ pub(super) fn measured_again(
     options: &DetectOptions,
 ) -> Result<Vec<Option<Target>>> {
     let sites = Sites::of(sensor, options);
-    let (photo, _) = searched(&sites)?;
+    let (photo, ..) = searched(&sites)?;
     let view = photo.grey.view()?;
     let mut field = Field::default();
     let again = |target: &Target| {
@@ -152,14 +157,15 @@ pub(super) fn measured_again(
     Ok(targets.iter().map(again).collect())
 }
 
-/// The grey picture of the search, of the lit part; how many hot sites were left out of it.
-fn searched(sites: &Sites) -> Result<(Photo, usize)> {
-    let (samples, hot) = plane::of(sites);
+/// The grey picture of the search, of the lit part, with the curve of its levels; how many hot sites were left out of it.
+fn searched(sites: &Sites) -> Result<(Photo, Curve, usize)> {
+    let curve = Curve::of(sites);
+    let (samples, hot) = plane::of(sites, &curve);
     let [left, top, right, bottom] = sites.lit;
     let grey = Grey { width: right - left, height: bottom - top, samples: Samples::U16(samples) };
     let inside = |row: u32| (row as usize).clamp(top, bottom) - top;
     let rows = sites.sensor.damaged_rows.iter().map(|rows| rows.map(|row| inside(row) as u32));
-    Ok((Photo { grey, damaged_rows: rows.filter(|rows| rows[0] < rows[1]).collect() }, hot))
+    Ok((Photo { grey, damaged_rows: rows.filter(|rows| rows[0] < rows[1]).collect() }, curve, hot))
 }
 
 impl Sites<'_> {

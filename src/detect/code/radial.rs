@@ -21,6 +21,8 @@ use crate::ring_code::Design;
 
 /// Radii of the dot where its level is taken: clear of a spot in its centre and of its rim.
 const INSIDE: [f64; 3] = [0.3, 0.5, 0.7];
+/// Radii between the dot and every family's ring.
+const GAP: [f64; 3] = [1.4, 1.5, 1.6];
 /// Where the first sample lies, and how far outside of the ring the ground must be clear.
 const START: f64 = 1.2;
 const GROUND: f64 = 0.42;
@@ -44,13 +46,24 @@ pub(super) struct Radial {
     pub misfit: f64,
 }
 
+/// Level of the dot less that of the gap around it, where both are free of the rim.
+pub(in crate::detect) fn contrast<T: Sample>(plane: &Plane<T>, target: &Target) -> f64 {
+    let frame = Frame::new(outline_of(target), 0.0);
+    (median(plane, &frame, INSIDE) - median(plane, &frame, GAP)).abs()
+}
+
 /// Median level of the dot between its centre and its rim.
 fn inside<T: Sample>(plane: &Plane<T>, frame: &Frame) -> f64 {
+    median(plane, frame, INSIDE)
+}
+
+/// Median level at these radii.
+fn median<T: Sample>(plane: &Plane<T>, frame: &Frame, radii: [f64; 3]) -> f64 {
     const AROUND: usize = 24;
-    let mut levels = Vec::with_capacity(INSIDE.len() * AROUND);
+    let mut levels = Vec::with_capacity(radii.len() * AROUND);
     for k in 0..AROUND {
         let (s, c) = (std::f64::consts::TAU * k as f64 / AROUND as f64).sin_cos();
-        levels.extend(INSIDE.map(|radius| {
+        levels.extend(radii.map(|radius| {
             let [x, y] = frame.place(radius, [c, s]);
             plane.sample(x as f32, y as f32)
         }));

@@ -14,6 +14,10 @@ pub(super) struct Curve {
     /// Light of the first level, and levels for a unit of light.
     from: f32,
     per_unit: f32,
+    gain: f64,
+    read: f64,
+    /// Root of the least and of the most light.
+    ends: [f64; 2],
 }
 
 impl Curve {
@@ -38,7 +42,25 @@ impl Curve {
             levels: (0..ENTRIES).map(level).collect(),
             from: dark as f32,
             per_unit: ((ENTRIES - 1) as f64 / span) as f32,
+            gain,
+            read,
+            ends: [low, high],
         }
+    }
+
+    /// What each level is in light, in 16 bits again.
+    pub(super) fn undone(&self) -> Vec<u16> {
+        let Self { gain, read, ends: [low, high], .. } = *self;
+        let zero = 2.0 * read.sqrt() / gain;
+        let light = |root: f64| {
+            if root < zero { (root - zero) * read.sqrt() } else { ((0.5 * gain * root).powi(2) - read) / gain }
+        };
+        let (dark, white) = (light(low), light(high));
+        let of = |level: usize| {
+            let root = low + (high - low) * level as f64 / WHITE;
+            (WHITE * (light(root) - dark) / (white - dark)).round().clamp(0.0, WHITE) as u16
+        };
+        (0..=WHITE as usize).map(of).collect()
     }
 
     /// The level of light.

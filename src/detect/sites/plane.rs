@@ -17,10 +17,10 @@ const LAST: f64 = 0.02;
 const NEAR: usize = 2;
 
 /// A picture of the lit part, and how many sites are hot.
-pub(super) fn of(sites: &Sites) -> (Vec<u16>, usize) {
+pub(super) fn of(sites: &Sites, curve: &Curve) -> (Vec<u16>, usize) {
     let [left, top, right, bottom] = sites.lit;
     let (width, height) = (right - left, bottom - top);
-    let (curve, taps) = (Curve::of(sites), taps(sites));
+    let taps = taps(sites);
     let reach = taps.len() - 1;
     let (mut light, mut row_sums) = (Lines::of(sites, 2 * (reach + NEAR) + 1), vec![0f32; width + 2 * reach]);
     let mut weights = Weights::of(sites, &taps);
@@ -35,7 +35,7 @@ pub(super) fn of(sites: &Sites) -> (Vec<u16>, usize) {
             row.checked_sub(step).into_iter().for_each(|above| add(sums, light.row(above), *tap));
             (row + step < height).then(|| add(sums, light.row(row + step), *tap));
         }
-        across(line, &row_sums, &taps, weights.of_row(row), &curve);
+        across(line, &row_sums, &taps, weights.of_row(row), curve);
     }
     (samples, light.hot)
 }
