@@ -1,9 +1,10 @@
 //! Ring codes read from pictures drawn at random (`tests/engine/support/coded_patch.rs`): how many are read, how many wrongly.
 //!
-//!   cargo bench --package sightline --bench codes -- [pictures] [seed] [kind]
+//!   cargo bench --package sightline --bench codes -- [pictures] [seed] [kind] [camera]
 //!   cargo bench --package sightline --bench codes -- state STATE KIND FAMILY [FILE]
 //!
-//! The second draws one picture again that the first has told of, and writes it as a PGM.
+//! With `camera` levels follow light as in the pictures that cameras make. The second draws one picture again that the first has told
+//! of, and writes it as a PGM.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -19,7 +20,7 @@ mod coded_patch;
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
 mod painter;
 
-use coded_patch::{CodedPatch, Kind, coded_patch};
+use coded_patch::{CodedPatch, Curve, Kind, coded_patch};
 use painter::Uniform;
 
 /// Pictures after which it is told how far it has come.
@@ -51,9 +52,11 @@ impl Tally {
 }
 
 fn main() {
-    let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let mut words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let curve = if words.iter().any(|word| word == "camera") { Curve::Camera } else { Curve::Flat };
+    words.retain(|word| word != "camera");
     if words.first().is_some_and(|word| word == "state") {
-        return again(&words[1..]);
+        return again(&words[1..], curve);
     }
     let number = |k: usize, otherwise: u64| words.get(k).and_then(|word| word.parse().ok()).unwrap_or(otherwise);
     let (pictures, seed) = (number(0, 200_000), number(1, 1));
@@ -69,7 +72,7 @@ fn main() {
         let kind = if k % 2 == 0 { Kind::Code } else { Kind::ALL[1 + (k / 2) as usize % (Kind::ALL.len() - 1)] };
         let family = Family::ALL[(random.next() * 8.0) as usize % 8];
         let before = random.0;
-        let patch = coded_patch(kind, family, &mut random);
+        let patch = coded_patch(kind, family, curve, &mut random);
         if k > 0 && k % PROGRESS == 0 {
             let sum = |of: fn(&Tally) -> usize| by_kind.values().map(of).sum::<usize>();
             println!(
@@ -110,11 +113,11 @@ fn main() {
 }
 
 /// One picture again, with all that is found in it.
-fn again(words: &[String]) {
+fn again(words: &[String], curve: Curve) {
     let [state, kind, family, file @ ..] = words else { panic!("state STATE KIND FAMILY [FILE]") };
     let kind = Kind::ALL.into_iter().find(|one| format!("{one:?}") == *kind).expect("a kind");
     let family = Family::ALL.into_iter().find(|one| format!("{one:?}") == *family).expect("a family");
-    let patch = coded_patch(kind, family, &mut Uniform(state.parse().expect("a number")));
+    let patch = coded_patch(kind, family, curve, &mut Uniform(state.parse().expect("a number")));
     let options = DetectOptions { codes: Codes::from(family), ..DetectOptions::default() };
     println!("dot at {:.2} {:.2}, axes {:.2?}", patch.u, patch.v, patch.axes);
     for target in detect(&patch.view(), &options).expect("valid options").targets {

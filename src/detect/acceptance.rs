@@ -414,6 +414,9 @@ pub(crate) mod code {
         BEYOND: f64 = 0.25, Judged "half a ring of the narrower design";
         /// Largest size of the spot in the centre of a code's dot, in radii of the dot.
         SPOT: f64 = 0.16, Judged "0.09 by its maker, and what blur adds";
+        /// Power of the level that is light again, and the least axis of a dot in pixels from which that makes no difference.
+        TONE: f64 = 2.2, Judged "the curve of sRGB, which cameras follow about";
+        TONE_SMALL: f64 = 40.0, Derived "half a pixel is less than a twentieth of a sector of 20";
     }
 }
 

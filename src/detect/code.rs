@@ -10,6 +10,7 @@
 //! candidates. A margin is a level's distance from half-way, 1 when it is as clear as dot and background; the code's
 //! margin is that of its worst sector.
 
+mod light;
 mod parts;
 mod polar;
 mod radial;
@@ -27,6 +28,7 @@ use polar::Frame;
 use radial::Radial;
 use sectors::Division;
 
+pub(super) use light::around;
 pub(super) use parts::{drop_parts, settle_grounds};
 pub(super) use radial::contrast;
 pub(super) use vote::{read_all, read_in};
@@ -56,24 +58,51 @@ pub(super) fn outline_of(target: &Target) -> Outline {
 
 /// Reads the ring around a target, whose edges have this blur in the picture, as a code of each of the families.
 pub(super) fn read<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, families: &[Family]) -> Vec<Reading> {
-    let mut readings = vec![Reading::Plain; families.len()];
     if !radial::may_have_ring(plane, target) {
-        return readings;
+        return vec![Reading::Plain; families.len()];
     }
+    // whether the levels are light or a camera's tone curve has bent them: each family is judged by what explains it best
+    let bent = light::of(plane, target, blur);
+    read_tones(families, |design| {
+        let size = plane.width.max(plane.height);
+        let as_is = straightest(plane, target, blur, design, size);
+        let bent = bent.as_ref().and_then(|(part, target)| straightest(&part.plane(), target, blur, design, size));
+        as_is.into_iter().chain(bent).collect()
+    })
+}
+
+/// The same in a part of a picture of this size whose levels are known to be light.
+pub(super) fn read_light<T: Sample>(
+    part: &Plane<T>,
+    target: &Target,
+    size: usize,
+    families: &[Family],
+) -> Vec<Reading> {
+    if !radial::may_have_ring(part, target) {
+        return vec![Reading::Plain; families.len()];
+    }
+    let blur = target.quality.edge_width;
+    read_tones(families, |design| straightest(part, target, blur, design, size).into_iter().collect())
+}
+
+fn read_tones(families: &[Family], rings: impl Fn(Design) -> Vec<Radial>) -> Vec<Reading> {
+    let mut readings = vec![Reading::Plain; families.len()];
     for design in [Design::Schneider, Design::Metashape] {
         if families.iter().all(|family| family.design() != design) {
             continue;
         }
-        let Some(radial) = straightest(plane, target, blur, design) else { continue };
-        let divisions = Divisions::default();
+        let tones: Vec<Tone> = rings(design).into_iter().map(|ring| (ring, Divisions::default())).collect();
         for (family, reading) in families.iter().zip(&mut readings) {
             if family.design() == design {
-                *reading = judge(*family, &radial, &divisions);
+                *reading = judge(*family, &tones);
             }
         }
     }
     readings
 }
+
+/// A ring under one tone curve, and its divisions.
+type Tone = (Radial, Divisions);
 
 /// Numbers of sectors that families have, and others that may be mistaken for them.
 const DIVISIONS: [u32; 8] = [12, 14, 16, 20, 13, 15, 18, 22];
@@ -96,11 +125,11 @@ const SHIFT: f64 = 0.1;
 ///
 /// A plane tilted by t at a distance that a target of semi-axis a px sees under a/f has a boost of a sin t / f along its slope; the
 /// slope is that of the minor axis, and f at least 0.6 picture widths.
-fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, design: Design) -> Option<Radial> {
+fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, design: Design, size: usize) -> Option<Radial> {
     let outline = outline_of(target);
     let (a, b) = outline.semi_axes();
     let sine = (1.0 - (b / a) * (b / a)).max(0.0).sqrt();
-    let largest = a * sine / (0.6 * plane.width.max(plane.height) as f64);
+    let largest = a * sine / (0.6 * size as f64);
     let [inner, outer] = design.ring();
     let moves = inner * outer - 1.0;
     if largest * moves < SHIFT {
@@ -121,8 +150,9 @@ fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, design: 
 }
 
 /// What a ring is as a code of a family, given its divisions into the sectors of every family of its design.
-fn judge(family: Family, radial: &Radial, divisions: &Divisions) -> Reading {
-    let Some(division) = divisions.of(radial, family.bits()) else { return Reading::Plain };
+fn judge(family: Family, tones: &[Tone]) -> Reading {
+    let own = tones.iter().filter_map(|(radial, divisions)| Some((radial, divisions.of(radial, family.bits())?)));
+    let Some((radial, division)) = own.min_by(|a, b| a.1.misfit.total_cmp(&b.1.misfit)) else { return Reading::Plain };
     let (low, high) = (division.low, division.high);
     let scale = high - low;
     if !limits::HIGH.contains(&high) || low.abs() > limits::LOW {
@@ -171,7 +201,8 @@ fn judge(family: Family, radial: &Radial, divisions: &Divisions) -> Reading {
     if set.iter().filter(|k| !in_doubt.contains(k)).count() < limits::SURE {
         return Reading::Plain;
     }
-    let others = DIVISIONS.into_iter().filter(|bits| *bits != family.bits()).filter_map(|n| divisions.of(radial, n));
+    let others = DIVISIONS.into_iter().filter(|bits| *bits != family.bits());
+    let others = others.flat_map(|n| tones.iter().filter_map(move |(radial, divisions)| divisions.of(radial, n)));
     let best =
         others.filter(|other| !other.same_arcs(division)).map(|other| other.misfit).fold(f64::INFINITY, f64::min);
     let ratio = (division.misfit / best).powi(2);

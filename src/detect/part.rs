@@ -25,6 +25,12 @@ impl<T: Sample> Part<T> {
     }
 }
 
+impl<T: Sample> Part<T> {
+    pub fn plane(&self) -> Plane<'_, T> {
+        Plane::new(self.width, self.height, &self.samples)
+    }
+}
+
 /// First pixel and number of pixels of a window around a place.
 fn window(place: f64, size: usize, whole: usize) -> (usize, usize) {
     let start = (place - size as f64 / 2.0).max(0.0) as usize;

@@ -48,8 +48,14 @@ pub(super) struct Radial {
 
 /// Level of the dot less that of the gap around it, where both are free of the rim.
 pub(in crate::detect) fn contrast<T: Sample>(plane: &Plane<T>, target: &Target) -> f64 {
+    let [dot, gap] = levels(plane, target);
+    (dot - gap).abs()
+}
+
+/// Level of the dot, and of the gap around it.
+pub(super) fn levels<T: Sample>(plane: &Plane<T>, target: &Target) -> [f64; 2] {
     let frame = Frame::new(outline_of(target), 0.0);
-    (median(plane, &frame, INSIDE) - median(plane, &frame, GAP)).abs()
+    [INSIDE, GAP].map(|radii| median(plane, &frame, radii))
 }
 
 /// Median level of the dot between its centre and its rim.

@@ -290,8 +290,17 @@ fn random_level(angle: f64) -> f64 {
 
 const FINE: usize = 3;
 
+/// How levels follow light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Curve {
+    /// They are light, or bent a little.
+    Flat,
+    /// As in the pictures that cameras make for screens.
+    Camera,
+}
+
 /// Draws a picture of this kind.
-pub fn coded_patch(kind: Kind, family: Family, random: &mut Uniform) -> CodedPatch {
+pub fn coded_patch(kind: Kind, family: Family, curve: Curve, random: &mut Uniform) -> CodedPatch {
     let (drawing, number) = draw(kind, family, random);
     // 7 to 40 px, small ones more often
     let radius = 3.5 * (random.next() * (40f64 / 7.0).ln()).exp();
@@ -307,7 +316,11 @@ pub fn coded_patch(kind: Kind, family: Family, random: &mut Uniform) -> CodedPat
     let noise_sigma = random.within(0.3, 0.045 * contrast);
     let dark = random.within(8.0, 50.0);
     let light = [random.within(-0.06, 0.06), random.within(-0.06, 0.06)];
-    let tone = if random.next() < 0.3 { random.within(0.7, 1.5) } else { 1.0 };
+    let tone = match curve {
+        Curve::Flat if random.next() < 0.3 => random.within(0.7, 1.5),
+        Curve::Flat => 1.0,
+        Curve::Camera => random.within(0.42, 0.5),
+    };
 
     let (squeeze, ring) = (tilt.cos(), family.design().ring());
     let half = 5.2 * radius + 10.0;
