@@ -75,7 +75,7 @@ pub fn reason(reason: &Reason) -> String {
             return format!("점 \"{name}\"의 좌표가 이 조정에서 결정되지 않았습니다. 사진 두 장 이상에서 측정하십시오");
         }
         R::FeatureUndetermined => {
-            "점들이 한곳이나 한 직선 위에 있거나 그에 너무 가까워 결정되지 않습니다. 떨어진 곳의 점을 더하십시오"
+            "점들이 한곳, 한 직선이나 한 평면 위에 있거나 그에 너무 가까워 결정되지 않습니다. 떨어진 곳의 점을 더하십시오"
         }
         R::FeatureNotFitted { name } => {
             return format!("\"{name}\": 점에 맞춘 형상이 아닙니다. 직선, 평면, 원, 구, 원통 가운데 고르십시오");
