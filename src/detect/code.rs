@@ -28,9 +28,7 @@ use polar::Frame;
 use radial::Radial;
 use sectors::Division;
 
-pub(super) use light::around;
 pub(super) use parts::{drop_parts, settle_grounds};
-pub(super) use radial::contrast;
 pub(super) use vote::{read_all, read_in};
 
 /// What was read around a dot.
@@ -62,7 +60,7 @@ pub(super) fn read<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, fami
         return vec![Reading::Plain; families.len()];
     }
     // whether the levels are light or a camera's tone curve has bent them: each family is judged by what explains it best
-    let bent = light::of(plane, target, blur);
+    let bent = light::of_screen(plane, target, blur);
     read_tones(families, |design| {
         let size = plane.width.max(plane.height);
         let as_is = straightest(plane, target, blur, design, size);
@@ -71,18 +69,19 @@ pub(super) fn read<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, fami
     })
 }
 
-/// The same in a part of a picture of this size whose levels are known to be light.
-pub(super) fn read_light<T: Sample>(
-    part: &Plane<T>,
+/// The same in a picture whose levels are a known curve of light, of which `light` is the inverse.
+pub(super) fn read_curve<T: Sample>(
+    plane: &Plane<T>,
     target: &Target,
-    size: usize,
     families: &[Family],
+    light: impl Fn(f64) -> f64,
 ) -> Vec<Reading> {
-    if !radial::may_have_ring(part, target) {
-        return vec![Reading::Plain; families.len()];
-    }
     let blur = target.quality.edge_width;
-    read_tones(families, |design| straightest(part, target, blur, design, size).into_iter().collect())
+    let found =
+        light::of(plane, target, blur, light).filter(|(part, target)| radial::may_have_ring(&part.plane(), target));
+    let Some((part, target)) = found else { return vec![Reading::Plain; families.len()] };
+    let size = plane.width.max(plane.height);
+    read_tones(families, |design| straightest(&part.plane(), &target, blur, design, size).into_iter().collect())
 }
 
 fn read_tones(families: &[Family], rings: impl Fn(Design) -> Vec<Radial>) -> Vec<Reading> {

@@ -14,14 +14,8 @@ pub(super) fn read_in_light(photo: &Photo, curve: &Curve, targets: &mut [Target]
         return;
     }
     let (plane, light) = (Plane::new(photo.grey.width, photo.grey.height, samples), curve.undone());
-    let size = plane.width.max(plane.height);
+    let light =
+        |level: f64| f64::from(light[(level.round().max(0.0) as usize).min(light.len() - 1)]) / f64::from(u16::MAX);
     targets.iter_mut().for_each(|t| (t.quality.code_margin, t.quality.code_note) = (None, None));
-    code::read_all(targets, codes, |_, target, families| {
-        let mut part = code::around(&plane, target);
-        part.samples.iter_mut().for_each(|sample| *sample = light[(*sample as usize).min(light.len() - 1)]);
-        let (u, v) = (target.u - part.left as f64, target.v - part.top as f64);
-        let mut target = Target { u, v, ..target.clone() };
-        target.contrast = code::contrast(&part.plane(), &target);
-        code::read_light(&part.plane(), &target, size, families)
-    });
+    code::read_all(targets, codes, |_, target, families| code::read_curve(&plane, target, families, light));
 }

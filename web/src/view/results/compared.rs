@@ -104,7 +104,7 @@ fn Movements(
         let unit = desk.document.with(|d| d.project.unit.clone());
         let length = |name: fn() -> &'static str| Column::number(name).unit(unit.clone());
         vec![
-            Column::words(text::id),
+            Column::words(if matches!(kind, Kind::Photos) { text::photo } else { text::id }),
             length(|| "ΔX"),
             length(|| "ΔY"),
             length(|| "ΔZ"),
