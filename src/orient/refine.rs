@@ -183,9 +183,7 @@ fn part(block: &Block, freedom: Freedom) -> Option<Project> {
             camera: block.cameras[view.camera].id.clone(),
             position: Some(pose.centre.into()),
             rotation: Some(rotation::angles(&pose.object_to_camera)),
-            interior: view.interior,
-            enabled: true,
-            ..Photo::default()
+            ..view.as_photo()
         });
     }
     for (&camera, &sights) in &cameras {

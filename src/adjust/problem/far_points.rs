@@ -86,10 +86,7 @@ fn intersection(project: &Project, point: usize, sights: &[&Observation]) -> Opt
         .iter()
         .filter_map(|o| {
             let photo = project.photos.iter().find(|p| p.id == o.photo && p.enabled)?;
-            let mut camera = project.cameras.iter().find(|c| c.id == photo.camera)?.clone();
-            if let Some(interior) = photo.interior.filter(|_| camera.per_photo) {
-                camera.interior = interior;
-            }
+            let camera = project.cameras.iter().find(|c| c.id == photo.camera)?.of_photo(photo);
             Some(Ray { pose: Pose::of_photo(photo)?, image: ideal_from_pixel(&camera, [o.u, o.v])?, weight: 1.0 })
         })
         .collect();

@@ -62,7 +62,15 @@ fn project() -> Project {
         colours: vec![PhotoColours {
             photo: project.photos[1].id.clone(),
             corner: 2500.0,
-            red: Some(ColourShift { linear: 0.7, cubic: -0.213, sigma: 0.011, rms: 0.03, targets: 187 }),
+            centre: None,
+            red: Some(ColourShift {
+                linear: 0.7,
+                cubic: -0.213,
+                sigma: 0.011,
+                rms: 0.03,
+                targets: 187,
+                ..ColourShift::default()
+            }),
             blue: None,
         }],
         ..ReportSettings::default()

@@ -48,6 +48,7 @@ pub fn brown(free: &[Parameter]) -> Camera {
         free: free.to_vec(),
         sigma: Default::default(),
         per_photo: false,
+        colours: Default::default(),
     }
 }
 
@@ -71,6 +72,7 @@ pub fn opencv(free: &[Parameter]) -> Camera {
         free: free.to_vec(),
         sigma: Default::default(),
         per_photo: false,
+        colours: Default::default(),
     }
 }
 
