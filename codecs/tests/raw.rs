@@ -469,7 +469,7 @@ fn codes_are_read_as_in_grey() {
             let in_raw = read(in_raw);
             assert!(clicked == in_raw || codes == Codes::Auto, "{clicked:?} {in_raw:?}");
             println!("{name} {codes:?}: {} of {}, {} by clicks", in_raw.len(), in_grey.len(), clicked.len());
-            // number 1 has two sectors opposite each other, whose width alone tells 14 from 12: under the wider blur it is not read
+            // the search's picture is blurred more: one small code may be lost to that
             assert!(in_grey.len() > 8 && in_raw.is_subset(&in_grey) && in_raw.len() + 1 >= in_grey.len(), "{in_raw:?}");
         }
     }
