@@ -16,16 +16,19 @@ mod solve;
 mod statistics;
 mod variance_components;
 
+use std::collections::BTreeMap;
+
 use crate::adjustment::{
     AdjustOptions, Adjustment, Advice, Iteration, Measured, ResidualPlace, StatisticsChoice, Termination,
 };
 use crate::error::Result;
 use crate::features::{self, Function};
-use crate::project::{Project, Role};
+use crate::project::{Parameter, Project, Role};
 
 use diagnosis::advice;
 use diagnosis::judgement::judgement;
 use problem::additional::LeftOut;
+pub(crate) use problem::numbering::Numbering;
 use problem::{eccentric, far_points, unmodelled};
 use report::result::Solved;
 use solve::session::{Log, RobustVariance, Session};
@@ -47,14 +50,15 @@ pub fn adjust(
     let document = project;
     let weighted = unmodelled::weighted(project, options.unmodelled)?;
     let sized = eccentric::sized(weighted, options.target_diameter)?;
-    let ready = far_points::brought_back(sized);
+    let numbering = Numbering::of(document);
+    let ready = far_points::brought_back(sized, &numbering);
     let project = ready.as_ref();
     let mut left_out = LeftOut::nothing(project);
     let mut log = Log { iterations: Vec::new(), on_iteration };
     let mut record = Vec::new();
     let mut settled = true;
-    let starts = far_points::control_starts(project);
-    let mut session = Session::new(project, &left_out)?;
+    let starts = far_points::control_starts(project, &numbering);
+    let mut session = Session::new(project, &numbering, &left_out)?;
     session.start_at(&starts);
     let searching = options.snooping || options.robust.is_some();
     let mut termination =
@@ -84,7 +88,7 @@ pub fn adjust(
         // Its own residuals show no gross error: those of a robust start do.
         adjustment.advice.retain(|advice| !matches!(advice, Advice::Suspected { .. }));
         let mut quiet = Log { iterations: Vec::new(), on_iteration: log.on_iteration };
-        let suspects = Session::new(project, &left_out).map(|mut session| {
+        let suspects = Session::new(project, &numbering, &left_out).map(|mut session| {
             session.start_at(&starts);
             session.suspects(options, &mut quiet)
         });
@@ -140,24 +144,56 @@ pub(crate) fn ending(project: &Project, options: &AdjustOptions) -> Result<(Term
     project.validate()?;
     let weighted = unmodelled::weighted(project, options.unmodelled)?;
     let sized = eccentric::sized(weighted, options.target_diameter)?;
-    let ready = far_points::brought_back(sized);
+    let numbering = Numbering::of(project);
+    let ready = far_points::brought_back(sized, &numbering);
     let project = ready.as_ref();
-    let mut session = Session::new(project, &LeftOut::nothing(project))?;
-    session.start_at(&far_points::control_starts(project));
+    let mut session = Session::new(project, &numbering, &LeftOut::nothing(project))?;
+    session.start_at(&far_points::control_starts(project, &numbering));
     let termination = session.iterate(options, &mut Log { iterations: Vec::new(), on_iteration: &mut |_| true })?;
     Ok((termination, report::values::applied(&session)))
 }
 
 /// The values alone of a sound document without circular targets, for orientations that adjust on their way: no
-/// statistics, no advice, no search for what is wrong. Ends at steps shorter than `negligible` standard errors. None
-/// where the document cannot be adjusted, its equations are singular, or nothing converges.
-pub(crate) fn values(project: &Project, max_iterations: usize, negligible: f64) -> Option<Project> {
-    let ready = far_points::brought_back(std::borrow::Cow::Borrowed(project));
+/// statistics, no advice, no search for what is wrong. It is read by its numbering and needs no names. Ends at steps shorter
+/// than `negligible` standard errors. None where the document cannot be adjusted, its equations are singular, or nothing
+/// converges.
+pub(crate) fn values(
+    project: &Project,
+    numbering: &Numbering,
+    max_iterations: usize,
+    negligible: f64,
+) -> Option<Project> {
+    let ready = far_points::brought_back(std::borrow::Cow::Borrowed(project), numbering);
     let project = ready.as_ref();
-    let mut session = Session::new(project, &LeftOut::nothing(project)).ok()?;
-    session.start_at(&far_points::control_starts(project));
+    let mut session = Session::new(project, numbering, &LeftOut::nothing(project)).ok()?;
+    session.start_at(&far_points::control_starts(project, numbering));
     let (termination, singular) = session.steps(ResidualPlace::Corrected, max_iterations, negligible, &mut |_| true);
     (!singular && termination != Termination::Diverged).then(|| report::values::applied(&session))
+}
+
+/// Standard errors of the estimated parameters of every camera of a sound document without circular targets, read by its
+/// numbering; of the first photo where each has an interior orientation of its own. None where nothing converges.
+pub(crate) fn camera_sigmas(project: &Project, numbering: &Numbering) -> Option<Vec<BTreeMap<Parameter, f64>>> {
+    let options = AdjustOptions {
+        statistics: StatisticsChoice::Precision,
+        residuals: ResidualPlace::Corrected,
+        ..AdjustOptions::default()
+    };
+    let ready = far_points::brought_back(std::borrow::Cow::Borrowed(project), numbering);
+    let project = ready.as_ref();
+    let mut session = Session::new(project, numbering, &LeftOut::nothing(project)).ok()?;
+    session.start_at(&far_points::control_starts(project, numbering));
+    let log = &mut Log { iterations: Vec::new(), on_iteration: &mut |_| true };
+    if session.iterate(&options, log).ok()? != Termination::Converged {
+        return None;
+    }
+    let solution = session.finish(&options, true).ok()?;
+    let mut sigmas = vec![BTreeMap::new(); project.cameras.len()];
+    let blocks = session.network.interiors.iter().zip(Solved::new(&session, &options, &solution).cameras());
+    for (block, adjusted) in blocks.rev() {
+        sigmas[block.camera] = adjusted.sigma;
+    }
+    Some(sigmas)
 }
 
 /// What an adjustment of the project would say of its precision, with its coordinates as they stand and a priori standard errors
@@ -169,8 +205,8 @@ pub(crate) fn values(project: &Project, max_iterations: usize, negligible: f64) 
 pub fn predict(project: &Project) -> Result<Adjustment> {
     project.validate()?;
     let options = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
-    let left_out = LeftOut::nothing(project);
-    let mut session = Session::new(project, &left_out)?;
+    let (numbering, left_out) = (Numbering::of(project), LeftOut::nothing(project));
+    let mut session = Session::new(project, &numbering, &left_out)?;
     session.robust = Some(RobustVariance { sigma0: 1.0, variance: 1.0 });
     let solution = session.finish(&options, false)?;
     let mut adjustment = Solved::new(&session, &options, &solution).adjustment();

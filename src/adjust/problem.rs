@@ -4,6 +4,7 @@ pub mod additional;
 pub mod eccentric;
 pub mod far_points;
 pub mod network;
+pub mod numbering;
 pub mod state;
 mod surface;
 pub mod unmodelled;

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::block::{Block, principal_distance_px};
-use crate::adjust::{adjust, values};
-use crate::adjustment::{AdjustOptions, Adjustment, ResidualPlace, StatisticsChoice, Termination};
+use crate::adjust::{Numbering, camera_sigmas, values};
 use crate::initial::Pose;
 use crate::project::{Camera, Datum, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
 use crate::rotation;
@@ -70,40 +69,27 @@ pub(super) fn distance_sigmas_px(block: &Block) -> Vec<Option<f64>> {
     let mut sigmas = vec![None; block.cameras.len()];
     let Some(mut part) = part(block, Freedom::Everything) else { return sigmas };
     // However weak the network: that is what is asked.
-    for camera in &mut part.cameras {
-        if let Some(k) = block.cameras.iter().position(|c| c.id == camera.id) {
-            *camera = freed(block, k, Freedom::Everything);
-        }
+    for (camera, &k) in part.project.cameras.iter_mut().zip(&part.cameras) {
+        *camera = freed(block, k, Freedom::Everything);
     }
     let distances = [Parameter::C, Parameter::F, Parameter::Fx, Parameter::Fy];
-    let options = AdjustOptions {
-        statistics: StatisticsChoice::Precision,
-        residuals: ResidualPlace::Corrected,
-        ..AdjustOptions::default()
-    };
-    let adjustment = adjust(&part, &options, &mut |_| true);
-    for camera in &part.cameras {
-        let Some(k) = block.cameras.iter().position(|c| c.id == camera.id) else { continue };
+    let found = camera_sigmas(&part.project, &part.numbering);
+    for (at, (camera, &k)) in part.project.cameras.iter().zip(&part.cameras).enumerate() {
         let Some(parameter) = distances.into_iter().find(|p| camera.free.contains(p)) else { continue };
         let unit = if parameter == Parameter::C { camera.pitch()[0] } else { 1.0 };
-        let of = |a: &Adjustment| {
-            let found = a.cameras.iter().find(|c| c.camera.id == camera.id)?;
-            found.sigma.get(&parameter).map(|s| s / unit).filter(|s| s.is_finite())
-        };
-        let converged = adjustment.as_ref().ok().filter(|a| a.termination == Termination::Converged);
-        sigmas[k] = Some(converged.and_then(of).unwrap_or(f64::INFINITY));
+        let sigma = found.as_ref().and_then(|sigmas| sigmas[at].get(&parameter)).map(|s| s / unit);
+        sigmas[k] = Some(sigma.filter(|s| s.is_finite()).unwrap_or(f64::INFINITY));
     }
     sigmas
 }
 
 fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
     let part = part(block, freedom)?;
-    let adjusted = values(&part, MOST_ITERATIONS, NEGLIGIBLE)?;
+    let adjusted = values(&part.project, &part.numbering, MOST_ITERATIONS, NEGLIGIBLE)?;
     let mut next = block.clone();
-    for camera in adjusted.cameras {
-        let place = next.cameras.iter_mut().find(|c| c.id == camera.id)?;
+    for (camera, &camera_at) in adjusted.cameras.into_iter().zip(&part.cameras) {
+        let place = &mut next.cameras[camera_at];
         let ratio = principal_distance_px(&camera)? / principal_distance_px(place)?;
-        let camera_at = block.cameras.iter().position(|c| c.id == camera.id)?;
         let from_given =
             block.given_px[camera_at].map_or(Some(1.0), |px| Some(principal_distance_px(&camera)? / px))?;
         let within = |ratio: f64, most: f64| ratio < most && ratio > 1.0 / most;
@@ -112,12 +98,12 @@ fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
         }
         place.interior = camera.interior;
     }
-    for photo in &adjusted.photos {
-        next.views[photo.id.parse::<usize>().ok()?].pose = Pose::of_photo(photo);
+    for (photo, &k) in adjusted.photos.iter().zip(&part.photos) {
+        next.views[k].pose = Pose::of_photo(photo);
     }
-    for point in &adjusted.points {
+    for (point, &k) in adjusted.points.iter().zip(&part.points) {
         let xyz = point.xyz.filter(|xyz| xyz.iter().all(|x| x.is_finite()))?;
-        next.marks[point.id.parse::<usize>().ok()?].xyz = Some(xyz.into());
+        next.marks[k].xyz = Some(xyz.into());
     }
     next.refresh_rays();
     next.review();
@@ -136,10 +122,18 @@ fn attempt(block: &Block, freedom: Freedom) -> Option<Block> {
     Some(next)
 }
 
-/// The oriented part as a project of its own; identifiers are places in the whole project.
-fn part(block: &Block, freedom: Freedom) -> Option<Project> {
+/// The oriented part as a document without names, numbered; of its photos, points and cameras the places in the whole project.
+struct Part {
+    project: Project,
+    numbering: Numbering,
+    photos: Vec<usize>,
+    points: Vec<usize>,
+    cameras: Vec<usize>,
+}
+
+fn part(block: &Block, freedom: Freedom) -> Option<Part> {
     let sigma = Sigma::One(block.noise_px.unwrap_or(1.0).max(0.02));
-    let mut project = Project::default();
+    let (mut project, mut numbering) = (Project::default(), Numbering::default());
     let mut rays: BTreeMap<usize, usize> = BTreeMap::new();
     let usable = |s: &&super::block::Sight| {
         s.taken && s.ray.is_some() && block.views[s.photo].pose.is_some() && block.marks[s.point].xyz.is_some()
@@ -149,12 +143,14 @@ fn part(block: &Block, freedom: Freedom) -> Option<Project> {
     }
     let held = |point: usize| block.anchored && block.marks[point].control && block.marks[point].known.is_some();
     rays.retain(|point, count| *count >= 2 || held(*point));
+    let points: Vec<usize> = rays.keys().copied().collect();
     let mut measured = vec![0; block.views.len()];
     for sight in block.sights.iter().filter(usable).filter(|s| rays.contains_key(&s.point)) {
         measured[sight.photo] += 1;
+        numbering.sights.push((sight.photo, points.partition_point(|p| *p < sight.point)));
         project.observations.push(Observation {
-            photo: sight.photo.to_string(),
-            point: sight.point.to_string(),
+            photo: String::new(),
+            point: String::new(),
             u: sight.pixel[0],
             v: sight.pixel[1],
             sigma,
@@ -163,24 +159,23 @@ fn part(block: &Block, freedom: Freedom) -> Option<Project> {
         });
     }
     let mut controls = 0;
-    for &point in rays.keys() {
+    for &point in &points {
         let mark = &block.marks[point];
         controls += usize::from(held(point));
         project.points.push(Point {
-            id: point.to_string(),
             role: if held(point) { Role::Control } else { Role::Tie },
             sigma: if held(point) { mark.sigma } else { None },
             xyz: if held(point) { mark.known } else { mark.xyz }.map(Into::into),
             ..Point::default()
         });
     }
+    let mut photos = Vec::new();
     let mut cameras: BTreeMap<usize, usize> = BTreeMap::new();
     for (k, view) in block.views.iter().enumerate() {
         let (Some(pose), true) = (view.pose, measured[k] > 0) else { continue };
         *cameras.entry(view.camera).or_default() += measured[k];
+        photos.push(k);
         project.photos.push(Photo {
-            id: k.to_string(),
-            camera: block.cameras[view.camera].id.clone(),
             position: Some(pose.centre.into()),
             rotation: Some(rotation::angles(&pose.object_to_camera)),
             interior: view.interior,
@@ -196,9 +191,15 @@ fn part(block: &Block, freedom: Freedom) -> Option<Project> {
             if strong && !block.cameras[camera].per_photo { freedom } else { Freedom::Held },
         ));
     }
+    let cameras: Vec<usize> = cameras.into_keys().collect();
+    for (photo, _) in &mut numbering.sights {
+        *photo = photos.partition_point(|k| k < photo);
+    }
+    numbering.cameras = photos.iter().map(|k| cameras.partition_point(|c| *c < block.views[*k].camera)).collect();
     let kind = if controls >= 3 { DatumKind::Control } else { DatumKind::Free };
     project.datum = Datum { kind, points: None };
-    (project.photos.len() >= 2 || controls >= 3).then_some(project)
+    let enough = project.photos.len() >= 2 || controls >= 3;
+    enough.then_some(Part { project, numbering, photos, points, cameras })
 }
 
 /// The camera with what may be estimated of it at this freedom, and nothing else.

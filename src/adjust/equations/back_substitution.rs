@@ -276,6 +276,7 @@ mod tests {
     use super::super::ordering::layout;
     use super::*;
     use crate::adjust::problem::additional::LeftOut;
+    use crate::adjust::problem::numbering::Numbering;
     use crate::adjustment::ResidualPlace;
     use crate::network::{NetworkPoint, Station, simulate};
     use crate::project::{Camera, DatumKind, Interior, Role, Sigma};
@@ -306,7 +307,7 @@ mod tests {
         project.datum.kind = DatumKind::Control;
         project.points[0].role = Role::Control;
         project.points[0].sigma = Some([Some(1.0), Some(0.0), Some(1.0)]);
-        Network::new(&project, &LeftOut::nothing(&project)).unwrap()
+        Network::new(&project, &Numbering::of(&project), &LeftOut::nothing(&project)).unwrap()
     }
 
     #[test]

@@ -3,12 +3,14 @@
 //! a camera. Where the rays meet elsewhere, and there fit them better by far, the point starts there.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use crate::camera::ideal_from_pixel;
 use crate::initial::Pose;
 use crate::initial::intersection::{Ray, intersect};
-use crate::project::{DatumKind, Observation, Project, Role};
+use crate::project::{DatumKind, Project, Role};
+
+use super::numbering::Numbering;
 
 /// Times the median distance from the middle of all points and photos.
 const FAR: f64 = 30.0;
@@ -16,8 +18,8 @@ const FAR: f64 = 30.0;
 const BETTER: f64 = 10.0;
 
 /// The project with tie points that lie far off or behind a photo where their rays meet.
-pub fn brought_back(mut project: Cow<'_, Project>) -> Cow<'_, Project> {
-    for (k, xyz) in found(&project, Role::Tie) {
+pub fn brought_back<'a>(mut project: Cow<'a, Project>, numbering: &Numbering) -> Cow<'a, Project> {
+    for (k, xyz) in found(&project, numbering, Role::Tie) {
         project.to_mut().points[k].xyz = Some(xyz);
     }
     project
@@ -25,30 +27,27 @@ pub fn brought_back(mut project: Cow<'_, Project>) -> Cow<'_, Project> {
 
 /// Places in the document of control points whose given coordinates lie far off or behind a photo, and where their rays meet: what
 /// is given stays as given, the iteration starts from there.
-pub fn control_starts(project: &Project) -> Vec<(usize, [f64; 3])> {
-    if project.datum.kind == DatumKind::Control { found(project, Role::Control) } else { Vec::new() }
+pub fn control_starts(project: &Project, numbering: &Numbering) -> Vec<(usize, [f64; 3])> {
+    if project.datum.kind == DatumKind::Control { found(project, numbering, Role::Control) } else { Vec::new() }
 }
 
-fn found(project: &Project, role: Role) -> Vec<(usize, [f64; 3])> {
-    let mut off = far(project, role);
-    off.extend(behind(project, role));
-    off.sort_unstable();
-    off.dedup();
-    if off.is_empty() {
+fn found(project: &Project, numbering: &Numbering, role: Role) -> Vec<(usize, [f64; 3])> {
+    let off = far(project, role).into_iter().chain(behind(project, numbering, role));
+    // Of every such point the rows that measure it.
+    let mut rows: BTreeMap<usize, Vec<usize>> = off.map(|point| (point, Vec::new())).collect();
+    if rows.is_empty() {
         return Vec::new();
     }
-    let mut sights: HashMap<&str, Vec<&Observation>> = off.iter().map(|(id, _)| (*id, Vec::new())).collect();
-    for o in project.observations.iter().filter(|o| o.enabled) {
-        if let Some(list) = sights.get_mut(o.point.as_str()) {
-            list.push(o);
+    for (row, (_, point)) in numbering.sights.iter().enumerate() {
+        if let Some(list) = rows.get_mut(point).filter(|_| project.observations[row].enabled) {
+            list.push(row);
         }
     }
-    let place = |(id, k): &(&str, usize)| Some((*k, intersection(project, *k, &sights[id])?));
-    off.iter().filter_map(place).collect()
+    rows.iter().filter_map(|(k, rows)| Some((*k, intersection(project, numbering, *k, rows)?))).collect()
 }
 
-/// Identifiers and places of the points of a role far from all others.
-fn far(project: &Project, role: Role) -> Vec<(&str, usize)> {
+/// Points of a role far from all others.
+fn far(project: &Project, role: Role) -> Vec<usize> {
     let places: Vec<[f64; 3]> =
         project.points.iter().filter_map(|p| p.xyz).chain(project.photos.iter().filter_map(|p| p.position)).collect();
     let median = |mut list: Vec<f64>| {
@@ -63,30 +62,28 @@ fn far(project: &Project, role: Role) -> Vec<(&str, usize)> {
     let usual = median(places.iter().map(from).collect());
     let ties = project.points.iter().enumerate().filter(|(_, p)| p.role == role);
     let off = ties.filter(|(_, p)| p.xyz.is_some_and(|xyz| from(&xyz) > FAR * usual));
-    off.map(|(k, p)| (p.id.as_str(), k)).collect()
+    off.map(|(k, _)| k).collect()
 }
 
-/// Identifiers and places of the points of a role that lie behind a photo in which they are measured.
-fn behind(project: &Project, role: Role) -> Vec<(&str, usize)> {
-    let photos = project.photos.iter().filter(|p| p.enabled);
-    let poses: HashMap<&str, Pose> = photos.filter_map(|p| Some((p.id.as_str(), Pose::of_photo(p)?))).collect();
-    let ties = project.points.iter().enumerate().filter(|(_, p)| p.role == role);
-    let ties: HashMap<&str, (usize, [f64; 3])> = ties.filter_map(|(k, p)| Some((p.id.as_str(), (k, p.xyz?)))).collect();
-    let measured = project.observations.iter().filter(|o| o.enabled);
-    let off = measured.filter_map(|o| {
-        let (pose, (k, xyz)) = (poses.get(o.photo.as_str())?, ties.get(o.point.as_str())?);
-        (pose.to_camera(&nalgebra::Vector3::from(*xyz)).z >= 0.0).then_some((o.point.as_str(), *k))
+/// Points of a role that lie behind a photo in which they are measured.
+fn behind(project: &Project, numbering: &Numbering, role: Role) -> Vec<usize> {
+    let poses: Vec<Option<Pose>> = project.photos.iter().map(|p| Pose::of_photo(p).filter(|_| p.enabled)).collect();
+    let measured = numbering.sights.iter().zip(&project.observations).filter(|(_, o)| o.enabled);
+    let off = measured.filter_map(|(&(photo, point), _)| {
+        let xyz = project.points[point].xyz.filter(|_| project.points[point].role == role)?;
+        (poses[photo].as_ref()?.to_camera(&nalgebra::Vector3::from(xyz)).z >= 0.0).then_some(point)
     });
     off.collect()
 }
 
 /// Where the rays of a point meet, if they fit much better there.
-fn intersection(project: &Project, point: usize, sights: &[&Observation]) -> Option<[f64; 3]> {
-    let rays: Vec<Ray> = sights
+fn intersection(project: &Project, numbering: &Numbering, point: usize, rows: &[usize]) -> Option<[f64; 3]> {
+    let rays: Vec<Ray> = rows
         .iter()
-        .filter_map(|o| {
-            let photo = project.photos.iter().find(|p| p.id == o.photo && p.enabled)?;
-            let mut camera = project.cameras.iter().find(|c| c.id == photo.camera)?.clone();
+        .filter_map(|&row| {
+            let (o, place) = (&project.observations[row], numbering.sights[row].0);
+            let photo = Some(&project.photos[place]).filter(|p| p.enabled)?;
+            let mut camera = project.cameras[numbering.cameras[place]].clone();
             if let Some(interior) = photo.interior.filter(|_| camera.per_photo) {
                 camera.interior = interior;
             }

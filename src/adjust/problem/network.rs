@@ -8,6 +8,7 @@ use crate::error::{Defect, Error, Lack, Result};
 use crate::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
 
 use super::additional::{Key, LeftOut};
+use super::numbering::Numbering;
 use super::state::{Frame, Pose, State};
 
 /// An image observation that takes part.
@@ -126,18 +127,12 @@ impl Network {
     /// # Errors
     /// [`Error::Empty`] without observations, [`Error::MissingInitialValues`], [`Error::RankDefect`] for points and
     /// photos with too few rays.
-    pub fn new(project: &Project, left_out: &LeftOut) -> Result<(Self, State)> {
-        let photo_index: HashMap<&str, usize> =
-            project.photos.iter().enumerate().map(|(k, p)| (p.id.as_str(), k)).collect();
-        let point_index: HashMap<&str, usize> =
-            project.points.iter().enumerate().map(|(k, p)| (p.id.as_str(), k)).collect();
-        let camera_index: HashMap<&str, usize> =
-            project.cameras.iter().enumerate().map(|(k, c)| (c.id.as_str(), k)).collect();
+    pub fn new(project: &Project, numbering: &Numbering, left_out: &LeftOut) -> Result<(Self, State)> {
         let mut rays_of_point: Vec<Vec<(usize, usize)>> = vec![Vec::new(); project.points.len()];
         let mut rays_of_photo = vec![0; project.photos.len()];
         let mut mentioned = vec![false; project.points.len()];
         for (row, o) in project.observations.iter().enumerate() {
-            let (photo, point) = (photo_index[o.photo.as_str()], point_index[o.point.as_str()]);
+            let (photo, point) = numbering.sights[row];
             mentioned[point] = true;
             if o.enabled && project.photos[photo].enabled && !left_out.observations[row] {
                 rays_of_point[point].push((photo, row));
@@ -161,15 +156,14 @@ impl Network {
         let takes_part: Vec<bool> = {
             let mut part: Vec<bool> = rays_of_point.iter().map(|r| !r.is_empty()).collect();
             let used = |k: &usize| !left_out.given.contains(&Key::Distance(*k));
-            for (_, d) in project.distances.iter().enumerate().filter(|(k, d)| used(k) && !d.check) {
-                for end in [&d.from, &d.to] {
-                    let end = point_index[end.as_str()];
+            for (k, _) in project.distances.iter().enumerate().filter(|(k, d)| used(k) && !d.check) {
+                for end in numbering.ends[k] {
                     part[end] |= given(end) && project.points[end].xyz.is_some();
                 }
             }
             part
         };
-        check_initial_values(project, &rays_of_photo, &takes_part, &camera_index)?;
+        check_initial_values(project, numbering, &rays_of_photo, &takes_part)?;
         check_rays(project, &rays_of_point, &rays_of_photo, &mentioned, &takes_part, &given)?;
 
         let frame = Frame::around(
@@ -194,7 +188,7 @@ impl Network {
         for (k, photo) in project.photos.iter().enumerate().filter(|(k, _)| rays_of_photo[*k] > 0) {
             let at = network.photos.len();
             place_of_photo[k] = at;
-            let c = camera_index[photo.camera.as_str()];
+            let c = numbering.cameras[k];
             let camera = &project.cameras[c];
             let mut add_interior = || {
                 state.interiors.push(interior_of(project, k, camera));
@@ -238,7 +232,7 @@ impl Network {
             let first = network.rays.len();
             for &(photo, row) in &rays_of_point[k] {
                 let o = &project.observations[row];
-                let camera = &project.cameras[camera_index[project.photos[photo].camera.as_str()]];
+                let camera = &project.cameras[numbering.cameras[photo]];
                 let unit = match camera.interior {
                     Interior::Brown { .. } => camera.pitch(),
                     Interior::Opencv { .. } => [1.0, 1.0],
@@ -256,7 +250,7 @@ impl Network {
             state.points.push(xyz);
         }
         for (index, d) in project.distances.iter().enumerate() {
-            let (from, to) = (place_of_point[point_index[d.from.as_str()]], place_of_point[point_index[d.to.as_str()]]);
+            let [from, to] = numbering.ends[index].map(|end| place_of_point[end]);
             if from != usize::MAX && to != usize::MAX && used(Key::Distance(index)) && !d.check {
                 network.points[from].kept = true;
                 network.points[to].kept = true;
@@ -264,8 +258,8 @@ impl Network {
                 network.bars.push(Bar { index, from, to, length, sqrt_weight });
             }
         }
-        network.datum_points = project.datum.points.as_ref().map(|ids| {
-            let places = ids.iter().map(|id| place_of_point[point_index[id.as_str()]]);
+        network.datum_points = numbering.datum.as_ref().map(|points| {
+            let places = points.iter().map(|point| place_of_point[*point]);
             places.filter(|p| *p != usize::MAX).collect()
         });
         Ok((network, state))
@@ -336,16 +330,16 @@ fn estimated(camera: &Camera, interior: &Interior, used: impl Fn(Parameter) -> b
 
 fn check_initial_values(
     project: &Project,
+    numbering: &Numbering,
     rays_of_photo: &[usize],
     takes_part: &[bool],
-    camera_index: &HashMap<&str, usize>,
 ) -> Result<()> {
     let (mut photos, mut points, mut cameras) = (Vec::new(), Vec::new(), Vec::new());
     for (k, photo) in project.photos.iter().enumerate().filter(|(k, _)| rays_of_photo[*k] > 0) {
         if photo.position.is_none() || photo.rotation.is_none() {
             photos.push(photo.id.clone());
         }
-        let camera = &project.cameras[camera_index[photo.camera.as_str()]];
+        let camera = &project.cameras[numbering.cameras[k]];
         if camera::Model::new(&interior_of(project, k, camera)).is_none() && !cameras.contains(&camera.id) {
             cameras.push(camera.id.clone());
         }

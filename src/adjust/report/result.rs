@@ -150,7 +150,8 @@ impl Solved<'_> {
         camera
     }
 
-    fn cameras(&self) -> Vec<AdjustedCamera> {
+    /// Interior orientations in the network's order.
+    pub fn cameras(&self) -> Vec<AdjustedCamera> {
         let factor = self.variance_factor();
         (0..self.network.interiors.len())
             .map(|k| {

@@ -12,6 +12,7 @@ use crate::adjust::equations::right_hand_side;
 use crate::adjust::problem::additional::LeftOut;
 use crate::adjust::problem::eccentric;
 use crate::adjust::problem::network::Network;
+use crate::adjust::problem::numbering::Numbering;
 use crate::adjust::problem::state::State;
 use crate::adjust::statistics::cofactors::{Cofactors, cofactors};
 use crate::adjustment::{AdjustOptions, Covariance, Iteration, ResidualPlace, StatisticsChoice, Termination};
@@ -55,6 +56,7 @@ pub struct Log<'a> {
 pub struct Session<'a> {
     /// The document.
     pub project: &'a Project,
+    numbering: &'a Numbering,
     /// The network.
     pub network: Network,
     layout: Layout,
@@ -107,8 +109,8 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     /// As [`super::adjust`].
-    pub fn new(project: &'a Project, left_out: &LeftOut) -> Result<Self> {
-        let (mut network, state) = Network::new(project, left_out)?;
+    pub fn new(project: &'a Project, numbering: &'a Numbering, left_out: &LeftOut) -> Result<Self> {
+        let (mut network, state) = Network::new(project, numbering, left_out)?;
         let layout = layout(&mut network);
         structure::structure(project, &network, &state)?;
         let datum = free::free_datum(&network, &state)?;
@@ -117,6 +119,7 @@ impl<'a> Session<'a> {
         let normal = Normal::new(&network, &layout);
         let mut session = Self {
             project,
+            numbering,
             network,
             layout,
             initial: state.clone(),
@@ -219,7 +222,7 @@ impl<'a> Session<'a> {
     /// # Errors
     /// As [`Self::new`].
     pub fn without(&self, left_out: &LeftOut) -> Result<Self> {
-        let mut session = Self::new(self.project, left_out)?;
+        let mut session = Self::new(self.project, self.numbering, left_out)?;
         session.state.adopt(&session.network, &self.state, &self.network);
         Ok(session)
     }
