@@ -1,6 +1,7 @@
 //! Orientation over seeded networks: `cargo bench --bench orient -- [first] [count] [most photos] [-v] [-n]`, with -v a line
 //! for every network, with -n its notes;
-//! `-- large [first] [count]` for 60 photos with 300 points; `-- dots` for the matching of bare dots.
+//! `-- large [first] [count]` for 60 photos with 300 points; `-- seeds 3 14 15` (and `-- large seeds 2`) for those networks alone,
+//! a line for each; `-- dots` for the matching of bare dots.
 
 mod dots;
 mod network;
@@ -45,15 +46,19 @@ fn main() {
         return;
     }
     let numbers: Vec<u64> = words.iter().filter_map(|a| a.parse().ok()).collect();
-    let first = numbers.first().copied().unwrap_or(0);
-    let count = numbers.get(1).copied().unwrap_or(1500);
-    let most = numbers.get(2).map_or(60, |n| *n as usize);
     let large = words.iter().any(|w| w == "large");
-    let count = if large && numbers.len() < 2 { 21 } else { count };
-    let wordy = large || words.iter().any(|w| w == "-v");
+    let named = words.iter().any(|w| w == "seeds");
+    let first = numbers.first().copied().unwrap_or(0);
+    let count = numbers.get(1).copied().unwrap_or(if large { 21 } else { 1500 });
+    let most = numbers.get(2).filter(|_| !named).map_or(60, |n| *n as usize);
+    let wordy = large || named || words.iter().any(|w| w == "-v");
+    let (seeds, said) = match named {
+        true => (numbers.clone(), format!("{} seeds", numbers.len())),
+        false => ((first..first + count).collect(), format!("seeds {first}+{count}")),
+    };
     // Per group: networks, solvable, right, missing photos, silent, silent c, falsely wrong networks (clean only), seconds.
     let mut groups: BTreeMap<String, [f64; 8]> = BTreeMap::new();
-    for seed in first..first + count {
+    for seed in seeds {
         let case = if large { Case::large(seed) } else { Case::of(seed, most) };
         let network = network::network(&case);
         let began = seconds_used();
@@ -108,10 +113,7 @@ fn main() {
             sums.iter_mut().zip(one).for_each(|(sum, x)| *sum += x);
         }
     }
-    println!(
-        "{:14} networks solvable right  share missing silent c-silent falsely mean s",
-        format!("seeds {first}+{count}")
-    );
+    println!("{said:14} networks solvable right  share missing silent c-silent falsely mean s");
     for (name, s) in groups {
         let share = 100.0 * s[2] / s[1].max(1.0);
         println!(
