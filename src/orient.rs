@@ -4,6 +4,7 @@
 //! 2. Without them, a first pair is oriented from image points alone.
 //! 3. Photo by photo the rest follows: intersect, resect, refine by a small bundle adjustment, leave out what disagrees.
 //! 4. A model of its own is carried into the system of the known points, or given a scale and a place.
+//! 5. What was left out and misses by less than a wrong name would is adjusted with the rest once more.
 //!
 //! What is given stays as it is: orientations and coordinates bit by bit, camera parameters unless the project leaves
 //! them free without observing them. What cannot be found stays null, and a note says why. The same project gives the
@@ -21,6 +22,7 @@ mod neighbour;
 mod note;
 mod plane;
 mod principal_distance;
+mod readmission;
 mod refine;
 mod remaining;
 mod seed;
@@ -146,6 +148,7 @@ impl Attempt {
         let mut borne = vec![false; block.views.len()];
         let mut settled;
         loop {
+            readmission::readmit(&mut block);
             settled = trial::settle(&mut block, as_project);
             let trial = as_project(&block);
             if evidence::withdraw(&mut block, &trial, &borne) {
