@@ -8,11 +8,13 @@
 //! A camera-frame point has its z axis towards the viewer, so that points in front of the camera have negative z.
 
 mod brown;
+mod colours;
 mod opencv;
 
 use nalgebra::Vector3;
 
 pub use brown::Brown;
+pub use colours::colour_differences;
 pub use opencv::Opencv;
 
 use crate::adjustment::ResidualPlace;
@@ -177,6 +179,7 @@ mod tests {
             free: Vec::new(),
             sigma: Default::default(),
             per_photo: false,
+            colours: Default::default(),
         }
     }
 
@@ -200,6 +203,7 @@ mod tests {
             free: Vec::new(),
             sigma: Default::default(),
             per_photo: false,
+            colours: Default::default(),
         }
     }
 

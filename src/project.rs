@@ -2,6 +2,7 @@
 //!
 //! Every view, file and test reads this one document. Fields may be added, never renamed or given another meaning.
 
+mod colours;
 mod features;
 mod identifier;
 mod parameter;
@@ -13,6 +14,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+pub use colours::{ColourDifferences, LensColour};
 pub use features::{CoordinateSystem, DrawnLine, End, Feature, FeatureKind, GivenPoint, Layer, SystemKind};
 use identifier::{identifier, identifier_option_list};
 pub use parameter::{Interior, Parameter};
@@ -126,6 +128,9 @@ pub struct Camera {
     /// Whether every photo has an interior orientation of its own, starting from this one.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub per_photo: bool,
+    /// What is added to the parameters for photos measured in another colour than the camera was calibrated in; held.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub colours: BTreeMap<LensColour, ColourDifferences>,
 }
 
 /// A photo and its exterior orientation.
@@ -158,6 +163,9 @@ pub struct Photo {
     /// SHA-256 of the file in hexadecimal digits, where it was looked into.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub sha256: String,
+    /// Colour that its centres were measured in, where that is red or blue; null: the one its camera is calibrated in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub colour: Option<LensColour>,
 }
 
 /// What a point is for.
@@ -322,6 +330,7 @@ impl Camera {
             free: Vec::new(),
             sigma: BTreeMap::new(),
             per_photo: false,
+            colours: BTreeMap::new(),
         }
     }
 

@@ -17,11 +17,11 @@ use wasm_bindgen::prelude::*;
 
 use fault::thrown;
 use sightline::adjustment::{AdjustOptions, Iteration};
-use sightline::detection::{Channel, DetectOptions};
+use sightline::detection::{Channel, ColoursApart, DetectOptions};
 use sightline::experiments::ExperimentOptions;
 use sightline::image::{Grey, Samples};
 use sightline::network::Network;
-use sightline::project::GivenPoint;
+use sightline::project::{Camera, GivenPoint, Project};
 use sightline::sensor::{self, Shot};
 use sightline::{Error, adjust, decode, detect, exchange, exif, experiments, features, matching, network, orient};
 
@@ -136,6 +136,24 @@ pub fn colours_apart(
         detect::colours_apart(|channel| codecs::shot(&bytes, channel), &options)
     };
     found().map(|apart| value::write(&apart)).map_err(|error| thrown(&error))
+}
+
+/// What a camera adds to its parameters for photos measured in red or blue, from photos of it whose colours were measured apart: the `colours`
+/// of that camera.
+#[wasm_bindgen(js_name = colourDifferences, unchecked_return_type = "Partial<Record<LensColour, ColourDifferences>>")]
+pub fn colour_differences(
+    #[wasm_bindgen(unchecked_param_type = "Camera")] camera: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "ColoursApart[]")] measured: JsValue,
+) -> Thrown {
+    let found = || {
+        let camera: Camera = value::read(&camera, "camera")?;
+        Project { cameras: vec![camera.clone()], ..Project::default() }.validate()?;
+        let measured: Vec<ColoursApart> = value::read(&measured, "measured")?;
+        let measured: Vec<_> =
+            (0..).zip(measured).map(|(k, apart): (usize, _)| apart.of_photo(&k.to_string())).collect();
+        sightline::camera::colour_differences(&camera, &measured)
+    };
+    found().map(|colours| value::write(&colours)).map_err(|error| thrown(&error))
 }
 
 /// What the file says of a photo and its camera: the size of the stored grid, and EXIF. Hints for initial values.

@@ -34,6 +34,16 @@ export interface OpencvInterior {
 
 export type Interior = BrownInterior | OpencvInterior;
 
+/** A colour that a lens images otherwise than green. */
+export type LensColour = "red" | "blue";
+
+/** Differences of a camera's parameters for a colour, in their own units, with their standard errors where known. */
+export interface ColourDifferences {
+  /** `f` moves fx and keeps the ratio fy : fx. */
+  parameters: Partial<Record<Parameter, number>>;
+  sigma?: Partial<Record<Parameter, number>>;
+}
+
 interface CameraBase {
   id: string | number;
   /** Sensor grid in pixels. */
@@ -47,6 +57,8 @@ interface CameraBase {
   sigma?: Partial<Record<Parameter, number>>;
   /** Whether every photo has an interior orientation of its own. */
   per_photo?: boolean;
+  /** What is added to the parameters for photos measured in another colour than the camera is calibrated in; held. */
+  colours?: Partial<Record<LensColour, ColourDifferences>>;
 }
 
 export type Camera = CameraBase & Interior;
@@ -66,6 +78,8 @@ export interface Photo {
   interior?: Interior | null;
   /** SHA-256 of the file in hexadecimal digits, where it was looked into. */
   sha256?: string;
+  /** Colour that its centres were measured in, where that is red or blue; null: the one its camera is calibrated in. */
+  colour?: LensColour | null;
 }
 
 export interface Point {
@@ -145,6 +159,10 @@ export interface ColourShift {
   rms: number;
   /** Targets that it is from. */
   targets: number;
+  /** Shift of the whole picture, to the right and downwards. */
+  shift?: [number, number];
+  /** Covariances of shift, linear and cubic part, square pixels: the upper triangle, row by row. */
+  covariance?: number[];
 }
 
 /** Lateral chromatic aberration as the targets of one photo show it. */
@@ -152,6 +170,8 @@ export interface PhotoColours {
   photo: string | number;
   /** Radius of the picture's corners in pixels. */
   corner: number;
+  /** Middle of the picture, from which radii count. */
+  centre?: [number, number];
   red?: ColourShift | null;
   blue?: ColourShift | null;
 }
@@ -707,6 +727,8 @@ export interface Lateral {
   sigma0: number;
   /** Targets that it is from. */
   targets: number;
+  /** Covariances of `shift_u`, `shift_v`, `linear` and `cubic`, square pixels: the upper triangle, row by row. */
+  covariance: number[];
 }
 
 /** Targets in red or blue, less the same in green. */

@@ -43,6 +43,9 @@ pub struct Lateral {
     pub sigma0: f64,
     /// Targets that it is from.
     pub targets: usize,
+    /// Covariances of `shift_u`, `shift_v`, `linear` and `cubic` in square pixels: the upper triangle, row by row.
+    #[serde(default)]
+    pub covariance: [f64; 10],
 }
 
 /// A colour beside green.
@@ -71,10 +74,18 @@ impl ColoursApart {
     /// What a report tells of it.
     pub fn of_photo(&self, photo: &str) -> PhotoColours {
         let of = |colour: Colour| {
-            let Lateral { linear, cubic, sigma_at_corner: sigma, rms, targets, .. } =
+            let Lateral { shift_u, shift_v, linear, cubic, sigma_at_corner: sigma, rms, targets, covariance, .. } =
                 self.colours.iter().find(|apart| apart.colour == colour)?.lateral?;
-            Some(ColourShift { linear, cubic, sigma, rms, targets })
+            let (shift, covariance) = (Some([shift_u, shift_v]), Some(covariance));
+            Some(ColourShift { linear, cubic, sigma, rms, targets, shift, covariance })
         };
-        PhotoColours { photo: photo.to_owned(), corner: self.corner, red: of(Colour::Red), blue: of(Colour::Blue) }
+        let centre = Some(self.centre);
+        PhotoColours {
+            photo: photo.to_owned(),
+            corner: self.corner,
+            centre,
+            red: of(Colour::Red),
+            blue: of(Colour::Blue),
+        }
     }
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::adjustment::AdjustedCamera;
 use crate::error::Result;
 use crate::exif::PhotoInfo;
-use crate::project::{Camera, Interior, Parameter, Project};
+use crate::project::{Camera, ColourDifferences, Interior, LensColour, Parameter, Project};
 
 /// Focal lengths that differ by less, as a share, are one setting of a lens: EXIF rounds them.
 const SAME_FOCAL_LENGTH: f64 = 0.005;
@@ -49,6 +49,9 @@ pub struct Calibration {
     /// Standard errors of the parameters that were estimated.
     #[serde(default)]
     pub sigma: BTreeMap<Parameter, f64>,
+    /// What is added to the parameters for red and blue.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub colours: BTreeMap<LensColour, ColourDifferences>,
     /// Whatever there is to say of it.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub remark: String,
@@ -83,6 +86,7 @@ impl KnownCamera {
                 pixel_pitch: camera.pixel_pitch,
                 interior: camera.interior,
                 sigma,
+                colours: camera.colours.clone(),
                 remark: String::new(),
             }],
         }
@@ -152,6 +156,8 @@ impl Calibration {
     pub fn apply(&self, camera: &mut Camera, how: Use) {
         camera.interior = self.interior;
         camera.pixel_pitch = self.pixel_pitch;
+        // differences are of this model, in its unit
+        camera.colours.clone_from(&self.colours);
         let estimated = self.interior.parameters().iter().copied().filter(|p| self.sigma.contains_key(p));
         camera.free = if how == Use::Held { Vec::new() } else { estimated.collect() };
         camera.sigma = if how == Use::Observed { self.sigma.clone() } else { BTreeMap::new() };

@@ -22,6 +22,7 @@ fn calibration(date: &str, c: f64) -> Calibration {
         pixel_pitch: Some([0.0039; 2]),
         interior: Interior::brown(c),
         sigma: [(Parameter::C, 0.002), (Parameter::K1, 3e-7)].into(),
+        colours: Default::default(),
         remark: String::new(),
     }
 }

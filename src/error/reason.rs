@@ -52,6 +52,12 @@ reasons! {
     ParameterSigma => "the a priori standard error of a parameter is greater than 0; leave it out to hold the parameter";
     FocalLengthTwice => "f stands for fx and fy as one: estimate either f, or fx and fy";
 
+    // Colours of a lens
+    NoColoursMeasured => "no photo of this camera tells its colours: measure the colours of a RAW apart";
+    ColoursOfAnotherGrid { photo: String } => "photo \"{photo}\" is of another grid than the other photos measured apart: measure photos of one size";
+    ColoursWithoutDistance => "the colours of a lens are told by its principal distance, which is not known yet: orient or adjust first";
+    ColoursBeyondModel { left_px: Number } => "the camera model leaves {left_px} pixels of the aberration: the distortion folds in the picture, or is no lens's";
+
     // Equipment
     NoEquipment { message: String } => "this is no equipment of Sightline: {message}";
     EquipmentVersion { version: u32 } => "the equipment has version {version} and this program reads version 1: open it with a newer one";

@@ -1,5 +1,5 @@
 //! The results as tables for spreadsheets: points, cameras, photos, observations, and where there are any, observations of
-//! other kinds and the record of the search for gross errors. Units stand in the headings; an empty
+//! other kinds, the record of the search for gross errors, and what cameras add for photos measured in another colour. Units stand in the headings; an empty
 //! field is a value that does not exist. Residuals and detectable biases are given in pixels, whatever the camera's unit.
 
 mod features;
@@ -33,6 +33,9 @@ pub fn write(project: &Project, adjustment: Option<&Adjustment>, separator: Sepa
         ("photos", photos(project, adjustment)),
         ("observations", observations(project, adjustment)),
     ];
+    let in_colours =
+        project.cameras.iter().any(|c| !c.colours.is_empty()) || project.photos.iter().any(|p| p.colour.is_some());
+    tables.extend(in_colours.then(|| ("colours", colours(project))));
     tables.extend(adjustment.filter(|a| !a.given.is_empty()).map(|a| ("given", given::observations(project, a))));
     let searched = adjustment.filter(|a| !a.gross_errors.is_empty());
     tables.extend(searched.map(|a| ("gross_errors", given::record(a))));
@@ -151,6 +154,34 @@ fn cameras(project: &Project, adjustment: Option<&Adjustment>) -> Table {
     table
 }
 
+/// What cameras add for photos measured in another colour, and which photos those are: a row a parameter, then a row a photo.
+fn colours(project: &Project) -> Table {
+    let mut table = Table::new(["camera", "photo", "colour", "parameter", "unit", "difference", "sigma"]);
+    for camera in &project.cameras {
+        for (colour, set) in &camera.colours {
+            for (&parameter, &difference) in &set.parameters {
+                table.rows.push(vec![
+                    camera.id.clone(),
+                    String::new(),
+                    colour.name().to_owned(),
+                    parameter.name().to_owned(),
+                    parameter_unit(camera, parameter),
+                    value(Some(difference)),
+                    value(set.sigma.get(&parameter).copied()),
+                ]);
+            }
+        }
+    }
+    for photo in &project.photos {
+        if let Some(colour) = photo.colour {
+            let mut row = vec![photo.camera.clone(), photo.id.clone(), colour.name().to_owned()];
+            row.resize(7, String::new());
+            table.rows.push(row);
+        }
+    }
+    table
+}
+
 fn photos(project: &Project, adjustment: Option<&Adjustment>) -> Table {
     let unit = &project.unit;
     let position = ["X", "Y", "Z"].map(|name| format!("{name} [{unit}]"));
@@ -258,7 +289,7 @@ mod tests {
     use crate::adjustment::{
         AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Correlation, Termination,
     };
-    use crate::project::{Observation, Photo, Point, Sigma};
+    use crate::project::{ColourDifferences, LensColour, Observation, Photo, Point, Sigma};
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -349,6 +380,22 @@ mod tests {
             let mut reader = csv::ReaderBuilder::new().from_reader(text.as_bytes());
             assert_eq!(reader.records().filter(|record| record.is_ok()).count(), text.lines().count() - 1, "{table}");
         }
+    }
+
+    #[test]
+    fn colours_have_a_table_where_there_are_any() {
+        let (mut project, _) = small();
+        project.photos[0].colour = Some(LensColour::Blue);
+        let set = ColourDifferences {
+            parameters: [(Parameter::C, 0.25), (Parameter::K1, -1e-4)].into(),
+            sigma: [(Parameter::C, 0.125)].into(),
+        };
+        project.cameras[0].colours.insert(LensColour::Red, set);
+        let files = write(&project, None, Separator::Comma).unwrap();
+        assert_eq!(
+            String::from_utf8(files["colours.csv"].clone()).unwrap(),
+            "camera,photo,colour,parameter,unit,difference,sigma\nc,,red,c,mm,0.25,0.125\nc,,red,k1,mm^-2,-0.0001,\nc,1,blue,,,,\n"
+        );
     }
 
     #[test]

@@ -10,7 +10,7 @@ use crate::project::{Camera, Interior, Parameter, Project};
 pub(super) struct OrientedPhoto {
     /// Identifier.
     pub id: String,
-    /// Camera, with the photo's own interior orientation where it has one.
+    /// Camera, as it took the photo.
     pub camera: Camera,
     /// Exterior orientation.
     pub pose: Pose,
@@ -23,8 +23,7 @@ impl OrientedPhoto {
     pub fn all(project: &Project) -> Vec<Self> {
         let oriented = |photo: &crate::project::Photo| {
             let pose = Pose::of_photo(photo).filter(|_| photo.enabled)?;
-            let mut camera = project.cameras.iter().find(|c| c.id == photo.camera)?.clone();
-            camera.interior = photo.interior.unwrap_or(camera.interior);
+            let camera = project.cameras.iter().find(|c| c.id == photo.camera)?.of_photo(photo);
             let principal_distance_px = match camera.interior {
                 Interior::Brown { c, .. } => c? / camera.pitch()[0],
                 Interior::Opencv { .. } => camera.interior.get(Parameter::Fx)?,

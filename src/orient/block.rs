@@ -9,7 +9,7 @@ use crate::camera::ideal_from_pixel;
 use crate::initial::intersection::{Intersection, Ray, intersect};
 use crate::initial::robust::scale;
 use crate::initial::{Degeneracy, Pose};
-use crate::project::{Camera, Interior, Parameter, Project, Role};
+use crate::project::{Camera, Interior, LensColour, Parameter, Photo, Project, Role};
 
 /// A measurement of a point in a photo.
 #[derive(Clone, Debug)]
@@ -35,12 +35,21 @@ pub(super) struct View {
     pub camera: usize,
     /// Interior orientation of its own, where the photo has one.
     pub interior: Option<Interior>,
+    /// Colour it was measured in.
+    pub colour: Option<LensColour>,
     /// Exterior orientation, so far.
     pub pose: Option<Pose>,
     /// Whether the orientation was given.
     pub given: bool,
     /// Its measurements.
     pub sights: Vec<usize>,
+}
+
+impl View {
+    /// What a camera images it by.
+    pub fn as_photo(&self) -> Photo {
+        Photo { interior: self.interior, colour: self.colour, enabled: true, ..Photo::default() }
+    }
 }
 
 /// An object point.
@@ -153,7 +162,14 @@ impl Block {
             .map(|photo| {
                 let pose = Pose::of_photo(photo);
                 let camera = cameras.get(photo.camera.as_str()).copied().unwrap_or_default();
-                View { camera, interior: photo.interior, pose, given: pose.is_some(), sights: Vec::new() }
+                View {
+                    camera,
+                    interior: photo.interior,
+                    colour: photo.colour,
+                    pose,
+                    given: pose.is_some(),
+                    sights: Vec::new(),
+                }
             })
             .collect();
         let given: Vec<Option<Vector3<f64>>> = project
@@ -216,14 +232,10 @@ impl Block {
 
     /// Recomputes ideal coordinates after a camera changed.
     pub fn refresh_rays(&mut self) {
+        let as_taken = |view: &View| self.cameras[view.camera].of_photo(&view.as_photo());
+        let cameras: Vec<Camera> = self.views.iter().map(as_taken).collect();
         for sight in &mut self.sights {
-            let view = &self.views[sight.photo];
-            sight.ray = match view.interior {
-                Some(interior) => {
-                    ideal_from_pixel(&Camera { interior, ..self.cameras[view.camera].clone() }, sight.pixel)
-                }
-                None => ideal_from_pixel(&self.cameras[view.camera], sight.pixel),
-            };
+            sight.ray = ideal_from_pixel(&cameras[sight.photo], sight.pixel);
         }
     }
 

@@ -178,9 +178,7 @@ fn part(block: &Block, freedom: Freedom) -> Option<Part> {
         project.photos.push(Photo {
             position: Some(pose.centre.into()),
             rotation: Some(rotation::angles(&pose.object_to_camera)),
-            interior: view.interior,
-            enabled: true,
-            ..Photo::default()
+            ..view.as_photo()
         });
     }
     for (&camera, &sights) in &cameras {

@@ -114,6 +114,12 @@ pub struct ColourShift {
     pub rms: f64,
     /// Targets that it is from.
     pub targets: usize,
+    /// Shift of the whole picture, to the right and downwards.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shift: Option<[f64; 2]>,
+    /// Covariances of shift, linear and cubic part, square pixels: the upper triangle, row by row.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub covariance: Option<[f64; 10]>,
 }
 
 /// Lateral chromatic aberration as the targets of one photo show it, which were measured in every colour.
@@ -124,6 +130,9 @@ pub struct PhotoColours {
     pub photo: String,
     /// Radius of the picture's corners in pixels.
     pub corner: f64,
+    /// Middle of the picture, from which radii count.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub centre: Option<[f64; 2]>,
     /// Red against green.
     #[serde(default)]
     pub red: Option<ColourShift>,

@@ -159,6 +159,7 @@ fn camera(camera: &Camera) -> Result<()> {
         return invalid(Reason::PixelPitch, at().with_field("pixel_pitch"));
     }
     interior_orientation(&camera.interior, at)?;
+    camera.validate_colours()?;
     for &p in camera.free.iter().chain(camera.sigma.keys()) {
         if !camera.interior.parameters().contains(&p) {
             return Err(Error::Unknown { kind: Thing::Parameter, name: p.name().into(), at: at().with_field("free") });
@@ -193,6 +194,7 @@ mod tests {
             free: vec![Parameter::C],
             sigma: Default::default(),
             per_photo: false,
+            colours: Default::default(),
         };
         let point = |id: &str| Point { id: id.into(), ..Point::default() };
         Project {

@@ -5,6 +5,7 @@
 mod adjust {
     mod aerial;
     mod behaviour;
+    mod colours;
     mod curved;
     mod damage;
     mod doctor;

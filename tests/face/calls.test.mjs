@@ -69,6 +69,16 @@ const paper = () => ({
   distances: [{ from: 'p0', to: 'p5', sigma: 0.001 }],
 });
 
+/** Colours of a photo of 1000 x 800 pixels, measured apart. */
+const apart = () => ({
+  centre: [500, 400],
+  corner: 640,
+  colours: [{
+    colour: 'red', shifts: [],
+    lateral: { shift_u: 0.1, shift_v: -0.05, linear: 0.8, cubic: -0.3, at_corner: 0.5, sigma_at_corner: 0.02, rms: 0.02, sigma0: 1, targets: 30, covariance: [1e-4, 0, 0, 0, 1e-4, 0, 0, 2e-4, 0, 2e-4] },
+  }],
+});
+
 const plate =
   'c 100\nfiducial a 0 0\nfiducial b 50 0\nfiducial c 0 40\nfiducial d 50 40\ndistortion 10 1\ndistortion 20 2\ndistortion 30 4\ndistortion 40 6\n1 a 0 0\n1 b 50 0\n1 c 0 40\n1 d 50 40\n1 7 10 10';
 
@@ -112,6 +122,7 @@ function calls() {
     simulate: [[paper()], 5],
     renderPhoto: [[paper(), 's0'], 2],
     coloursApart: [[bmp, {}], 4],
+    colourDifferences: [[project.cameras[0], [apart()]], 10],
     reduceFilm: [[{ 'plate.txt': new TextEncoder().encode(plate) }], 20],
     experimentCsv: [[film], 2],
     runExperiment: [['film', {}], 0.1],

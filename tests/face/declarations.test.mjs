@@ -97,7 +97,20 @@ test('every field that the engine returns is declared, and every declared field 
   for (const [k, { value, sigma }] of measuredLater.features.slice(1, 3).entries()) {
     assert.ok(Math.abs(value - adjustments.at(-1).features[k + 1].value) < 1e-6 && sigma >= 0);
   }
+  const lateral = { shift_u: 0.1, shift_v: -0.05, linear: 0.8, cubic: -0.3, at_corner: 0.5, sigma_at_corner: 0.02, rms: 0.02, sigma0: 1, targets: 30, covariance: [1e-4, 0, 0, 0, 1e-4, 0, 0, 2e-4, 0, 2e-4] };
+  const apart = { centre: [200, 150], corner: 250, colours: [{ colour: 'red', shifts: [], lateral }] };
+  const colours = sightline.colourDifferences(project.cameras[0], [apart]);
+  // What grows with the radius is the principal distance's: 0.8 px of 250 px, of 500 px.
+  assert.ok(Math.abs(colours.red.parameters.c - 1.6) < 0.05 && Math.abs(colours.red.parameters.x0 - 0.1) < 0.02 && !colours.blue, JSON.stringify(colours));
+  const inRed = { ...project, cameras: [{ ...project.cameras[0], colours }], photos: project.photos.map((photo, k) => ({ ...photo, colour: k ? null : 'red' })) };
+  const adjustedInRed = sightline.adjust(inRed);
+  assert.deepEqual(adjustedInRed.cameras[0].colours, colours);
+  assert.ok(adjustedInRed.sigma0 > 100 * adjustments[0].sigma0, 'what was simulated in green does not fit in red');
   const literals = [
+    literal('colours', 'NonNullable<S.Camera["colours"]>', colours),
+    literal('apart', 'S.ColoursApart', apart),
+    literal('inRed', 'S.Project', inRed),
+    literal('adjustedInRed', 'S.Adjustment', adjustedInRed),
     literal('network', 'S.Network', network()),
     literal('simulated', 'S.Project', project),
     literal('oriented', 'S.OrientedProject', sightline.orient(bare(project))),

@@ -45,6 +45,7 @@ pub struct Linearisation<'a, const N: usize> {
     network: &'a Network,
     state: &'a State,
     weighting: Weighting<'a>,
+    /// Of the photos' interior orientations in their colours.
     models: Vec<Model>,
     /// Per interior orientation the column of every unknown among the model's derivatives, and its scale, 0 for none.
     columns: Vec<[(usize, f64); N]>,
@@ -56,7 +57,7 @@ impl<'a, const N: usize> Linearisation<'a, N> {
     /// None where a principal distance is missing.
     pub fn new(context: Context<'a>) -> Option<Self> {
         let Context { network, state, weighting, .. } = context;
-        let models = state.interiors.iter().map(Model::new).collect::<Option<_>>()?;
+        let models = network.imaging_interiors(state).map(|interior| Model::new(&interior)).collect::<Option<_>>()?;
         let columns = network.interiors.iter().map(|interior| {
             let of = |k: usize| interior.estimated.get(k).map_or((k, 0.0), |e| (e.column, e.scale));
             std::array::from_fn(of)
@@ -78,7 +79,8 @@ impl<'a, const N: usize> Linearisation<'a, N> {
         for (k, row) in block.rays.clone().zip(&mut *rows) {
             let ray = &self.network.rays[k];
             row.photo = ray.photo;
-            row.interior = self.network.photos[ray.photo].interior;
+            let photo = &self.network.photos[ray.photo];
+            row.interior = photo.interior;
             let seen = Seen {
                 pose: &self.state.poses[ray.photo],
                 ray,
@@ -86,7 +88,7 @@ impl<'a, const N: usize> Linearisation<'a, N> {
                 factor: self.weighting.robust.get(k).unwrap_or(&[1.0; 2]),
                 columns: &self.columns[row.interior],
             };
-            *behind += match (&self.models[row.interior], self.weighting.place) {
+            *behind += match (&self.models[photo.imaging], self.weighting.place) {
                 (Model::Brown(brown), ResidualPlace::Corrected) if self.ordered => brown_row(brown, &seen, x, row)?,
                 (model, place) => model_row(model, place, &seen, x, row)?,
             };

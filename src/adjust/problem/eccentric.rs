@@ -62,10 +62,10 @@ pub fn shifts(project: &Project, network: &Network, state: &State) -> Vec<[f64; 
     if (0..network.points.len()).all(|k| diameter(k).is_none()) {
         return Vec::new();
     }
-    let cameras: Vec<_> = (network.interiors.iter().zip(&state.interiors))
-        .map(|(block, interior)| {
-            let mut camera = project.cameras[block.camera].clone();
-            camera.interior = *interior;
+    let cameras: Vec<_> = (network.imagings.iter().zip(network.imaging_interiors(state)))
+        .map(|(imaging, interior)| {
+            let mut camera = project.cameras[network.interiors[imaging.interior].camera].clone();
+            camera.interior = interior;
             camera
         })
         .collect();
@@ -76,7 +76,7 @@ pub fn shifts(project: &Project, network: &Network, state: &State) -> Vec<[f64; 
         let diameter = diameter(k).unwrap_or_default() / network.frame.scale;
         for ray in block.rays.clone() {
             let photo = network.rays[ray].photo;
-            let camera = &cameras[network.photos[photo].interior];
+            let camera = &cameras[network.photos[photo].imaging];
             let pose = &state.poses[photo];
             let centre = Vector3::from(pose.camera_point(&state.points[k]));
             let circle = Circle { centre, normal: pose.matrix() * normal, diameter };

@@ -83,10 +83,7 @@ fn intersection(project: &Project, numbering: &Numbering, point: usize, rows: &[
         .filter_map(|&row| {
             let (o, place) = (&project.observations[row], numbering.sights[row].0);
             let photo = Some(&project.photos[place]).filter(|p| p.enabled)?;
-            let mut camera = project.cameras[numbering.cameras[place]].clone();
-            if let Some(interior) = photo.interior.filter(|_| camera.per_photo) {
-                camera.interior = interior;
-            }
+            let camera = project.cameras[numbering.cameras[place]].of_photo(photo);
             Some(Ray { pose: Pose::of_photo(photo)?, image: ideal_from_pixel(&camera, [o.u, o.v])?, weight: 1.0 })
         })
         .collect();

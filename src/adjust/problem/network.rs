@@ -1,7 +1,7 @@
 //! The document as the adjustment sees it: numbered blocks, observations sorted by point, coordinates reduced to their
 //! centre and size so that nothing large is squared.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use crate::camera;
 use crate::error::{Defect, Error, Lack, Result};
@@ -34,6 +34,8 @@ pub struct PhotoBlock {
     pub index: usize,
     /// Index into [`Network::interiors`].
     pub interior: usize,
+    /// Index into [`Network::imagings`].
+    pub imaging: usize,
     /// Observed projection centre.
     pub prior: Prior,
     /// Number of its rays.
@@ -62,6 +64,15 @@ pub struct InteriorBlock {
     pub photo: Option<usize>,
     /// What is estimated of it.
     pub estimated: Vec<Estimated>,
+}
+
+/// What images photos: an interior orientation in the colour that they were measured in.
+#[derive(Clone, Debug)]
+pub struct Imaging {
+    /// Index into [`Network::interiors`].
+    pub interior: usize,
+    /// What the colour adds to its parameters; empty in the camera's own.
+    differences: BTreeMap<Parameter, f64>,
 }
 
 /// A point that takes part.
@@ -103,6 +114,8 @@ pub struct Network {
     pub photos: Vec<PhotoBlock>,
     /// Interior orientations of these photos.
     pub interiors: Vec<InteriorBlock>,
+    /// These in the colours of the photos.
+    pub imagings: Vec<Imaging>,
     /// Points with rays or distances.
     pub points: Vec<PointBlock>,
     /// Rays, sorted by point.
@@ -174,6 +187,7 @@ impl Network {
             frame,
             photos: Vec::new(),
             interiors: Vec::new(),
+            imagings: Vec::new(),
             points: Vec::new(),
             rays: Vec::new(),
             bars: Vec::new(),
@@ -184,7 +198,7 @@ impl Network {
         let used = |key: Key| !left_out.given.contains(&key);
         let mut state = State::default();
         let mut place_of_photo = vec![usize::MAX; project.photos.len()];
-        let mut shared = HashMap::new();
+        let (mut shared, mut imagings) = (HashMap::new(), HashMap::new());
         for (k, photo) in project.photos.iter().enumerate().filter(|(k, _)| rays_of_photo[*k] > 0) {
             let at = network.photos.len();
             place_of_photo[k] = at;
@@ -203,6 +217,12 @@ impl Network {
             };
             let interior =
                 if camera.per_photo { add_interior() } else { *shared.entry(c).or_insert_with(add_interior) };
+            let differences = camera.differences_of(photo);
+            let imaging =
+                *imagings.entry((interior, photo.colour.filter(|_| differences.is_some()))).or_insert_with(|| {
+                    network.imagings.push(Imaging { interior, differences: differences.cloned().unwrap_or_default() });
+                    network.imagings.len() - 1
+                });
             let position = photo.position.unwrap_or_default();
             let mut prior = Prior::default();
             if let (true, Some(sigma)) = (controlled, photo.sigma_position) {
@@ -212,7 +232,7 @@ impl Network {
                     _ => (0.0, 0.0),
                 });
             }
-            network.photos.push(PhotoBlock { index: k, interior, prior, rays: rays_of_photo[k] });
+            network.photos.push(PhotoBlock { index: k, interior, imaging, prior, rays: rays_of_photo[k] });
             state.poses.push(Pose::new(frame.inside(position), photo.rotation.unwrap_or_default()));
         }
         let mut place_of_point = vec![usize::MAX; project.points.len()];
@@ -263,6 +283,11 @@ impl Network {
             places.filter(|p| *p != usize::MAX).collect()
         });
         Ok((network, state))
+    }
+
+    /// What images the photos at a state: the values of its interior orientations, each in its colours.
+    pub fn imaging_interiors(&self, state: &State) -> impl Iterator<Item = Interior> {
+        self.imagings.iter().map(|imaging| state.interiors[imaging.interior].plus(&imaging.differences))
     }
 
     /// Room for the unknowns of an interior orientation: the largest number of them, made even; 0 to 10.
@@ -340,7 +365,7 @@ fn check_initial_values(
             photos.push(photo.id.clone());
         }
         let camera = &project.cameras[numbering.cameras[k]];
-        if camera::Model::new(&interior_of(project, k, camera)).is_none() && !cameras.contains(&camera.id) {
+        if camera::Model::new(&camera.of_photo(photo).interior).is_none() && !cameras.contains(&camera.id) {
             cameras.push(camera.id.clone());
         }
     }

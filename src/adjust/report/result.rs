@@ -274,7 +274,7 @@ impl Solved<'_> {
             .collect();
         let mut ray_of_row = vec![usize::MAX; self.project.observations.len()];
         self.network.rays.iter().enumerate().for_each(|(k, ray)| ray_of_row[ray.row] = k);
-        let models: Vec<_> = self.state.interiors.iter().map(camera::Model::new).collect();
+        let models: Vec<_> = self.network.imaging_interiors(self.state).map(|i| camera::Model::new(&i)).collect();
         let scale = self.frame().scale;
         let one = |(row, o): (usize, &crate::project::Observation)| {
             let mut adjusted = AdjustedObservation {
@@ -298,7 +298,8 @@ impl Solved<'_> {
                 (0..2).for_each(|s| measured[s] -= shift[s]);
             }
             let p = self.state.poses[photo].camera_point(&self.state.points[point]);
-            let linear = models[interior].and_then(|m| m.linearise(measured, p, self.weighting.place));
+            let linear =
+                models[self.network.photos[photo].imaging].and_then(|m| m.linearise(measured, p, self.weighting.place));
             let Some(linear) = linear.filter(|l| l.residual.iter().all(|v| v.is_finite())) else { return adjusted };
             [adjusted.vx, adjusted.vy] = linear.residual.map(Some);
             let Some(network_ray) = self.network.rays.get(ray) else { return adjusted };

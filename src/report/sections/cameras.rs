@@ -1,7 +1,7 @@
-//! Cameras: interior orientation with standard errors, what was held, and which parameters go together.
+//! Cameras: interior orientation with standard errors, what was held, which parameters go together, and colours.
 
 use crate::adjustment::AdjustedCamera;
-use crate::project::{Camera, Interior, Parameter, PhotoColours};
+use crate::project::{Camera, Interior, LensColour, Parameter, Photo, PhotoColours};
 use crate::report::context::Context;
 use crate::report::html::{Html, Table};
 use crate::report::names::{parameter_name, parameter_unit};
@@ -11,8 +11,15 @@ use crate::report::number::{compact, count, decimals_for, fixed, maybe, power, w
 const TOLD: f64 = 0.9;
 
 pub fn write(context: &Context, html: &mut Html) {
-    for camera in &context.adjustment.cameras {
-        one(context, camera, html);
+    let all = &context.adjustment.cameras;
+    for (k, adjusted) in all.iter().enumerate() {
+        one(context, adjusted, html);
+        // of a camera with one interior orientation per photo once
+        let camera = &adjusted.camera;
+        if all.iter().skip(k + 1).all(|later| later.camera.id != camera.id) {
+            colours(context, camera, html);
+            colours_held(context, camera, html);
+        }
     }
 }
 
@@ -82,9 +89,6 @@ fn one(context: &Context, adjusted: &AdjustedCamera, html: &mut Html) {
     if !pairs.is_empty() {
         html.note(&words.correlated(&fixed(TOLD, 1), &pairs.join("; ")));
     }
-    if adjusted.photo.is_none() {
-        colours(context, camera, html);
-    }
 }
 
 /// How far red and blue are imaged from green, where their targets were measured in every colour.
@@ -110,6 +114,44 @@ fn colours(context: &Context, camera: &Camera, html: &mut Html) {
         }
     }
     html.table(table);
+}
+
+/// What the camera adds to its parameters for red and blue, and the photos that it did so for or could not.
+fn colours_held(context: &Context, camera: &Camera, html: &mut Html) {
+    let words = context.words;
+    let named = |colour| match colour {
+        LensColour::Red => words.red(),
+        LensColour::Blue => words.blue(),
+    };
+    let photos = |colour| {
+        let of = move |p: &&Photo| p.camera == camera.id && p.enabled && p.colour == Some(colour);
+        context.project.photos.iter().filter(of)
+    };
+    if !camera.colours.is_empty() {
+        html.h3(words.colours_held());
+        let counts = camera.colours.keys().map(|c| format!("{} {}", named(*c), count(photos(*c).count())));
+        html.note(&words.colours_held_means(&counts.collect::<Vec<_>>().join(", ")));
+        let mut table = Table::new().words(words.colour()).words("").words(words.parameter());
+        table = table.number(words.difference()).number("σ (1σ)").words(words.unit());
+        for (colour, set) in &camera.colours {
+            for (&parameter, &difference) in &set.parameters {
+                let known = set.sigma.get(&parameter).copied();
+                let (value, sigma, exponent) = with_sigma(difference, known);
+                let unit = parameter_unit(camera, parameter);
+                let unit = if exponent == 0 { unit } else { format!("{} {unit}", power(exponent)) };
+                let sigma = if known.is_some() { sigma } else { String::new() };
+                let (symbol, name) = (parameter_name(parameter).into(), long_name(context, parameter).into());
+                table.row(vec![named(*colour).into(), symbol, name, value, sigma, unit]);
+            }
+        }
+        html.table(table);
+    }
+    for colour in LensColour::ALL.into_iter().filter(|colour| !camera.colours.contains_key(colour)) {
+        let without: Vec<&str> = photos(colour).map(|p| p.id.as_str()).collect();
+        if !without.is_empty() {
+            html.note(&words.colour_without_set(&named(colour), &without.join(", ")));
+        }
+    }
 }
 
 fn correlated(adjusted: &AdjustedCamera) -> Vec<String> {

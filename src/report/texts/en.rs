@@ -126,7 +126,10 @@ declare! {
     affinity: "affinity";
     shear: "shear";
     lateral_colour: "Lateral chromatic aberration";
-    lateral_colour_means(corner): "Red and blue against green, positive outwards, at the corner of the picture, {corner} px from its middle. No coordinate is corrected by it: it tells how far another colour than the one measured would lie.";
+    lateral_colour_means(corner): "Red and blue against green, positive outwards, at the corner of the picture, {corner} px from its middle. It tells how far another colour than the one measured would lie; no coordinate is corrected by it unless the camera holds a set for that colour.";
+    colours_held: "Interior orientation in other colours";
+    colours_held_means(photos): "What is added to the parameters above for photos measured in another colour than green or grey; held in the adjustment. Photos measured so: {photos}.";
+    colour_without_set(colour, photos): "Measured in another colour, {colour}, for which the camera holds no set, and computed as if in its own: photos {photos}.";
     colour: "colour";
     red: "red";
     blue: "blue";

@@ -123,7 +123,10 @@ translate! { Korean {
     affinity: "축척차";
     shear: "전단";
     lateral_colour: "배율 색수차";
-    lateral_colour_means(corner): "녹색에 대한 적색과 청색의 차이로, 바깥쪽이 양(+)이며 사진 모서리(중심에서 {corner} px)에서의 값입니다. 좌표 보정에는 쓰지 않으며, 측정한 색이 아닌 다른 색이 얼마나 벗어나는지를 나타냅니다.";
+    lateral_colour_means(corner): "녹색에 대한 적색과 청색의 차이로, 바깥쪽이 양(+)이며 사진 모서리(중심에서 {corner} px)에서의 값입니다. 측정한 색이 아닌 다른 색이 얼마나 벗어나는지를 나타내며, 카메라가 그 색의 값을 갖지 않는 한 좌표 보정에는 쓰지 않습니다.";
+    colours_held: "다른 색에서의 내부표정";
+    colours_held_means(photos): "녹색이나 회색조가 아닌 색에서 측정한 사진에 대해 위 매개변수에 더하는 값이며, 조정에서 고정합니다. 그렇게 측정한 사진 수: {photos}.";
+    colour_without_set(colour, photos): "다른 색({colour})에서 측정했으나 카메라가 그 색의 값을 갖고 있지 않아 카메라 자체의 색으로 계산한 사진: {photos}.";
     colour: "색";
     red: "적색";
     blue: "청색";

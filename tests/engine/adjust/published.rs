@@ -144,6 +144,7 @@ fn the_textbook_resection_is_reproduced() {
         free: Vec::new(),
         sigma: Default::default(),
         per_photo: false,
+        colours: Default::default(),
     };
     let rows = [
         ([-86.15, -68.99], [36589.41, 25273.32, 2195.17]),

@@ -10,12 +10,15 @@ use sightline::error::{Error, Lack, Reason};
 use sightline::exchange;
 use sightline::noise::Noise;
 use sightline::project::{
-    ColourShift, CoordinateSystem, DatumKind, Distance, End, Feature, FeatureKind, LengthLimit, Paper, Parameter,
-    PhotoColours, Project, ReportLanguage, ReportSettings, Role, Section, SystemKind,
+    ColourDifferences, ColourShift, CoordinateSystem, DatumKind, Distance, End, Feature, FeatureKind, LengthLimit,
+    LensColour, Paper, Parameter, PhotoColours, Project, ReportLanguage, ReportSettings, Role, Section, SystemKind,
 };
 use sightline::report::number::{count, decimals_for, fixed, with_sigma};
 use sightline::report::plots::{comparison, plots};
 use sightline::report::{digest, sha256};
+
+/// What the camera adds for red: an eighth of a pixel at the corner.
+const HELD: (Parameter, f64) = (Parameter::C, 1.2e-3);
 
 /// A network with everything that a report speaks of.
 fn project() -> Project {
@@ -53,6 +56,9 @@ fn project() -> Project {
     project.systems = vec![CoordinateSystem { id: "S".into(), kind: SystemKind::Automatic { points } }];
     project.observations[3].enabled = false;
     project.photos[0].sha256 = sha256(b"a photo");
+    let set = ColourDifferences { parameters: [HELD].into(), sigma: [(HELD.0, 4e-4)].into() };
+    project.cameras[0].colours.insert(LensColour::Red, set);
+    (project.photos[2].colour, project.photos[3].colour) = (Some(LensColour::Red), Some(LensColour::Blue));
     project.report = ReportSettings {
         operator: "Measuring crew".into(),
         date: "2026-11-22".into(),
@@ -62,7 +68,15 @@ fn project() -> Project {
         colours: vec![PhotoColours {
             photo: project.photos[1].id.clone(),
             corner: 2500.0,
-            red: Some(ColourShift { linear: 0.7, cubic: -0.213, sigma: 0.011, rms: 0.03, targets: 187 }),
+            centre: None,
+            red: Some(ColourShift {
+                linear: 0.7,
+                cubic: -0.213,
+                sigma: 0.011,
+                rms: 0.03,
+                targets: 187,
+                ..ColourShift::default()
+            }),
             blue: None,
         }],
         ..ReportSettings::default()
@@ -135,6 +149,12 @@ fn every_section_is_there_with_the_results_own_numbers() {
         let unit = &project.unit;
         assert!(all["lengths"].contains(&format!("0.5 {unit} + L / 10 000")), "{}", all["lengths"]);
         assert!(all["cameras"].contains("0.487 0.011 0.700 −0.213 0.030 187"), "{}", all["cameras"]);
+        let (value, sigma, _) = with_sigma(HELD.1, Some(4e-4));
+        assert!(all["cameras"].contains(&format!("{value} {sigma}")), "{}", all["cameras"]);
+        let blue = &project.photos[3].id;
+        let without =
+            if language == ReportLanguage::English { format!("photos {blue}.") } else { format!("사진: {blue}.") };
+        assert!(all["cameras"].contains(&without), "{}", all["cameras"]);
         assert!(all["control"].contains(&fixed(check.rms_all, decimals)));
         assert!(all["statistics"].contains(&fixed(adjustment.sigma0.expect("redundant"), 4)));
         assert!(all["settings"].contains(&sha256(b"a photo")) && all["settings"].contains(&digest(&project).unwrap()));

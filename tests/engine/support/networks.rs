@@ -25,6 +25,8 @@ pub struct Wanted {
     pub centre_sigma: f64,
     /// Sigma of image coordinates in pixels, also of the noise.
     pub sigma_px: f64,
+    /// Whether the points reach beyond the pictures' edges, near and far: what a photo does not show is not measured in it.
+    pub wide: bool,
 }
 
 pub fn brown(free: &[Parameter]) -> Camera {
@@ -48,6 +50,7 @@ pub fn brown(free: &[Parameter]) -> Camera {
         free: free.to_vec(),
         sigma: Default::default(),
         per_photo: false,
+        colours: Default::default(),
     }
 }
 
@@ -71,6 +74,7 @@ pub fn opencv(free: &[Parameter]) -> Camera {
         free: free.to_vec(),
         sigma: Default::default(),
         per_photo: false,
+        colours: Default::default(),
     }
 }
 
@@ -86,6 +90,7 @@ impl Default for Wanted {
             distances: (0, 0.0),
             centre_sigma: 0.0,
             sigma_px: 0.2,
+            wide: false,
         }
     }
 }
@@ -112,7 +117,8 @@ pub fn exact(wanted: &Wanted, seed: u64) -> Project {
         ..Project::default()
     };
     for k in 0..wanted.points {
-        let xyz = [400.0, 300.0, 150.0].map(|half| random.between(-half, half));
+        let halves = if wanted.wide { [800.0, 800.0, 400.0] } else { [400.0, 300.0, 150.0] };
+        let xyz = halves.map(|half| random.between(-half, half));
         let control = k < wanted.control.0;
         project.points.push(Point {
             id: format!("p{k}"),
@@ -138,7 +144,10 @@ pub fn exact(wanted: &Wanted, seed: u64) -> Project {
         for point in &project.points {
             let p = m * (Vector3::from(point.xyz.expect("known")) - centre);
             let [u, v] = camera::pixel_from_camera_point(camera, p).expect("in front");
-            assert!(u > 0.0 && v > 0.0 && u < 4000.0 && v < 3000.0, "outside the photo: {u} {v}");
+            if !(u > 0.0 && v > 0.0 && u < 4000.0 && v < 3000.0) {
+                assert!(wanted.wide, "outside the photo: {u} {v}");
+                continue;
+            }
             project.observations.push(Observation {
                 photo: id.clone(),
                 point: point.id.clone(),
@@ -159,6 +168,11 @@ pub fn exact(wanted: &Wanted, seed: u64) -> Project {
             ..Photo::default()
         });
     }
+    let rays = |id: &String| project.observations.iter().filter(|o| o.point == *id).count();
+    let lone: Vec<String> =
+        project.points.iter().map(|p| p.id.clone()).filter(|id| wanted.wide && rays(id) < 3).collect();
+    project.points.retain(|p| !lone.contains(&p.id));
+    project.observations.retain(|o| !lone.contains(&o.point));
     for k in 0..wanted.distances.0 {
         let ends = [&project.points[2 * k], &project.points[2 * k + 1]];
         let [a, b] = ends.map(|p| Vector3::from(p.xyz.expect("known")));

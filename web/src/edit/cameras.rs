@@ -123,6 +123,10 @@ pub fn with_pitch(camera: &Camera, pitch: Option<[f64; 2]>) -> Camera {
         if let Some(sigma) = changed.sigma.get_mut(&parameter) {
             *sigma *= factor;
         }
+        for set in changed.colours.values_mut() {
+            let values = [set.parameters.get_mut(&parameter), set.sigma.get_mut(&parameter)];
+            values.into_iter().flatten().for_each(|value| *value *= factor);
+        }
     }
     changed
 }

@@ -38,6 +38,7 @@ mod tests {
             pixel_pitch: None,
             interior: Interior::brown(9000.0),
             sigma: [(Parameter::C, 0.5)].into(),
+            colours: Default::default(),
             remark: String::new(),
         }
     }

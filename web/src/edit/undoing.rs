@@ -241,6 +241,7 @@ const ACTIONS: [(&str, Action); 52] = [
             pixel_pitch: Some([0.004; 2]),
             interior: Interior::brown(35.0),
             sigma: [(Parameter::C, 0.01), (Parameter::K1, 1e-6)].into(),
+            colours: Default::default(),
             remark: String::new(),
         };
         equipment::use_calibration(d, "l", &calibration, Use::Observed);

@@ -55,6 +55,21 @@ pub fn reason(reason: &Reason) -> String {
         R::ParameterSigma => "매개변수의 사전 표준오차는 0보다 커야 합니다. 고정하려면 비워 두십시오",
         R::FocalLengthTwice => "f는 fx와 fy를 하나로 나타냅니다. f만, 또는 fx와 fy를 추정하십시오",
 
+        R::NoColoursMeasured => "이 카메라의 사진 중 색을 따로 측정한 것이 없습니다. RAW 사진의 색을 따로 측정하십시오",
+        R::ColoursOfAnotherGrid { photo } => {
+            return format!(
+                "사진 \"{photo}\"의 격자가 색을 따로 측정한 다른 사진과 다릅니다. 크기가 같은 사진에서 측정하십시오"
+            );
+        }
+        R::ColoursWithoutDistance => {
+            "색별 왜곡은 주점거리를 바탕으로 나타내는데 아직 알려져 있지 않습니다. 먼저 표정하거나 조정하십시오"
+        }
+        R::ColoursBeyondModel { left_px } => {
+            return format!(
+                "카메라 모델로 나타내지 못한 색수차가 {left_px}화소 남습니다. 왜곡이 영상 안에서 접히거나 렌즈의 왜곡이 아닙니다"
+            );
+        }
+
         R::OtherAdjustment => "결과가 프로젝트의 다른 상태에 속합니다. 다시 조정하십시오",
         R::DatumPoints => "기준계에는 한 직선 위에 있지 않은 점이 셋 이상 필요합니다",
         R::NoImage => "점의 상이 생기지 않는 곳에서 반복이 끝났습니다. 초기값을 개선하십시오",

@@ -1,0 +1,199 @@
+//! Colours measured apart, as a set of differences for a camera.
+//!
+//! What was measured of a photo is x = (t_u, t_v, l, c) with its covariance Q, pixels: a target at g in green stands in the other colour at
+//!
+//! g + s(g; x),  s = (t_u, t_v) + (l + c ρ²) (g - m) / R,  ρ = |g - m| / R,
+//!
+//! with m the middle of the picture and R the radius of its corners ([`crate::detection::Lateral`]). Several photos give the weighted mean
+//! N⁻¹ Σ Q⁻¹ x, N = Σ Q⁻¹, whose covariance N⁻¹ grows by the ratio of their scatter to their standard errors where that is above 1: the aberration
+//! changes with the focus.
+//!
+//! The differences d of the camera's parameters p are those that image best, over the whole picture, the ray of every g at g + s. With the
+//! residuals of [`Model::linearise`] in the measurement, and their derivatives J by the parameters, Gauss and Newton's iteration
+//! d ← d - (JᵀJ)⁻¹ Jᵀ e ends where the model leaves only what it cannot express. A shift is the principal point's, a scale the principal
+//! distance's, the cubic part is K1's; K2, K3, P1 and P2 take what is left where the distortion is large or the principal point not the middle. To first order
+//! d = L x with L = (JᵀJ)⁻¹ Jᵀ ∂s/∂x, so that its covariance is L N⁻¹ Lᵀ. This holds for both models, in millimetres and pixels.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
+
+use super::{Model, ideal_from_pixel, measurement_from_pixel};
+use crate::adjustment::ResidualPlace;
+use crate::error::{Error, Place, Reason, Result};
+use crate::project::{Camera, ColourDifferences, ColourShift, Interior, LensColour, Parameter, PhotoColours};
+
+/// Places along a side of the grid that the differences are fitted in.
+const PLACES: u32 = 24;
+/// Gauss-Newton steps: the differences are so small that the first leaves less than 1e-6 pixels.
+const STEPS: usize = 4;
+/// Rms in pixels that the model may leave of the aberration: a tenth of what centres are measured to.
+const LEFT_PX: f64 = 0.005;
+/// Share of the places that must have a ray.
+const SEEN: f64 = 0.95;
+
+/// Red and blue of a camera from its photos whose colours were measured apart; `measured` has photos of this camera alone.
+///
+/// # Errors
+/// [`Error::Invalid`] where no photo tells the aberration with its covariance, where a photo is of another grid, where the principal distance is
+/// not known, and where the model cannot express the aberration to [`LEFT_PX`].
+pub fn colour_differences(
+    camera: &Camera,
+    measured: &[PhotoColours],
+) -> Result<BTreeMap<LensColour, ColourDifferences>> {
+    let invalid = |reason| Err(Error::Invalid { reason, at: Place::camera(&camera.id).with_field("colours") });
+    let (mut frame, mut found) = (None, BTreeMap::new());
+    for colour in LensColour::ALL {
+        let mut all = Vec::new();
+        for photo in measured {
+            let shift = match colour {
+                LensColour::Red => &photo.red,
+                LensColour::Blue => &photo.blue,
+            };
+            let Some((centre, seen)) = photo.centre.zip(shift.as_ref().and_then(Seen::of)) else { continue };
+            let ([u, v], corner) = *frame.get_or_insert((centre, photo.corner));
+            let off = (centre[0] - u).abs().max((centre[1] - v).abs()).max((photo.corner - corner).abs());
+            if !(off < 1.0 && corner > 0.0) {
+                return invalid(Reason::ColoursOfAnotherGrid { photo: photo.photo.clone() });
+            }
+            all.push(seen);
+        }
+        let (Some((centre, corner)), Some(mean)) = (frame, mean(&all)) else { continue };
+        if Model::new(&camera.interior).is_none() {
+            return invalid(Reason::ColoursWithoutDistance);
+        }
+        match fitted(camera, centre, corner, &mean) {
+            Some((set, left)) if left <= LEFT_PX => found.insert(colour, set),
+            left => {
+                let left_px = left.map_or(f64::INFINITY, |(_, left)| left);
+                return invalid(Reason::ColoursBeyondModel { left_px: left_px.into() });
+            }
+        };
+    }
+    if found.is_empty() { invalid(Reason::NoColoursMeasured) } else { Ok(found) }
+}
+
+/// The four numbers of a colour, with their covariance.
+struct Seen {
+    x: Vector4<f64>,
+    covariance: Matrix4<f64>,
+}
+
+impl Seen {
+    fn of(shift: &ColourShift) -> Option<Self> {
+        let ([u, v], [q11, q12, q13, q14, q22, q23, q24, q33, q34, q44]) = shift.shift.zip(shift.covariance)?;
+        #[rustfmt::skip]
+        let covariance = Matrix4::new(
+            q11, q12, q13, q14,
+            q12, q22, q23, q24,
+            q13, q23, q33, q34,
+            q14, q24, q34, q44,
+        );
+        let x = Vector4::new(u, v, shift.linear, shift.cubic);
+        let sound = x.iter().chain(covariance.iter()).all(|x| x.is_finite()) && covariance.cholesky().is_some();
+        sound.then_some(Self { x, covariance })
+    }
+}
+
+/// Weighted mean of the photos.
+fn mean(all: &[Seen]) -> Option<Seen> {
+    let weights = all.iter().map(|seen| Some(seen.covariance.cholesky()?.inverse())).collect::<Option<Vec<_>>>()?;
+    let normal: Matrix4<f64> = weights.iter().sum();
+    let right: Vector4<f64> = weights.iter().zip(all).map(|(weight, seen)| weight * seen.x).sum();
+    let covariance = normal.cholesky()?.inverse();
+    let x = covariance * right;
+    let off = |(weight, seen): (&Matrix4<f64>, &Seen)| (seen.x - x).dot(&(weight * (seen.x - x)));
+    let scatter: f64 = weights.iter().zip(all).map(off).sum();
+    let free = 4.0 * (all.len() as f64 - 1.0);
+    let factor = if free > 0.0 { (scatter / free).max(1.0) } else { 1.0 };
+    Some(Seen { x, covariance: covariance * factor })
+}
+
+/// Derivatives of the shift at a place by the four numbers, pixels.
+fn by_numbers([u, v]: [f64; 2], [mu, mv]: [f64; 2], corner: f64) -> [Vector4<f64>; 2] {
+    let [x, y] = [(u - mu) / corner, (v - mv) / corner];
+    let square = x * x + y * y;
+    [Vector4::new(1.0, 0.0, x, x * square), Vector4::new(0.0, 1.0, y, y * square)]
+}
+
+/// A place of the grid: its ray, where the other colour stands and what the four numbers move there, in the camera's unit.
+struct GridPlace {
+    ray: [f64; 2],
+    other: [f64; 2],
+    by: [Vector4<f64>; 2],
+}
+
+/// The differences with their standard errors, and the rms in pixels that they leave.
+fn fitted(camera: &Camera, centre: [f64; 2], corner: f64, seen: &Seen) -> Option<(ColourDifferences, f64)> {
+    use Parameter as P;
+    let (distance, [x0, y0], [to_x, to_y]) = match camera.interior {
+        Interior::Brown { .. } => {
+            let [px, py] = camera.pitch();
+            (P::C, [P::X0, P::Y0], [px, -py])
+        }
+        Interior::Opencv { .. } => (P::F, [P::Cx, P::Cy], [1.0, 1.0]),
+    };
+    let wanted = [distance, x0, y0, P::K1, P::K2, P::K3, P::P1, P::P2];
+    let parameters = camera.interior.parameters();
+    let columns = wanted.map(|p| parameters.iter().position(|own| *own == p).unwrap_or_default());
+    let place = |k: u32, size: u32| (f64::from(k) + 0.5) / f64::from(PLACES) * f64::from(size);
+    let grid = (0..PLACES * PLACES).map(|k| [place(k % PLACES, camera.width), place(k / PLACES, camera.height)]);
+    let rays: Vec<GridPlace> = grid
+        .filter_map(|[u, v]| {
+            let by = by_numbers([u, v], centre, corner);
+            let other = [u + by[0].dot(&seen.x), v + by[1].dot(&seen.x)];
+            Some(GridPlace {
+                ray: ideal_from_pixel(camera, [u, v])?,
+                other: measurement_from_pixel(camera, other),
+                by: [by[0] * to_x, by[1] * to_y],
+            })
+        })
+        .collect();
+    if (rays.len() as f64) < SEEN * f64::from(PLACES * PLACES) {
+        return None;
+    }
+    let mut differences: BTreeMap<Parameter, f64> = wanted.iter().map(|p| (*p, 0.0)).collect();
+    let (mut j, mut e) = (DMatrix::zeros(2 * rays.len(), wanted.len()), DVector::zeros(2 * rays.len()));
+    let mut b = DMatrix::zeros(2 * rays.len(), 4);
+    let mut linearise = |differences: &BTreeMap<Parameter, f64>, j: &mut DMatrix<f64>, e: &mut DVector<f64>| {
+        let model = Model::new(&camera.interior.plus(differences))?;
+        for (k, GridPlace { ray: [x, y], other, by }) in rays.iter().enumerate() {
+            let linear = model.linearise(*other, [*x, *y, -1.0], ResidualPlace::Measured)?;
+            for side in 0..2 {
+                let row = 2 * k + side;
+                e[row] = linear.residual[side];
+                (0..4).for_each(|n| b[(row, n)] = by[side][n]);
+                columns.iter().enumerate().for_each(|(n, column)| j[(row, n)] = linear.by_parameter[side][*column]);
+            }
+        }
+        Some(())
+    };
+    let mut inverse = DMatrix::zeros(wanted.len(), wanted.len());
+    for _ in 0..STEPS {
+        linearise(&differences, &mut j, &mut e)?;
+        // K3 in pixels and a principal distance in pixels differ by twenty powers of ten
+        let scale = DMatrix::from_diagonal(&DVector::from_iterator(
+            wanted.len(),
+            j.column_iter().map(|column| 1.0 / column.norm().max(f64::MIN_POSITIVE)),
+        ));
+        let scaled = &j * &scale;
+        inverse = &scale * (scaled.transpose() * &scaled).cholesky()?.inverse() * &scale;
+        let step = &inverse * (j.transpose() * &e);
+        for (p, step) in wanted.iter().zip(step.iter()) {
+            *differences.entry(*p).or_default() -= step;
+        }
+    }
+    linearise(&differences, &mut j, &mut e)?;
+    let left = e.iter().zip([to_x, to_y].iter().cycle()).map(|(e, unit)| (e / unit).powi(2)).sum::<f64>();
+    let left = (left / e.len() as f64).sqrt();
+    let by_x = inverse * j.transpose() * b;
+    let covariance = &by_x * seen.covariance * by_x.transpose();
+    let sigma: BTreeMap<Parameter, f64> =
+        wanted.iter().enumerate().map(|(k, p)| (*p, covariance[(k, k)].max(0.0).sqrt())).collect();
+    let finite = differences.values().chain(sigma.values()).all(|x| x.is_finite());
+    finite.then_some((ColourDifferences { parameters: differences, sigma }, left))
+}
+
+#[cfg(test)]
+#[path = "colours/tests.rs"]
+mod tests;
