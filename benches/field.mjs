@@ -5,10 +5,12 @@
 // It fails where the peak is above 1.5 GB.
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
-import { extname, join } from 'node:path';
+import { join } from 'node:path';
 import { parseArgs } from 'node:util';
+
+import { copied, drawn } from './drawn.mjs';
+import { served } from './served.mjs';
 
 const { values, positionals } = parseArgs({
   allowPositionals: true,
@@ -19,21 +21,9 @@ const COUNT = Number(values.count);
 /** Different pictures; the others are these again with another comment, so that none is taken for another. */
 const DRAWN = 5;
 const [WIDTH, HEIGHT] = [6000, 4000];
-const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.webmanifest': 'application/manifest+json' };
 process.env.CHROMIUM ??= 'chromium';
 
-const server = createServer((request, answer) => {
-  const asked = new URL(request.url, 'http://x').pathname;
-  const path = asked === '/' ? '/index.html' : asked;
-  try {
-    const body = readFileSync(join(dist, path));
-    answer.writeHead(200, { 'content-type': TYPES[extname(path)] ?? 'application/octet-stream' }).end(body);
-  } catch {
-    answer.writeHead(404).end();
-  }
-});
-await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-process.env.SIGHTLINE_URL = `http://127.0.0.1:${server.address().port}/`;
+const server = await served(dist);
 const { open, processes } = await import('../e2e/browser.mjs');
 const { adjust, detect, drop, figure, go, idle, photos } = await import('../e2e/desk.mjs');
 
@@ -62,49 +52,17 @@ function projected(seed) {
   return all.filter(({ u, v }) => Math.min(u, v, WIDTH - u, HEIGHT - v) > 40);
 }
 
-/** Dots in noise, as a JPEG. */
-async function draw(page, seed) {
-  const url = await page.evaluate(
-    async ([width, height, seed, dots]) => {
-      let state = seed;
-      const random = () => (state = (state * 48_271) % 2_147_483_647) / 2_147_483_647;
-      const canvas = new OffscreenCanvas(width, height);
-      const pen = canvas.getContext('2d');
-      const tile = new ImageData(512, 512);
-      for (let i = 0; i < tile.data.length; i += 4) {
-        const grey = 60 + 24 * (random() + random() + random() - 1.5);
-        tile.data.set([grey, grey, grey, 255], i);
-      }
-      for (let y = 0; y < height; y += 512) for (let x = 0; x < width; x += 512) pen.putImageData(tile, x, y);
-      for (const { u, v } of dots) {
-        pen.fillStyle = '#e8e8e8';
-        pen.beginPath();
-        pen.ellipse(u, v, 14 + 8 * random(), 13 + 5 * random(), random(), 0, 7);
-        pen.fill();
-      }
-      const bytes = new Uint8Array(await (await canvas.convertToBlob({ type: 'image/jpeg', quality: 0.95 })).arrayBuffer());
-      let text = '';
-      for (let at = 0; at < bytes.length; at += 32_768) text += String.fromCharCode(...bytes.subarray(at, at + 32_768));
-      return btoa(text);
-    },
-    [WIDTH, HEIGHT, seed, projected(seed)],
-  );
-  return Buffer.from(url, 'base64');
-}
-
 /** Photos as files in a folder. */
 async function pictures(folder) {
   const paths = Array.from({ length: COUNT }, (_, k) => join(folder, `photo${String(k).padStart(3, '0')}.jpg`));
   if (paths.every(existsSync)) return paths;
   mkdirSync(folder, { recursive: true });
   const { page, close } = await open();
-  const drawn = [];
-  for (let seed = 1; seed <= Math.min(DRAWN, COUNT); seed++) drawn.push(await draw(page, seed));
+  const originals = [];
+  for (let seed = 1; seed <= Math.min(DRAWN, COUNT); seed++) originals.push(await drawn(page, { width: WIDTH, height: HEIGHT, seed, dots: projected(seed) }));
   await close();
   for (const [k, path] of paths.entries()) {
-    const photo = drawn[k % drawn.length];
-    const comment = Buffer.from(`\xff\xfe\0\x0aphoto${String(k).padStart(3, '0')}`, 'latin1');
-    writeFileSync(path, Buffer.concat([photo.subarray(0, 2), comment, photo.subarray(2)]));
+    writeFileSync(path, copied(originals[k % originals.length], `photo${String(k).padStart(3, '0')}`));
   }
   return paths;
 }

@@ -6,6 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
 
+import { copied } from './drawn.mjs';
 import { served } from './served.mjs';
 
 const { values, positionals: builds } = parseArgs({
@@ -21,9 +22,8 @@ process.env.CHROMIUM ??= 'chromium';
 const folder = mkdtempSync(join(tmpdir(), 'sightline-intake-'));
 const photo = readFileSync(values.photo);
 const paths = Array.from({ length: Number(values.count) }, (_, k) => {
-  const comment = Buffer.from(`\xff\xfe\0\x09photo${String(k).padStart(2, '0')}`, 'latin1');
   const path = join(folder, `photo${String(k).padStart(2, '0')}.jpg`);
-  writeFileSync(path, Buffer.concat([photo.subarray(0, 2), comment, photo.subarray(2)]));
+  writeFileSync(path, copied(photo, `photo${k}`));
   return path;
 });
 
