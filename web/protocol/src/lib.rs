@@ -51,7 +51,7 @@ pub enum Nothing {}
 /// Sends progress of a task.
 pub type Progress<'a, P> = &'a mut dyn FnMut(P);
 /// Sends a word on a task, with the bytes that belong to it.
-pub type Say<'a> = &'a mut dyn FnMut(String, Vec<Vec<u8>>);
+pub type Say<'a> = &'a mut dyn FnMut(Vec<u8>, Vec<Vec<u8>>);
 /// A file that came with a task.
 pub enum Given {
     /// Its bytes.
@@ -104,7 +104,7 @@ macro_rules! tasks {
         }
 
         impl Request {
-            /// Has the task done; `say` gets each word on it as text, with the bytes that belong to it.
+            /// Has the task done; `say` gets each word on it, written, with the bytes that belong to it.
             pub fn serve<S>(self, by: &S, files: Vec<Given>, say: Say)
             where
                 $(S: Service<$task>,)*
@@ -119,9 +119,15 @@ macro_rules! tasks {
                 matches!(self, Self::Pack(_) | Self::Unpack(_))
             }
 
+            /// Whether the bytes of its answer are pictures of tiles ([`Pyramid`]): the worker makes of them what a canvas draws, for
+            /// that holds up whoever does it.
+            pub fn draws(&self) -> bool {
+                matches!(self, Self::ShowPhoto(_))
+            }
+
             /// Says that a file of the task could not be read.
-            pub fn unreadable(&self, detail: String) -> String {
-                to_text(&Said::<Nothing, Nothing>::Unreadable(detail))
+            pub fn unreadable(&self, detail: String) -> Vec<u8> {
+                to_bytes(&Said::<Nothing, Nothing>::Unreadable(detail))
             }
         }
     };
@@ -129,11 +135,24 @@ macro_rules! tasks {
 
 fn serve<T: Task>(by: &impl Service<T>, task: T, files: Vec<Given>, say: Say) {
     let outcome =
-        by.serve(task, files, &mut |progress| say(to_text::<SaidTo<T>>(&Said::Progress(progress)), Vec::new()));
+        by.serve(task, files, &mut |progress| say(to_bytes::<SaidTo<T>>(&Said::Progress(progress)), Vec::new()));
     match outcome {
-        Ok((answer, bytes)) => say(to_text::<SaidTo<T>>(&Said::Done(answer)), bytes),
-        Err(error) => say(to_text::<SaidTo<T>>(&Said::Refused(Box::new(error))), Vec::new()),
+        Ok((answer, bytes)) => say(to_bytes::<SaidTo<T>>(&Said::Done(answer)), bytes),
+        Err(error) => say(to_bytes::<SaidTo<T>>(&Said::Refused(Box::new(error))), Vec::new()),
     }
+}
+
+/// A message as bytes: a long text would be turned into JavaScript's form and back on the way.
+pub fn to_bytes<M: Serialize>(message: &M) -> Vec<u8> {
+    to_text(message).into_bytes()
+}
+
+/// A message from its bytes.
+///
+/// # Errors
+/// Where they are another message's: what was found.
+pub fn from_bytes<M: DeserializeOwned>(bytes: &[u8]) -> std::result::Result<M, String> {
+    serde_json::from_slice(bytes).map_err(|error| error.to_string())
 }
 
 /// A message as text.
@@ -142,17 +161,13 @@ pub fn to_text<M: Serialize>(message: &M) -> String {
     serde_json::to_string(message).unwrap_or_default()
 }
 
-/// What has every name once, as text: in its own order, without the way by a value.
-pub fn to_plain_text<M: Serialize>(message: &M) -> String {
-    serde_json::to_string(message).unwrap_or_default()
-}
-
 /// A message from its text.
 ///
 /// # Errors
 /// Where the text is another message's: what was found.
 pub fn from_text<M: DeserializeOwned>(text: &str) -> std::result::Result<M, String> {
-    serde_json::from_str(text).map_err(|error| error.to_string())
+    // One way for both: what reads a document is large.
+    from_bytes(text.as_bytes())
 }
 
 tasks! {
@@ -458,8 +473,8 @@ mod tests {
 
     #[test]
     fn that_a_file_is_unreadable_is_understood_by_every_task() {
-        let text = Request::from(ShowPhoto {}).unreadable("gone".into());
-        assert!(matches!(from_text::<SaidTo<ShowPhoto>>(&text), Ok(Said::Unreadable(detail)) if detail == "gone"));
-        assert!(matches!(from_text::<SaidTo<Adjust>>(&text), Ok(Said::Unreadable(_))));
+        let said = Request::from(ShowPhoto {}).unreadable("gone".into());
+        assert!(matches!(from_bytes::<SaidTo<ShowPhoto>>(&said), Ok(Said::Unreadable(detail)) if detail == "gone"));
+        assert!(matches!(from_bytes::<SaidTo<Adjust>>(&said), Ok(Said::Unreadable(_))));
     }
 }

@@ -21,8 +21,11 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// From red, green, blue, alpha bytes, row by row.
+    /// From red, green, blue, alpha bytes, row by row, unless a worker has made a picture of them.
     pub async fn from_rgba(bytes: Bytes, width: u32, height: u32) -> Result<Self, String> {
+        if let Some(bitmap) = bytes.0.dyn_ref::<ImageBitmap>() {
+            return Ok(Self { bitmap: bitmap.clone(), width, height });
+        }
         let make = || -> Result<js_sys::Promise, JsValue> {
             let clamped = Uint8ClampedArray::new(&bytes.0.buffer());
             let data = ImageData::new_with_js_u8_clamped_array_and_sh(&clamped, width, height)?;
@@ -64,7 +67,7 @@ impl Drop for Tiles {
 }
 
 impl Pyramid {
-    /// From the bytes of the tiles. Between two of them the page does what it has to: no tile takes long.
+    /// From the tiles, as a worker has made them; where it could not, from their bytes, one after the other.
     pub async fn from_tiles(plan: Plan, bytes: Vec<Bytes>) -> Result<Self, String> {
         let mut bytes = bytes.into_iter();
         let mut levels = Tiles::default();

@@ -4,14 +4,14 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use js_sys::{Array, Object, Promise, Reflect, Uint8Array, WebAssembly};
-use sightline_protocol::{Request, to_text};
+use sightline_protocol::{Request, to_bytes};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, future_to_promise, spawn_local};
 use web_sys::{ErrorEvent, MessageEvent, Response, WorkerOptions, WorkerType};
 
 use super::file::Blob;
 
-/// Bytes that stay on JavaScript's side.
+/// Bytes that stay on JavaScript's side, or the picture that a worker made of them.
 #[derive(Clone)]
 pub struct Bytes(pub(super) Uint8Array);
 
@@ -20,7 +20,7 @@ pub enum Message {
     /// It has started and takes requests.
     Ready,
     /// A word on its task, with the bytes that belong to it; and how much memory the engine there has taken.
-    Said(String, Vec<Bytes>, f64),
+    Said(Vec<u8>, Vec<Bytes>, f64),
     /// It is lost (out of memory, for instance).
     Crashed(String),
 }
@@ -85,9 +85,10 @@ impl Worker {
     /// Sends a request with the files it works on; the worker reads them itself.
     pub fn post(&self, request: &Request, files: &[Blob]) -> Result<(), String> {
         let message = Object::new();
-        set(&message, "body", &to_text(request).into());
+        let body = Uint8Array::from(&to_bytes(request)[..]);
+        set(&message, "body", &body);
         set(&message, "files", &files.iter().map(Blob::as_js).collect::<Array>());
-        self.inner.post_message(&message).map_err(|e| describe(&e))
+        self.inner.post_message_with_transfer(&message, &Array::of1(&body.buffer())).map_err(|e| describe(&e))
     }
 
     /// Ends it at once, whatever it is doing.
@@ -177,7 +178,7 @@ fn read_message(data: &JsValue) -> Option<Message> {
     if field(data, "ready").is_truthy() {
         return Some(Message::Ready);
     }
-    let body = field(data, "body").as_string()?;
+    let body = field(data, "body").dyn_into::<Uint8Array>().ok()?.to_vec();
     let bytes = Array::from(&field(data, "bytes")).iter().map(|b| Bytes(b.unchecked_into())).collect();
     Some(Message::Said(body, bytes, field(data, "memory").as_f64().unwrap_or_default()))
 }

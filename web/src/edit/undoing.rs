@@ -10,7 +10,7 @@ use sightline::matching::{Doubt, Doubtful, Mark, Matching, snap};
 use sightline::project::{
     Camera, DatumKind, Distance, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma,
 };
-use sightline_protocol::to_plain_text;
+use sightline_protocol::to_text;
 
 use super::cells::{Cell, Editor};
 use super::sheet::{Col, Table};
@@ -98,11 +98,11 @@ fn document() -> Document {
 
 fn bytes(d: &Document) -> [String; 5] {
     [
-        to_plain_text(&*d.project),
-        to_plain_text(&*d.detections),
-        to_plain_text(&*d.doubtful),
-        to_plain_text(&d.sigmas_of_held.iter().collect::<Vec<_>>()),
-        to_plain_text(&d.options),
+        to_text(&*d.project),
+        to_text(&*d.detections),
+        to_text(&*d.doubtful),
+        to_text(&d.sigmas_of_held.iter().collect::<Vec<_>>()),
+        to_text(&d.options),
     ]
 }
 

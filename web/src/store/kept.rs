@@ -10,7 +10,7 @@ use sightline::detection::Detection;
 use sightline::exif::PhotoInfo;
 use sightline::matching::Doubtful;
 use sightline::project::{Parameter, Project};
-use sightline_protocol::{from_text, to_plain_text, to_text};
+use sightline_protocol::{from_text, to_text};
 
 use super::document::{Change, Document, History, Outcome};
 use crate::edit::targets;
@@ -70,8 +70,16 @@ pub struct KeptFile {
     pub digest: u64,
 }
 
-/// The part of a result.
-#[derive(Serialize, Deserialize)]
+/// The part of a result, as it is written.
+#[derive(Serialize)]
+struct ResultToKeep<'a> {
+    input: u64,
+    oriented: u64,
+    adjustment: &'a Adjustment,
+}
+
+/// The part of a result, as it is read.
+#[derive(Deserialize)]
 struct KeptResult {
     input: u64,
     oriented: u64,
@@ -192,7 +200,7 @@ impl Book {
     fn project(&mut self, part: &Arc<Project>, kind: &str) -> u64 {
         let (number, new) = number(&mut self.projects, &mut self.next, &self.in_journal, part);
         if new {
-            self.new.push(Part { number, kind: kind.to_owned(), text: to_plain_text(&**part) });
+            self.new.push(Part { number, kind: kind.to_owned(), text: to_text(&**part) });
         }
         number
     }
@@ -205,7 +213,7 @@ impl Book {
             for (photo, found) in &*document.detections {
                 let (number, new) = number(&mut self.detections, &mut self.next, &self.in_journal, found);
                 if new {
-                    let (kind, text) = (format!("targets {photo}"), to_plain_text(&**found));
+                    let (kind, text) = (format!("targets {photo}"), to_text(&**found));
                     self.new.push(Part { number, kind, text });
                 }
                 numbers.insert(photo, number);
@@ -227,7 +235,7 @@ impl Book {
         if new {
             let input = self.project(&result.input, "project");
             let oriented = self.project(&result.oriented, "oriented");
-            let text = to_text(&KeptResult { input, oriented, adjustment: result.adjustment.clone() });
+            let text = to_text(&ResultToKeep { input, oriented, adjustment: &result.adjustment });
             self.new.push(Part { number, kind: RESULT.into(), text });
         }
         number

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::rc::Rc;
 
 use sightline::Error;
-use sightline_protocol::{Request, Said, SaidTo, Task, from_text};
+use sightline_protocol::{Request, Said, SaidTo, Task, from_bytes};
 
 use crate::browser::file::Blob;
 use crate::browser::page;
@@ -33,7 +33,7 @@ pub enum Failure {
 
 /// What a worker says to a task, before it is known what that means.
 enum Heard {
-    Said(String, Vec<Bytes>),
+    Said(Vec<u8>, Vec<Bytes>),
     Lost(String),
 }
 
@@ -52,6 +52,9 @@ const USUAL_PIXELS: f64 = 24e6;
 /// A worker whose engine has grown beyond this, in bytes, with a document or a picture for the screen is not kept for what comes next: its
 /// memory never shrinks. To measure a photo of usual size takes less, and what takes so much takes longer than a worker to start.
 const GROWN: f64 = 192e6;
+
+/// An answer of more bytes is understood in one task of the page and told in the next: what is made of it takes as long as reading it.
+const LONG: usize = 1 << 18;
 
 /// Tasks that are cancelled together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,6 +94,8 @@ struct Inner {
     taken: f64,
     /// Workers at once: fewer when one was lost, for memory is the likely reason.
     most: usize,
+    /// Of these an answer is understood and not told yet.
+    untold: Vec<Batch>,
 }
 
 impl Default for Inner {
@@ -102,6 +107,7 @@ impl Default for Inner {
             pixels: USUAL_PIXELS,
             taken: 0.0,
             most: usize::MAX,
+            untold: Vec::new(),
         }
     }
 }
@@ -163,6 +169,7 @@ impl Pool {
         let ended = {
             let mut inner = self.0.borrow_mut();
             inner.queue.retain(|task| task.batch != batch);
+            inner.untold.retain(|untold| *untold != batch);
             let busy = |slot: &Slot| slot.task.as_ref().is_some_and(|task| task.batch == batch);
             let ids = inner.slots.iter().filter(|(_, slot)| busy(slot)).map(|(&id, _)| id).collect::<Vec<_>>();
             ids.into_iter().filter_map(|id| inner.slots.remove(&id)).collect::<Vec<_>>()
@@ -221,15 +228,21 @@ impl Pool {
                 }
             }
             Message::Said(body, bytes, taken) => {
-                let listener = {
+                let task = {
                     let inner = self.0.borrow();
-                    inner.slots.get(&id).and_then(|slot| slot.task.as_ref()).map(|task| task.listener.clone())
+                    let task = inner.slots.get(&id).and_then(|slot| slot.task.as_ref());
+                    task.map(|task| (task.listener.clone(), task.batch))
                 };
-                let Some(listener) = listener else { return };
+                let Some((listener, batch)) = task else { return };
+                let long = body.len() > LONG;
                 let understood = listener(Heard::Said(body, bytes));
                 // Free before it is told: who hears of it may submit what comes next.
                 self.free(id, taken, understood.ends);
-                (understood.tell)();
+                if long {
+                    self.tell_soon(batch, understood.tell);
+                } else {
+                    (understood.tell)();
+                }
             }
             Message::Crashed(detail) => {
                 let Some(mut slot) = self.0.borrow_mut().slots.remove(&id) else { return };
@@ -249,6 +262,22 @@ impl Pool {
         }
         self.pump();
         self.shrink();
+    }
+
+    /// Tells an answer in the page's next task, unless its batch is cancelled before.
+    fn tell_soon(&self, batch: Batch, tell: Box<dyn FnOnce()>) {
+        self.0.borrow_mut().untold.push(batch);
+        let pool = self.clone();
+        page::after(0, move || {
+            let waiting = {
+                let mut inner = pool.0.borrow_mut();
+                let at = inner.untold.iter().position(|untold| *untold == batch);
+                at.map(|at| inner.untold.remove(at)).is_some()
+            };
+            if waiting {
+                tell();
+            }
+        });
     }
 
     /// Takes note of what a worker's engine has taken, and has it free when its task has ended; or gone, where they have become too large
@@ -306,7 +335,7 @@ fn job<T: Task + Into<Request>>(
     let on_outcome = Rc::new(RefCell::new(on_outcome));
     let listener = move |heard: Heard| {
         let outcome = match heard {
-            Heard::Said(body, bytes) => match from_text::<SaidTo<T>>(&body) {
+            Heard::Said(body, bytes) => match from_bytes::<SaidTo<T>>(&body) {
                 Ok(Said::Progress(progress)) => Outcome::Progress(progress),
                 Ok(Said::Done(answer)) => Outcome::Done(answer, bytes),
                 Ok(Said::Refused(error)) => Outcome::Failed(Failure::Refused(*error)),

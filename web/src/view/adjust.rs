@@ -1,5 +1,7 @@
 //! Step 5: what is estimated from what, the iterations as they come, and what the network lacks.
 
+use std::collections::HashSet;
+
 use leptos::prelude::*;
 use sightline::adjustment::{AdjustedPhoto, ObservationGroup, Termination, VarianceComponent, VarianceComponents};
 use sightline::project::{Camera, DatumKind, Parameter, Project, Role};
@@ -181,8 +183,8 @@ fn FromWhat() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let counts = Memo::new(move |_| {
         desk.document.with(|d| {
-            let on = |id: &str| d.project.photos.iter().any(|p| p.id == id && p.enabled);
-            let image = d.project.observations.iter().filter(|o| o.enabled && on(&o.photo));
+            let on = d.project.photos.iter().filter(|p| p.enabled).map(|p| p.id.as_str()).collect::<HashSet<_>>();
+            let image = d.project.observations.iter().filter(|o| o.enabled && on.contains(o.photo.as_str()));
             let mut sigmas = image.clone().flat_map(|o| o.sigma.both()).collect::<Vec<_>>();
             sigmas.sort_by(f64::total_cmp);
             let median = sigmas.get(sigmas.len() / 2).copied();

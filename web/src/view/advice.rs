@@ -1,6 +1,6 @@
 //! What the network lacks, as sentences: what to do, why, and the number that says so.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use leptos::prelude::*;
 use sightline::adjustment::Given;
@@ -129,16 +129,19 @@ fn items(desk: Desk) -> Vec<Item> {
             }),
             _ => {}
         }
-        let mut rays = HashMap::<&str, Vec<&str>>::new();
+        // How often each point is seen, and in which photo first; the photos in which something is.
+        let mut rays = HashMap::<&str, (usize, &str)>::new();
+        let mut seeing = HashSet::new();
         for o in d.project.observations.iter().filter(|o| o.enabled) {
-            rays.entry(&o.point).or_default().push(&o.photo);
+            rays.entry(&o.point).or_insert((0, &o.photo)).0 += 1;
+            seeing.insert(o.photo.as_str());
         }
-        let single = d
-            .project
-            .points
-            .iter()
-            .filter(|p| p.role == Role::Tie && rays.get(p.id.as_str()).is_some_and(|r| r.len() == 1));
-        let single = single.map(|p| (p.id.clone(), rays[p.id.as_str()][0].to_owned())).collect::<Vec<_>>();
+        let tie = d.project.points.iter().filter(|p| p.role == Role::Tie);
+        let single = tie.filter_map(|p| match rays.get(p.id.as_str()) {
+            Some((1, photo)) => Some((p.id.clone(), (*photo).to_owned())),
+            _ => None,
+        });
+        let single = single.collect::<Vec<_>>();
         if let Some((point, photo)) = single.first() {
             items.push(Item {
                 warning: true,
@@ -148,11 +151,7 @@ fn items(desk: Desk) -> Vec<Item> {
                 target: Target::Observation { photo: photo.clone(), point: point.clone() },
             });
         }
-        let empty = d
-            .project
-            .photos
-            .iter()
-            .filter(|p| p.enabled && !d.project.observations.iter().any(|o| o.enabled && o.photo == p.id));
+        let empty = d.project.photos.iter().filter(|p| p.enabled && !seeing.contains(p.id.as_str()));
         let empty = empty.map(|p| p.id.clone()).collect::<Vec<_>>();
         if let Some(photo) = empty.first() {
             items.push(Item {

@@ -211,7 +211,7 @@ fn PointsTable() -> impl IntoView {
         });
         if sorting.get().is_none() {
             // Doubtful ones first.
-            rows.sort_by_key(|row| row.cells.last().is_some_and(|c| c.shown.is_empty()));
+            rows.sort_by_key(|row| row.cells.last().is_some_and(|c| c.shown().is_empty()));
         }
         rows
     });

@@ -1,6 +1,7 @@
 //! A table of numbers: sorted by its headings, only the rows in sight are drawn, keys and clicks choose a row, and the whole
 //! can be copied into a spreadsheet.
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
@@ -43,21 +44,34 @@ impl Column {
     }
 }
 
+/// What a cell holds; it is put into words when it is drawn or copied, for most rows of a large table are never seen.
+#[derive(Clone, Debug, PartialEq)]
+enum Content {
+    Words(String),
+    Count(usize),
+    /// With its decimals.
+    Number(Option<f64>, usize),
+}
+
 /// A cell: what is shown, what is copied, and what is sorted by.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
-    pub shown: String,
-    pub plain: String,
+    content: Content,
     pub order: Option<f64>,
+    /// Words that stand for a number that is copied all the same.
+    pub instead: Option<&'static str>,
     pub class: &'static str,
     /// A bar beside the number, 0 to 1.
     pub bar: Option<f64>,
 }
 
 impl Cell {
+    fn new(content: Content, order: Option<f64>) -> Self {
+        Self { content, order, instead: None, class: "", bar: None }
+    }
+
     pub fn words(words: impl Into<String>) -> Self {
-        let shown = words.into();
-        Self { plain: shown.clone(), shown, order: None, class: "left", bar: None }
+        Self { class: "left", ..Self::new(Content::Words(words.into()), None) }
     }
 
     pub fn id(id: &str) -> Self {
@@ -65,16 +79,29 @@ impl Cell {
     }
 
     pub fn count(n: usize) -> Self {
-        Self { shown: format::count(n), plain: n.to_string(), order: Some(n as f64), class: "", bar: None }
+        Self::new(Content::Count(n), Some(n as f64))
     }
 
     pub fn number(value: Option<f64>, decimals: usize) -> Self {
-        Self {
-            shown: format::maybe(value, decimals),
-            plain: value.map(|v| v.to_string()).unwrap_or_default(),
-            order: value,
-            class: "",
-            bar: None,
+        Self::new(Content::Number(value, decimals), value)
+    }
+
+    /// As it is shown.
+    pub fn shown(&self) -> Cow<'_, str> {
+        match (self.instead, &self.content) {
+            (Some(words), _) => words.into(),
+            (None, Content::Words(words)) => words.into(),
+            (None, Content::Count(n)) => format::count(*n).into(),
+            (None, Content::Number(value, decimals)) => format::maybe(*value, *decimals).into(),
+        }
+    }
+
+    /// As it is copied.
+    pub fn plain(&self) -> Cow<'_, str> {
+        match &self.content {
+            Content::Words(words) => words.into(),
+            Content::Count(n) => n.to_string().into(),
+            Content::Number(value, _) => value.map(|v| v.to_string()).unwrap_or_default().into(),
         }
     }
 
@@ -104,7 +131,7 @@ fn compare(a: &Row, b: &Row, sorting: Sorting) -> Ordering {
     let (Some(x), Some(y)) = cells else { return Ordering::Equal };
     let order = match (x.order, y.order) {
         (Some(x), Some(y)) => x.total_cmp(&y),
-        (None, None) => natural(&x.plain, &y.plain),
+        (None, None) => natural(&x.plain(), &y.plain()),
         // What has no number comes last either way.
         (Some(_), None) => return Ordering::Less,
         (None, Some(_)) => return Ordering::Greater,
@@ -123,7 +150,7 @@ impl Row {
         self.key.hash(&mut hasher);
         self.off.hash(&mut hasher);
         for cell in &self.cells {
-            (&cell.shown, cell.class, cell.bar.map(f64::to_bits)).hash(&mut hasher);
+            (cell.shown(), cell.class, cell.bar.map(f64::to_bits)).hash(&mut hasher);
         }
         hasher.finish()
     }
@@ -161,19 +188,33 @@ pub fn NumberTable(
     kind: Option<Kind>,
 ) -> impl IntoView {
     let desk = expect_context::<Desk>();
+    // The places of the rows in the order in which they stand.
     let sorted = Memo::new(move |_| {
-        let mut rows = rows.get();
-        if let Some(sorting) = sorting.get() {
-            rows.sort_by(|a, b| compare(a, b, sorting));
-        }
-        Arc::new(rows)
+        rows.with(|rows| {
+            let mut order = (0..rows.len()).collect::<Vec<_>>();
+            if let Some(sorting) = sorting.get() {
+                order.sort_by(|&a, &b| compare(&rows[a], &rows[b], sorting));
+            }
+            Arc::new(order)
+        })
     });
+    let count = move || sorted.with(|order| order.len());
+    let key_at = move |at: usize| {
+        let row = sorted.with_untracked(|order| order.get(at).copied());
+        row.and_then(|row| rows.with_untracked(|rows| rows.get(row).map(|row| row.key.clone())))
+    };
+    let keys = move || {
+        let order = sorted.get_untracked();
+        rows.with_untracked(|rows| {
+            order.iter().filter_map(|&row| rows.get(row)).map(|row| row.key.clone()).collect::<Vec<_>>()
+        })
+    };
     let frame = NodeRef::<Div>::new();
     let top = RwSignal::new(0.0_f64);
     let height = RwSignal::new(600.0_f64);
     let row_height = RwSignal::new(24.0_f64);
     let window = Memo::new(move |_| {
-        let total = sorted.with(|rows| rows.len());
+        let total = count();
         let row = row_height.get();
         let first = ((top.get() / row) as usize).saturating_sub(MARGIN).min(total);
         let last = (first + (height.get() / row) as usize + 2 * MARGIN + 2).min(total);
@@ -189,7 +230,10 @@ pub fn NumberTable(
             }
         }
     };
-    let place = move |key: &str| sorted.with(|rows| rows.iter().position(|row| row.key == key));
+    let place = move |key: &str| {
+        let order = sorted.get();
+        rows.with(|rows| order.iter().position(|&row| rows.get(row).is_some_and(|row| row.key == key)))
+    };
     // A row chosen anywhere is brought into sight; the heading covers the first row's height.
     let reveal = move |at: usize| {
         measure();
@@ -216,7 +260,7 @@ pub fn NumberTable(
     });
     let choose = move |key: String, how: Marking| match kind {
         Some(kind) if how != Marking::Only => {
-            let order = sorted.with_untracked(|rows| rows.iter().map(|row| row.key.clone()).collect::<Vec<_>>());
+            let order = keys();
             desk.choose_row(kind, &key, how, &order);
         }
         _ => on_choose.run(key),
@@ -224,7 +268,7 @@ pub fn NumberTable(
     let keydown = move |e: leptos::ev::KeyboardEvent| {
         let at = chosen.get_untracked().and_then(|key| untrack(|| place(&key)));
         let page = (height.get_untracked() / row_height.get_untracked()) as usize;
-        let rows = sorted.with_untracked(|rows| rows.len());
+        let rows = untrack(count);
         let key = event::key(&e);
         if let (true, "Enter", Some(open), Some(row)) =
             (key.on_table, key.key.as_str(), on_open, chosen.get_untracked())
@@ -233,14 +277,13 @@ pub fn NumberTable(
             return open.run(row);
         }
         let to = if key.on_table { neighbour(&key.key, at, rows, page.saturating_sub(2).max(1)) } else { None };
-        if let Some(row) = to.and_then(|to| sorted.with_untracked(|rows| rows.get(to).map(|row| row.key.clone()))) {
+        if let Some(row) = to.and_then(key_at) {
             e.prevent_default();
             choose(row, if key.modifiers.shift { Marking::Range } else { Marking::Only });
         }
         if let (true, "a" | "A", true, Some(kind)) = (key.on_table, key.key.as_str(), key.modifiers.control, kind) {
             e.prevent_default();
-            let all = sorted.with_untracked(|rows| rows.iter().map(|row| row.key.clone()).collect());
-            desk.selection.update(|s| s.mark_all(kind, all));
+            desk.selection.update(|s| s.mark_all(kind, keys().into_iter().collect()));
         }
     };
     let sort_by = move |column: usize| {
@@ -256,7 +299,7 @@ pub fn NumberTable(
     view! {
         <div class="scroll table-frame" node_ref=frame on:scroll=move |_| measure() on:pointerenter=move |_| measure()>
             <table class=format!("table {class}") aria-label=label role="grid" aria-multiselectable=kind.map(|_| "true") tabindex="0" on:keydown=keydown
-                aria-rowcount=move || (sorted.with(|rows| rows.len()) + 1).to_string()>
+                aria-rowcount=move || (count() + 1).to_string()>
                 <thead>
                     <tr>
                         {move || columns.get().into_iter().enumerate().map(|(i, column)| {
@@ -288,12 +331,14 @@ pub fn NumberTable(
                     <For
                         each=move || {
                             let (first, last) = window.get();
-                            sorted.with(|rows| rows[first.min(rows.len())..last.min(rows.len())].to_vec())
+                            let order = sorted.get();
+                            let seen = &order[first.min(order.len())..last.min(order.len())];
+                            rows.with(|rows| seen.iter().filter_map(|&row| rows.get(row).cloned()).collect::<Vec<_>>())
                         }
                         key=Row::fingerprint
                         children=move |row| view! { <TableRow row chosen choose=Callback::new(move |(key, how)| choose(key, how)) on_open kind/> }
                     />
-                    <tr class="gap" aria-hidden="true" style:height=move || gap(sorted.with(|rows| rows.len()) - window.get().1)></tr>
+                    <tr class="gap" aria-hidden="true" style:height=move || gap(count().saturating_sub(window.get().1))></tr>
                 </tbody>
             </table>
         </div>
@@ -335,7 +380,7 @@ fn TableRow(
         >
             {row.cells.into_iter().map(|cell| view! {
                 <td class=cell.class>
-                    {cell.shown}
+                    {cell.shown().into_owned()}
                     {cell.bar.map(|bar| view! { <i class="bar-cell" style:width=format!("{:.0}px", 4.0 + 36.0 * bar)></i> })}
                 </td>
             }).collect_view()}
@@ -358,7 +403,7 @@ pub fn to_tsv(columns: &[Column], rows: &[Row]) -> String {
         format!("{}{}{unit}", (c.name)(), c.low)
     });
     let mut lines = vec![heading.collect::<Vec<_>>().join("\t")];
-    lines.extend(rows.iter().map(|row| row.cells.iter().map(|c| c.plain.clone()).collect::<Vec<_>>().join("\t")));
+    lines.extend(rows.iter().map(|row| row.cells.iter().map(Cell::plain).collect::<Vec<_>>().join("\t")));
     lines.join("\n")
 }
 
@@ -411,6 +456,8 @@ mod tests {
     #[test]
     fn copies_have_plain_numbers() {
         let cell = Cell::number(Some(-1234.5), 1);
-        assert_eq!((cell.shown.as_str(), cell.plain.as_str()), ("\u{2212}1\u{2009}234.5", "-1234.5"));
+        assert_eq!((&*cell.shown(), &*cell.plain()), ("\u{2212}1\u{2009}234.5", "-1234.5"));
+        let unchecked = Cell { instead: Some("unchecked"), ..cell };
+        assert_eq!((&*unchecked.shown(), &*unchecked.plain()), ("unchecked", "-1234.5"));
     }
 }

@@ -1,15 +1,17 @@
-//! The worker's own scope: requests come in as text with files beside them, answers go out as text with bytes.
+//! The worker's own scope: requests come in with files beside them, answers go out with bytes or pictures beside them.
 
 use std::cell::RefCell;
 use std::io::{self, Read, Seek, SeekFrom};
 
-use js_sys::{Array, Function, Object, Promise, Reflect, Uint8Array, Uint16Array};
+use js_sys::{Array, Function, Object, Promise, Reflect, Uint8Array, Uint8ClampedArray, Uint16Array};
 use sightline::decode;
 use sightline::image::Samples;
-use sightline_protocol::{Given, Request, from_text};
+use sightline_protocol::{Given, Request, Said, SaidTo, ShowPhoto, from_bytes};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
-use web_sys::{Blob, DedicatedWorkerGlobalScope, FileReaderSync, MessageEvent, ReadableStreamByobReader};
+use web_sys::{
+    Blob, DedicatedWorkerGlobalScope, FileReaderSync, ImageBitmap, ImageData, MessageEvent, ReadableStreamByobReader,
+};
 
 use crate::tasks::Engine;
 
@@ -28,8 +30,8 @@ pub fn serve_requests() {
 
 async fn serve(message: &JsValue) {
     let field = |name: &str| Reflect::get(message, &name.into()).unwrap_or_default();
-    let body = field("body").as_string().unwrap_or_default();
-    let request = match from_text::<Request>(&body) {
+    let body = field("body").dyn_into::<Uint8Array>().map(|body| body.to_vec()).unwrap_or_default();
+    let request = match from_bytes::<Request>(&body) {
         Ok(request) => request,
         Err(detail) => return crashed(&detail),
     };
@@ -44,7 +46,37 @@ async fn serve(message: &JsValue) {
     if files.iter().any(|file| matches!(file, Given::Whole(bytes) if decode::packed(bytes).is_some())) {
         load_codecs().await;
     }
-    request.serve(&Engine, files, &mut say);
+    if !request.draws() {
+        return request.serve(&Engine, files, &mut say);
+    }
+    let mut words = Vec::new();
+    request.serve(&Engine, files, &mut |body, bytes| words.push((body, bytes)));
+    for (body, bytes) in words {
+        match from_bytes::<SaidTo<ShowPhoto>>(&body) {
+            Ok(Said::Done(plan)) => {
+                let tiles = (0..plan.levels.len()).flat_map(|level| plan.tiles(level));
+                let sizes = tiles.map(|[.., width, height]| [width, height]);
+                match draw(&bytes, sizes).await {
+                    Ok(pictures) => send(&body, &pictures, &Array::from(&pictures)),
+                    // A browser whose workers cannot: the page does it.
+                    Err(_) => say(body, bytes),
+                }
+            }
+            _ => say(body, bytes),
+        }
+    }
+}
+
+/// Pictures that a canvas can draw, from red, green, blue, alpha bytes of these widths and heights.
+async fn draw(bytes: &[Vec<u8>], sizes: impl Iterator<Item = [u32; 2]>) -> Result<Array, JsValue> {
+    let pictures = Array::new();
+    for (bytes, [width, height]) in bytes.iter().zip(sizes) {
+        let bytes = Uint8ClampedArray::from(&bytes[..]);
+        let data = ImageData::new_with_js_u8_clamped_array_and_sh(&bytes, width, height)?;
+        let picture = JsFuture::from(scope().create_image_bitmap_with_image_data(&data)?).await?;
+        pictures.push(picture.unchecked_ref::<ImageBitmap>());
+    }
+    Ok(pictures)
 }
 
 thread_local! {
@@ -190,14 +222,21 @@ impl Seek for BlobStream {
     }
 }
 
-fn say(body: String, bytes: Vec<Vec<u8>>) {
-    let message = Object::new();
+fn say(body: Vec<u8>, bytes: Vec<Vec<u8>>) {
     let arrays = bytes.iter().map(|bytes| Uint8Array::from(&bytes[..])).collect::<Vec<_>>();
-    set(&message, "body", &body.into());
+    send(&body, &arrays.iter().collect(), &arrays.iter().map(Uint8Array::buffer).collect());
+}
+
+/// Sends a word with what goes beside it, which is handed over as `transfer` says.
+fn send(body: &[u8], beside: &Array, transfer: &Array) {
+    let message = Object::new();
+    let body = Uint8Array::from(body);
+    set(&message, "body", &body);
     // It only ever grows: the page counts with it.
     set(&message, "memory", &(core::arch::wasm32::memory_size::<0>() as f64 * 65536.0).into());
-    set(&message, "bytes", &arrays.iter().collect::<Array>());
-    post(&message, &arrays.iter().map(Uint8Array::buffer).collect());
+    set(&message, "bytes", beside);
+    transfer.push(&body.buffer());
+    post(&message, transfer);
 }
 
 fn crashed(detail: &str) {

@@ -72,7 +72,7 @@ pub(super) fn GivenTable() -> impl IntoView {
                 let number = |value: Option<f64>, decimals| Cell::number(value.filter(|_| !unchecked), decimals);
                 let mut checked = Cell::number(redundancy, redundancy.map_or(2, |r| format::decimals_of(r, 2)));
                 if unchecked {
-                    checked.shown = text::unchecked().to_owned();
+                    checked.instead = Some(text::unchecked());
                     size = Cell::number(None, 2);
                 }
                 let effect = given.effect.map_or(3, format::decimals_for);
