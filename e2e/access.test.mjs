@@ -147,6 +147,36 @@ test('on a phone nothing is cut or covered, and everything can be hit with a fin
   }
 });
 
+test('in a small window the words of the steps stand whole, and every button of a step is in sight', longer, async () => {
+  const { page, errors, close } = await open({ width: 1024, height: 700 });
+  try {
+    await sample(page);
+    for (const language of ['en', 'ko']) {
+      assert.equal(await page.getAttribute('html', 'lang'), language);
+      for (const step of ['photos', 'targets', 'identities', 'control', 'adjust', 'results']) {
+        await go(page, step);
+        await page.waitForTimeout(300);
+        for (const width of [1200, 1024]) {
+          await page.setViewportSize({ width, height: 700 });
+          await page.waitForTimeout(100);
+          const cut = await page.$$eval('.steps .label, .stage-head > b', (all) => all.filter((e) => e.clientWidth > 0 && e.scrollWidth > e.clientWidth + 1).map((e) => e.textContent));
+          assert.deepEqual(cut, [], `${language} ${step} ${width}`);
+          const out = await page.$$eval('.bar .button, .hero-action .button, .stage-head .stage-button', (all) =>
+            all.map((e) => [e.textContent, e.getBoundingClientRect().toJSON()]).filter(([, box]) => box.width > 0 && (box.left < 0 || box.right > innerWidth)).map(([words]) => words));
+          assert.deepEqual(out, [], `${language} ${step} ${width}`);
+          // Of the stage no button is cut by its column.
+          const beyond = await page.$$eval('.stage', (all) => all.flatMap((stage) => [...stage.querySelectorAll('.stage-head .stage-button')].filter((e) => e.getBoundingClientRect().right > stage.getBoundingClientRect().right + 1).map((e) => e.textContent)));
+          assert.deepEqual(beyond, [], `${language} ${step} ${width}`);
+        }
+      }
+      await page.getByRole('button', { name: language === 'en' ? 'Language: switch to Korean' : '언어: 영어로 바꾸기' }).click();
+    }
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
 test('at 1366 pixels no table of the results is cut, and a sorted column shows its direction', longer, async () => {
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
