@@ -14,7 +14,7 @@ use sightline::experiments::{Experiment, ExperimentOptions};
 use sightline::matching::{Matching, PhotoTargets, PredictOptions, Prediction};
 use sightline::orient::Note;
 use sightline::plan::{Criterion, Made, MakeOptions, Prediction as PlanPrediction, Suggested};
-use sightline::project::{Datum, Plan, Project};
+use sightline::project::{Camera, ColourDifferences, Datum, LensColour, PhotoColours, Plan, Project};
 use sightline::report::plots::Plot;
 use sightline::sheets::{CodeCount, SheetOptions};
 pub use sightline::tiles::Pyramid;
@@ -184,6 +184,8 @@ tasks! {
     Detect { /** How. */ pub options: DetectOptions } => Nothing, Detection;
     /// Measure the targets of a photo in every colour.
     MeasureColours { /** How. */ pub options: DetectOptions } => Nothing, ColoursApart;
+    /// What a camera adds to its parameters for red and blue, from photos of it whose colours were measured apart.
+    DifferColours { /** Whose. */ pub camera: Camera, /** Of its photos. */ pub measured: Vec<PhotoColours> } => Nothing, BTreeMap<LensColour, ColourDifferences>;
     /// Measure at one place of a photo; by the file's digest a worker knows the photos that it decoded last.
     Measure {
         /** Of the file. */ pub digest: u64,

@@ -1,10 +1,12 @@
 //! Cameras and photos: which photos share a camera, what is known of it before any adjustment, what is estimated of it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use sightline::adjustment::AdjustedCamera;
+use sightline::detection::{Channel, Colour, Detection};
 use sightline::exif::PhotoInfo;
-use sightline::project::{Camera, Interior, Parameter, Photo, Project};
+use sightline::project::{Camera, ColourDifferences, Interior, LensColour, Parameter, Photo, PhotoColours, Project};
 
 use crate::store::document::Document;
 
@@ -162,6 +164,43 @@ pub fn set_initial(project: &mut Project, id: &str, parameter: Parameter, value:
     }
 }
 
+/// What a camera adds to its parameters for photos measured in red or blue; nothing: it adds nothing.
+pub fn set_colours(project: &mut Project, id: &str, colours: BTreeMap<LensColour, ColourDifferences>) {
+    if let Some(camera) = camera_mut(project, id) {
+        camera.colours = colours;
+    }
+}
+
+/// A camera of the project with the best that is known of it: its values in the present result, where there is one.
+pub fn as_known(document: &Document, camera: &Camera) -> Camera {
+    let of_all = |adjusted: &&AdjustedCamera| adjusted.camera.id == camera.id && adjusted.photo.is_none();
+    let found = document.current().and_then(|result| result.adjustment.cameras.iter().find(of_all));
+    Camera { interior: found.map_or(camera.interior, |adjusted| adjusted.camera.interior), ..camera.clone() }
+}
+
+/// Photos of a camera whose colours were measured apart.
+pub fn measured_apart(project: &Project, id: &str) -> Vec<PhotoColours> {
+    let of_camera = |photo: &str| project.photos.iter().any(|p| p.id == photo && p.camera == id);
+    project.report.colours.iter().filter(|colours| of_camera(&colours.photo)).cloned().collect()
+}
+
+/// Notes which colour the centres of a photo were measured in: the channel's, where the photo has colours to choose from.
+pub fn measured_in(project: &mut Project, photo: &str, channel: Channel, detection: &Detection) {
+    let colour = match (&detection.measured, channel) {
+        (Some(measured), _) => match measured.colour {
+            Some(Colour::Red) => Some(LensColour::Red),
+            Some(Colour::Blue) => Some(LensColour::Blue),
+            _ => None,
+        },
+        (None, Channel::Red) => Some(LensColour::Red),
+        (None, Channel::Blue) => Some(LensColour::Blue),
+        (None, Channel::Grey | Channel::Green) => None,
+    };
+    if let Some(photo) = project.photos.iter_mut().find(|p| p.id == photo) {
+        photo.colour = colour;
+    }
+}
+
 /// Gives a camera another name.
 pub fn rename(project: &mut Project, from: &str, to: &str) {
     for camera in project.cameras.iter_mut().filter(|c| c.id == from) {
@@ -275,6 +314,8 @@ pub fn forget_position(project: &mut Project, photo: &str) {
 
 #[cfg(test)]
 mod tests {
+    use sightline::detection::Measured;
+
     use super::*;
 
     const SIZE: [u32; 2] = [2000, 1333];
@@ -365,6 +406,50 @@ mod tests {
         let mut document = Document { project: p.into(), ..Document::default() };
         remove_photos(&mut document, &set(&["1", "2"]));
         assert!(document.project.cameras.is_empty() && document.project.photos.is_empty());
+    }
+
+    #[test]
+    fn a_photo_knows_the_colour_it_was_measured_in() {
+        let mut p = project();
+        let sites = |colour| Detection {
+            measured: Some(Measured { colour: Some(colour), ..Measured::default() }),
+            ..Detection::default()
+        };
+        let cases = [
+            (Channel::Grey, Detection::default(), None),
+            (Channel::Red, Detection::default(), Some(LensColour::Red)),
+            (Channel::Blue, sites(Colour::Blue), Some(LensColour::Blue)),
+            // what the sensor was measured on counts, whatever was asked for
+            (Channel::Red, sites(Colour::Green), None),
+        ];
+        for (channel, detection, wanted) in cases {
+            measured_in(&mut p, "2", channel, &detection);
+            assert_eq!((p.photos[1].colour, p.photos[0].colour), (wanted, None), "{channel:?}");
+        }
+    }
+
+    #[test]
+    fn a_camera_takes_the_colours_of_its_own_photos_and_keeps_them_in_another_unit() {
+        let mut p = project();
+        assign_own(&mut p, &set(&["2"]));
+        p.report.colours = ["1", "2"]
+            .map(|photo| PhotoColours { photo: photo.into(), corner: 1.0, centre: None, red: None, blue: None })
+            .into();
+        let of = |p: &Project, id: &str| measured_apart(p, id).into_iter().map(|c| c.photo).collect::<Vec<_>>();
+        assert_eq!((of(&p, "X"), of(&p, "X 2")), (vec!["1".to_owned()], vec!["2".to_owned()]));
+        let red = ColourDifferences {
+            parameters: [(Parameter::C, 0.01), (Parameter::K1, 1e-6)].into(),
+            sigma: [(Parameter::K1, 1e-7)].into(),
+        };
+        set_colours(&mut p, "X", [(LensColour::Red, red.clone())].into());
+        assert!(p.cameras[1].colours.is_empty());
+        // millimetres of 0.01 to pixels: lengths a hundredfold, K1 by 1e-4
+        let pixels = with_pitch(&p.cameras[0], None).colours.remove(&LensColour::Red).expect("red");
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-9;
+        assert!(near(pixels.parameters[&Parameter::C], 1.0) && near(pixels.parameters[&Parameter::K1], 1e-10));
+        assert!(near(pixels.sigma[&Parameter::K1], 1e-11));
+        set_colours(&mut p, "X", BTreeMap::new());
+        assert!(p.cameras[0].colours.is_empty());
     }
 
     #[test]

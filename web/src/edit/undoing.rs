@@ -8,7 +8,8 @@ use sightline::equipment::{Calibration, ScaleBar, Use};
 use sightline::exif::PhotoInfo;
 use sightline::matching::{Doubt, Doubtful, Mark, Matching, snap};
 use sightline::project::{
-    Camera, DatumKind, Distance, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma,
+    Camera, ColourDifferences, DatumKind, Distance, Interior, LensColour, Observation, Parameter, Photo, Point,
+    Project, Role, Sigma,
 };
 use sightline_protocol::to_text;
 
@@ -52,7 +53,7 @@ fn seen(photo: &str, point: &str, number: u32) -> Observation {
     }
 }
 
-/// Two cameras, four photos, points a to e, a distance, control, targets and doubts.
+/// Three cameras, four photos, points a to e, a distance, control, targets and doubts.
 fn document() -> Document {
     let mut project = Project {
         name: "p".into(),
@@ -72,6 +73,7 @@ fn document() -> Document {
         distances: vec![Distance { from: "a".into(), to: "b".into(), length: 5.0, sigma: 0.1, check: false }],
         ..Project::default()
     };
+    project.cameras[2].colours = red();
     project.photos[0].position = Some([1.0; 3]);
     project.photos[0].sigma_position = Some([Some(0.1); 3]);
     points::tidy(&mut project);
@@ -118,12 +120,17 @@ fn set(d: &mut Document, table: Table, cells: &[(&str, Col, &str)]) {
     }
 }
 
+fn red() -> BTreeMap<LensColour, ColourDifferences> {
+    let red = ColourDifferences { parameters: [(Parameter::K1, 1e-7)].into(), sigma: [(Parameter::K1, 1e-8)].into() };
+    [(LensColour::Red, red)].into()
+}
+
 fn rename(d: &mut Document, names: BTreeMap<String, String>) {
     let _ = many::rename_all(d.project_mut(), &names);
 }
 
 /// The kinds of action.
-const ACTIONS: [(&str, Action); 52] = [
+const ACTIONS: [(&str, Action); 54] = [
     ("photos added", |d| {
         cameras::add_photo(d.project_mut(), "new.jpg", &PhotoInfo::default(), [100, 80], None, &|_| false);
     }),
@@ -246,6 +253,8 @@ const ACTIONS: [(&str, Action); 52] = [
         };
         equipment::use_calibration(d, "l", &calibration, Use::Observed);
     }),
+    ("colours taken", |d| cameras::set_colours(d.project_mut(), "l", red())),
+    ("colours forgotten", |d| cameras::set_colours(d.project_mut(), "m", BTreeMap::new())),
     ("scale bars taken", |d| {
         let bar = |from: &str, to: &str| ScaleBar {
             id: format!("{from}-{to}"),

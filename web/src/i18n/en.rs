@@ -260,6 +260,13 @@ declare! { desk {
     colours_apart_hint: "A lens images red and blue a little larger or smaller than green. Measured in all three, the targets show how much.";
     measure_colours: "Measure red and blue";
     measuring_colours: "Measuring red and blue…";
+    hold_colours: "Hold in the camera";
+    hold_colours_again: "Hold these instead";
+    forget_colours: "Add nothing for other colours";
+    lens_colour: "colour";
+    colour_difference: "difference";
+    colours_hold_means(camera): "Camera {camera} can hold these differences: they are added to its parameters, and held, for photos measured in red or blue.";
+    colours_are_held(camera): "Camera {camera} holds differences for other colours: they are added to its parameters, and held, for photos measured in red or blue.";
     apart_at_corner(colour, pixels, sigma, count): "{colour}: {pixels} px against green at the corner (standard error {sigma} px), from {count} targets";
     apart_too_few(colour, count): "{colour}: {count} targets in both colours are too few to tell";
     apart_outwards: "px outwards";
@@ -767,6 +774,8 @@ declare! { desk {
     change_centre_forgotten(photo): "projection centre of photo {photo} no longer observed";
     change_distance_removed(from, to): "distance {from} – {to} removed";
     change_datum: "datum chosen";
+    change_colours_taken(camera): "colours of camera {camera} taken";
+    change_colours_forgotten(camera): "colours of camera {camera} removed";
     change_parameters(camera): "parameters of camera {camera} changed";
     change_options: "weights or search for gross errors chosen";
     change_adjusted: "adjusted";

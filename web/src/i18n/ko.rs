@@ -252,6 +252,13 @@ translate! { Korean desk {
     colours_apart_hint: "렌즈는 적색과 청색을 녹색보다 조금 크거나 작게 맺습니다. 표적을 세 색에서 모두 측정하면 그 차이(배율 색수차)를 알 수 있습니다.";
     measure_colours: "적색과 청색 측정";
     measuring_colours: "적색과 청색 측정 중…";
+    hold_colours: "카메라에 고정";
+    hold_colours_again: "이 값으로 바꾸기";
+    forget_colours: "다른 색에 대한 값 삭제";
+    lens_colour: "색";
+    colour_difference: "차이";
+    colours_hold_means(camera): "카메라 {camera}에 이 차이를 넣을 수 있습니다. 적색이나 청색에서 측정한 사진에 대해 매개변수에 더하며, 조정에서 고정합니다.";
+    colours_are_held(camera): "카메라 {camera}에 다른 색에 대한 차이가 있습니다. 적색이나 청색에서 측정한 사진에 대해 매개변수에 더하며, 조정에서 고정합니다.";
     apart_at_corner(colour, pixels, sigma, count): "{colour}: 모서리에서 녹색 대비 {pixels} px(표준오차 {sigma} px), 표적 {count}개";
     apart_too_few(colour, count): "{colour}: 두 색에서 함께 측정된 표적이 {count}개뿐이라 알 수 없습니다";
     apart_outwards: "바깥쪽 px";
@@ -744,6 +751,8 @@ translate! { Korean desk {
     change_centre_forgotten(photo): "사진 {photo}의 투영중심 관측 해제";
     change_distance_removed(from, to): "거리 {from} – {to} 삭제";
     change_datum: "기준계 선택";
+    change_colours_taken(camera): "카메라 {camera} 색별 값 사용";
+    change_colours_forgotten(camera): "카메라 {camera} 색별 값 삭제";
     change_parameters(camera): "카메라 {camera} 매개변수 변경";
     change_options: "가중값·과대오차 처리 선택";
     change_adjusted: "조정";

@@ -1,14 +1,16 @@
-//! Colours of a photo measured apart, on request: the last ones are kept.
+//! Colours of a photo measured apart, on request: the last ones are kept. A camera may hold what they tell.
 
 use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::detection::{ColoursApart, DetectOptions};
-use sightline_protocol::MeasureColours;
+use sightline_protocol::{DifferColours, MeasureColours};
 
+use super::document::Change;
 use super::lasting::Stop;
 use super::pool::{Failure, Outcome};
 use super::{Desk, Until};
+use crate::edit::cameras;
 use crate::i18n::lasting as words;
 use crate::i18n::{errors, text};
 
@@ -78,5 +80,38 @@ impl Desk {
         let stopped =
             move || self.apart.update(|all| all.retain(|apart| apart.digest != digest || apart.found.is_some()));
         self.ask_in_turn(Stop(words::colours, stopped), task, vec![file], on_outcome);
+    }
+
+    /// Lets a camera add, for photos measured in red or blue, what its photos whose colours were measured apart tell.
+    pub fn hold_colours(self, camera: &str) {
+        let found = self.document.with_untracked(|d| {
+            let camera = d.project.cameras.iter().find(|c| c.id == camera)?;
+            Some((camera.clone(), cameras::as_known(d, camera), cameras::measured_apart(&d.project, &camera.id)))
+        });
+        let Some((taken, camera, measured)) = found else { return };
+        let id = camera.id.clone();
+        let on_outcome = move |outcome: Outcome<DifferColours>| match outcome {
+            Outcome::Progress(nothing) => match nothing {},
+            Outcome::Done(colours, _) => {
+                // They belong to the parameters that they were made for.
+                let same = self.document.with_untracked(|d| d.project.cameras.contains(&taken));
+                if same {
+                    let change = Change::ColoursTaken { camera: id.clone() };
+                    self.change(change, |document| cameras::set_colours(document.project_mut(), &id, colours));
+                }
+            }
+            Outcome::Failed(Failure::Refused(error)) => self.warn_error(error),
+            Outcome::Failed(Failure::Unreadable(detail) | Failure::Lost(detail)) => {
+                self.say(true, Until::NextWork, move || text::worker_lost(&detail));
+            }
+        };
+        self.ask_in_turn(Stop(words::lens_colours, || ()), DifferColours { camera, measured }, Vec::new(), on_outcome);
+    }
+
+    /// Has a camera add nothing for other colours any more.
+    pub fn forget_colours(self, camera: &str) {
+        self.change(Change::ColoursForgotten { camera: camera.to_owned() }, |document| {
+            cameras::set_colours(document.project_mut(), camera, Default::default());
+        });
     }
 }

@@ -1,14 +1,14 @@
 //! Targets: every photo is a task of the worker pool; what is found is in the document at once.
 
 use leptos::prelude::*;
-use sightline::detection::Detection;
+use sightline::detection::{Channel, Detection};
 use sightline::ring_code::Family;
 use sightline_protocol::Detect;
 
 use super::document::Change;
 use super::pool::{Failure, Outcome};
 use super::{Desk, JobKind, PhotoFile, Until};
-use crate::edit::targets;
+use crate::edit::{cameras, targets};
 use crate::i18n::{errors, text};
 
 impl Desk {
@@ -27,11 +27,12 @@ impl Desk {
         self.pool.with_value(|pool| pool.expect_pixels(largest));
         // One change for all photos; each photo's targets join it as they come.
         self.change(Change::TargetsDetected, |_| {});
+        let channel = options.channel;
         let batch = self.start_job(JobKind::Detecting, photos.len(), || {});
         for (id, file) in photos {
             let on_outcome = move |outcome: Outcome<Detect>| {
                 match outcome {
-                    Outcome::Done(detection, _) => self.add_detection(&id, detection),
+                    Outcome::Done(detection, _) => self.add_detection(&id, detection, channel),
                     Outcome::Failed(Failure::Refused(error)) => {
                         let photo = id.clone();
                         self.say(true, Until::NextWork, move || text::photo_failed(&photo, errors::sentence(&error)));
@@ -53,7 +54,7 @@ impl Desk {
         }
     }
 
-    fn add_detection(self, photo: &str, detection: Detection) {
+    fn add_detection(self, photo: &str, detection: Detection, channel: Channel) {
         if !detection.damaged_rows.is_empty() {
             let rows = detection.damaged_rows.iter().map(|[first, last]| format!("{}–{last}", first + 1));
             let (photo, rows) = (photo.to_owned(), rows.collect::<Vec<_>>().join(", "));
@@ -63,7 +64,10 @@ impl Desk {
             [family] => Some(*family),
             _ => None,
         };
-        self.change_on(|document| targets::take_detection(document, photo, detection, family));
+        self.change_on(|document| {
+            cameras::measured_in(document.project_mut(), photo, channel, &detection);
+            targets::take_detection(document, photo, detection, family);
+        });
     }
 
     /// Reads the rings as codes of this family, now and in photos to come.

@@ -142,6 +142,8 @@ pub enum Change {
     QuestionAnswered { photo: String },
     CalibrationTaken { camera: String },
     BarsTaken(usize),
+    ColoursTaken { camera: String },
+    ColoursForgotten { camera: String },
 }
 
 /// A change and the state on its other side.

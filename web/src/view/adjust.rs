@@ -8,15 +8,18 @@ use sightline::project::{Camera, DatumKind, Parameter, Project, Role};
 pub use sightline::report::names::{parameter_name, parameter_unit};
 
 use super::advice::Advice;
+use super::apart::colour_name;
 use super::control::DatumChoice;
 use super::field::Field;
 use super::gross_errors::{GrossErrorRecord, GrossErrors};
 use super::icon::{Glyph, Icon};
 use super::plots::Convergence;
+use super::results::parameter_cells;
 use super::shell::TitleBar;
 use crate::browser::event;
 use crate::format;
 use crate::i18n::{comparing, text};
+use crate::store::document::Document;
 use crate::store::{Desk, Step};
 
 #[component]
@@ -136,6 +139,7 @@ fn CameraWords(id: String) -> impl IntoView {
                             {move || parameters.get().into_iter().map(|p| view! { <ParameterRow camera=id.get_value() p/> }).collect_view()}
                         </tbody>
                     </table>
+                    <HeldColours camera=id.get_value()/>
                 </details>
             </td>
             <td class="large">{move || format::count(count())}</td>
@@ -175,6 +179,48 @@ fn ParameterRow(camera: String, p: Parameter) -> impl IntoView {
             </td>
             <td class="left wide">{move || with(parameter_unit)}</td>
         </tr>
+    }
+}
+
+/// What a camera adds to its parameters for photos measured in another colour.
+#[component]
+fn HeldColours(camera: String) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let id = StoredValue::new(camera);
+    let found = Memo::new(move |_| {
+        let of = |d: &Document| d.project.cameras.iter().find(|c| c.id == id.get_value()).cloned();
+        desk.document.with(of).filter(|camera| !camera.colours.is_empty())
+    });
+    let rows = move |camera: &Camera| {
+        let all = camera.colours.iter().flat_map(|(colour, set)| set.parameters.iter().map(move |p| (*colour, set, p)));
+        let rows = all.map(|(colour, set, (&p, &difference))| {
+            let (value, sigma, unit) = parameter_cells(camera, p, difference, set.sigma.get(&p).copied());
+            view! {
+                <tr>
+                    <td class="left">{colour_name(colour)}</td><td class="left">{parameter_name(p)}</td>
+                    <td>{value}</td><td>{sigma}</td><td class="left wide">{unit}</td>
+                </tr>
+            }
+        });
+        rows.collect_view()
+    };
+    move || {
+        let camera = found.get()?;
+        Some(view! {
+            <div data-held-colours=camera.id.clone()>
+                <p class="note row">
+                    <span>{text::colours_are_held(&camera.id)}</span>
+                    <button class="icon-button small" data-action="forget-colours" aria-label=text::forget_colours title=text::forget_colours
+                        on:click=move |_| desk.forget_colours(&id.get_value())><Glyph icon=Icon::Cross size=12/></button>
+                </p>
+                <table class="table parameters">
+                    <thead><tr>
+                        <th class="left">{text::lens_colour}</th><th class="left"></th><th>{text::colour_difference}</th><th>"σ"</th><th class="left wide"></th>
+                    </tr></thead>
+                    <tbody>{rows(&camera)}</tbody>
+                </table>
+            </div>
+        })
     }
 }
 

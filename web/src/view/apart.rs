@@ -2,7 +2,9 @@
 
 use leptos::prelude::*;
 use sightline::detection::{Colour, ColourApart, ColoursApart as Found};
+use sightline::project::LensColour;
 
+use crate::edit::cameras;
 use crate::format;
 use crate::i18n::text;
 use crate::store::Desk;
@@ -50,12 +52,43 @@ pub fn ColoursApart() -> impl IntoView {
                                     {sentences.into_iter().map(|words| view! { <li>{words}</li> }).collect_view()}
                                 </ul>
                                 {plot(&found)}
+                                {move || photo.get().map(|photo| view! { <Held photo/> })}
                             }.into_any()
                         }
                     },
                 }}
             </div>
         </Show>
+    }
+}
+
+/// Has the photo's camera hold what its photos measured so tell, and says whether it does.
+#[component]
+fn Held(photo: String) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let camera = Memo::new(move |_| {
+        desk.document.with(|d| {
+            let id = &d.project.photos.iter().find(|p| p.id == photo)?.camera;
+            let told = cameras::measured_apart(&d.project, id).iter().any(|c| c.red.is_some() || c.blue.is_some());
+            d.project.cameras.iter().find(|c| c.id == *id && told).map(|c| (id.clone(), !c.colours.is_empty()))
+        })
+    });
+    move || {
+        let (id, held) = camera.get()?;
+        let (name, key) = (id.clone(), id.clone());
+        Some(view! {
+            <p class="note">{if held { text::colours_are_held(&name) } else { text::colours_hold_means(&name) }}</p>
+            <button class="button" data-action="hold-colours" data-camera=key on:click=move |_| desk.hold_colours(&id)>
+                {if held { text::hold_colours_again() } else { text::hold_colours() }}
+            </button>
+        })
+    }
+}
+
+pub fn colour_name(colour: LensColour) -> &'static str {
+    match colour {
+        LensColour::Red => text::site_red(),
+        LensColour::Blue => text::site_blue(),
     }
 }
 

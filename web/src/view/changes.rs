@@ -60,5 +60,7 @@ pub fn change_words(change: &Change) -> String {
         Change::QuestionAnswered { photo } => text::change_question(photo),
         Change::CalibrationTaken { camera } => equipment::change_calibration(camera),
         Change::BarsTaken(n) => equipment::change_bars(n),
+        Change::ColoursTaken { camera } => text::change_colours_taken(camera),
+        Change::ColoursForgotten { camera } => text::change_colours_forgotten(camera),
     }
 }

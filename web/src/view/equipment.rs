@@ -6,6 +6,7 @@ use sightline::equipment::{Calibration, KnownCamera, ScaleBar, Use};
 use sightline::project::{Camera, Parameter};
 
 use super::adjust::parameter_name;
+use super::apart::colour_name;
 use super::icon::{Glyph, Icon};
 use super::results::parameter_cells;
 use super::shell::TitleBar;
@@ -87,7 +88,12 @@ fn values(camera: &Camera, sigma: impl Fn(Parameter) -> Option<f64>) -> String {
         Some(format!("{} {value}{sigma} {unit}", parameter_name(*p)))
     };
     let all = camera.interior.parameters().iter().filter(|p| **p != Parameter::F);
-    all.filter_map(shown).collect::<Vec<_>>().join(";  ")
+    let mut all = all.filter_map(shown).collect::<Vec<_>>();
+    if !camera.colours.is_empty() {
+        let colours = camera.colours.keys().map(|colour| colour_name(*colour)).collect::<Vec<_>>();
+        all.push(words::with_colours(colours.join(", ")));
+    }
+    all.join(";  ")
 }
 
 #[component]

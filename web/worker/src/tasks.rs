@@ -1,10 +1,11 @@
 //! How the engine does each task: every one is a call into it.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::io::Cursor;
 
 use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
+use sightline::camera::colour_differences;
 use sightline::comparison::{Comparison, compare};
 use sightline::detection::{Channel, Codes, ColoursApart, DetectOptions, Detection, Target};
 use sightline::error::{Error, Place, Thing};
@@ -14,7 +15,7 @@ use sightline::experiments::{self, Experiment};
 use sightline::matching::{MatchOptions, Matching, Prediction, match_uncoded, predict};
 use sightline::orient::{Note, orient};
 use sightline::plan::{self, Made, Prediction as PlanPrediction, Suggested};
-use sightline::project::{Plan, Project};
+use sightline::project::{ColourDifferences, LensColour, Plan, Project};
 use sightline::report::plots::{Plot, comparison, plots};
 use sightline::report::{self, Report};
 use sightline::sensor::{self, Shot};
@@ -22,7 +23,7 @@ use sightline::sheets::{self, Kind};
 use sightline::tiles::{self, Pyramid};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
-    Adjust, Adjusted, Adjusting, BeginPlan, CompareResults, Content, Detect, DrawSheets, Drawn, Export,
+    Adjust, Adjusted, Adjusting, BeginPlan, CompareResults, Content, Detect, DifferColours, DrawSheets, Drawn, Export,
     ExportExperiment, Given, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, Nothing,
     Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReportMade, RunExperiment, Sample, SamplePhoto,
     SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto,
@@ -72,6 +73,17 @@ impl Service<MeasureColours> for Engine {
     fn serve(&self, task: MeasureColours, files: Files, _: Progress<Nothing>) -> Served<ColoursApart> {
         let apart = detect::colours_apart(|channel| shot_of(first(&files), channel), &task.options)?;
         Ok((apart, Vec::new()))
+    }
+}
+
+impl Service<DifferColours> for Engine {
+    fn serve(
+        &self,
+        task: DifferColours,
+        _: Files,
+        _: Progress<Nothing>,
+    ) -> Served<BTreeMap<LensColour, ColourDifferences>> {
+        Ok((colour_differences(&task.camera, &task.measured)?, Vec::new()))
     }
 }
 

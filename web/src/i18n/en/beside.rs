@@ -70,6 +70,7 @@ declare! { equipment {
     bars_seen(bars): "Scale bars seen in the photos: {bars}.";
     take_bars: "Take their distances";
     bars_taken(bars): "Scale bars seen in the photos gave their distances: {bars}.";
+    with_colours(colours): "with differences for {colours}";
     change_calibration(camera): "calibration of {camera} taken";
     change_bars(n): "{n} {n:distance|distances} from scale bars";
 }}
@@ -79,6 +80,7 @@ declare! { lasting {
     pixels: "The samples of a photo are being read";
     target: "A target is being measured";
     colours: "The colours of a photo are being measured";
+    lens_colours: "What a lens changes for red and blue is being computed";
     situation: "Photos are being oriented, to show where points should be";
     features: "Forms and systems are being measured";
     report: "The report is being made";

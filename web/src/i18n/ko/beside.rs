@@ -68,6 +68,7 @@ translate! { Korean equipment {
     bars_seen(bars): "사진에 보이는 축척 막대: {bars}.";
     take_bars: "거리 넣기";
     bars_taken(bars): "사진에 보이는 축척 막대의 거리를 넣었습니다: {bars}.";
+    with_colours(colours): "{colours}에 대한 차이 포함";
     change_calibration(camera): "{camera} 검정 값 사용";
     change_bars(n): "축척 막대 거리 {n}개";
 }}
@@ -77,6 +78,7 @@ translate! { Korean lasting {
     pixels: "사진의 화소값을 읽는 중";
     target: "표적을 측정하는 중";
     colours: "사진의 색별 위치를 측정하는 중";
+    lens_colours: "렌즈의 색별 차이를 계산하는 중";
     situation: "점의 예상 위치를 보이려고 사진 표정을 구하는 중";
     features: "형상과 좌표계를 측정하는 중";
     report: "보고서를 만드는 중";
