@@ -26,6 +26,7 @@ mod readmission;
 mod refine;
 mod remaining;
 mod seed;
+mod ties;
 mod trial;
 
 use nalgebra::Vector3;
@@ -153,10 +154,16 @@ impl Attempt {
             let trial = as_project(&block);
             if evidence::withdraw(&mut block, &trial, &borne) {
                 block.review();
+                continue;
+            }
+            let split = ties::split(&mut block, &trial);
+            if !split.is_empty() {
+                apart.extend(split);
             } else if !remaining::orient(&mut block, &mut borne) {
                 break;
             }
         }
+        apart.sort_by_key(|model| std::cmp::Reverse(model.oriented()));
         Self { block, apart, frame, scaled, settled }
     }
 }

@@ -115,6 +115,17 @@ fn photos_left_over_are_oriented_in_the_end() {
     }
 }
 
+/// Two photos between 30 and 5 others of a strip are withdrawn. The five, which nothing ties to the thirty any more, do not keep poses
+/// in a system of their own, and all seven are oriented against what stands.
+#[test]
+fn photos_that_nothing_ties_to_the_others_keep_no_pose() {
+    let network = network::network(&Case::of(194, 60));
+    let oriented = orient(&network.given).expect("a valid project");
+    let verdict = judged(&network, &oriented);
+    assert!(verdict.right && verdict.falsely_wrong == 0, "{verdict:?}");
+    assert!(!oriented.notes.iter().any(|note| matches!(note, Note::Groups { .. })), "{:?}", oriented.notes);
+}
+
 /// A corridor's points are known badly along its axis while the model is rough: what near photos measure of them is not wrong. A dome
 /// with every tenth name wrong had a photo 2° off that six of its nine measurements agreed with; all nine are right.
 #[test]
