@@ -2,7 +2,8 @@
 //!
 //! They are searched in a grey picture made from the sites of one colour ([`plane`]), with the whole of the detection for ordinary
 //! pictures, and measured on these sites alone: no sample is interpolated, every one has its own place and its own standard error
-//! ([`noise`]), and what the white level clips says no more than that ([`fit`]).
+//! ([`noise`]), and what the white level clips says no more than that ([`fit`]). What red or blue, with a quarter of the sites each, is too
+//! coarse to be searched for is searched in green too, and measured on the sites asked for.
 
 mod codes;
 mod curve;
@@ -15,7 +16,7 @@ use super::rendered::Field;
 use super::{check_place, code::outline_of, detect_photo, edges::edge, edges::surround, measure_in_photo};
 use crate::decode::Photo;
 use crate::detection::{
-    Colour, DetectOptions, Detection, Measured, MeasuredOn, Method, Polarity, Reason, Rejected, Target,
+    Channel, Colour, DetectOptions, Detection, Measured, MeasuredOn, Method, Polarity, Reason, Rejected, Target,
 };
 use crate::error::{Error, Place, Reason as Wrong, Result};
 use crate::image::{Grey, GreyView, Plane, Samples, SamplesView};
@@ -99,6 +100,10 @@ pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<
             }
         }
     }
+    if let Some(green) = sites.in_green(options) {
+        let seen = detect_sensor(sensor, &green)?.targets;
+        sites.join(&mut detection, &photo, seen, options, &mut field)?;
+    }
     detection.targets.iter_mut().for_each(|target| target.id = 0);
     detection.number_targets();
     let size = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
@@ -132,9 +137,14 @@ pub(super) fn measure_in_sensor(sensor: &Sensor, u: f64, v: f64, options: &Detec
         // in the masked border, where no light falls
         return Ok(None);
     }
-    let Some(mut target) = measure_in_photo(&photo, u - shift[0], v - shift[1], options)? else { return Ok(None) };
-    codes::read_in_light(&photo, &curve, std::slice::from_mut(&mut target), options.codes);
-    Ok(sites.measured(&view, target, options, &mut Field::default()).ok())
+    let mut field = Field::default();
+    let found = measure_in_photo(&photo, u - shift[0], v - shift[1], options)?.and_then(|mut target| {
+        codes::read_in_light(&photo, &curve, std::slice::from_mut(&mut target), options.codes);
+        sites.measured(&view, target, options, &mut field).ok()
+    });
+    let Some(green) = sites.in_green(options).filter(|_| found.is_none()) else { return Ok(found) };
+    let seen = measure_in_sensor(sensor, u, v, &green)?;
+    Ok(seen.and_then(|target| sites.again(&view, &target, options, &mut field)))
 }
 
 /// Targets that are known, measured on the sites of another colour, without a search; none where that has no target.
@@ -150,11 +160,7 @@ pub(super) fn measured_again(
     let (photo, ..) = searched(&sites)?;
     let view = photo.grey.view()?;
     let mut field = Field::default();
-    let again = |target: &Target| {
-        let (u, v) = (target.u - sites.lit[0] as f64, target.v - sites.lit[1] as f64);
-        sites.measured(&view, Target { u, v, ..target.clone() }, options, &mut field).ok()
-    };
-    Ok(targets.iter().map(again).collect())
+    Ok(targets.iter().map(|target| sites.again(&view, target, options, &mut field)).collect())
 }
 
 /// The grey picture of the search, of the lit part, with the curve of its levels; how many hot sites were left out of it.
@@ -169,6 +175,49 @@ fn searched(sites: &Sites) -> Result<(Photo, Curve, usize)> {
 }
 
 impl Sites<'_> {
+    /// The options of a search in green, of which a sensor has twice the sites; none where green is measured or there is none. Other methods
+    /// than the fit measure in the picture of the search itself.
+    fn in_green(&self, options: &DetectOptions) -> Option<DetectOptions> {
+        let fewer = matches!(self.colour, Colour::Red | Colour::Blue) && self.sensor.mosaic.pattern.has(Colour::Green);
+        let searched = fewer && options.method == Method::LeastSquares;
+        searched.then(|| DetectOptions { channel: Channel::Green, ..options.clone() })
+    }
+
+    /// Adds what was seen in another colour and not in this one, measured on this colour's sites.
+    fn join(
+        &self,
+        detection: &mut Detection,
+        photo: &Photo,
+        seen: Vec<Target>,
+        options: &DetectOptions,
+        field: &mut Field,
+    ) -> Result<()> {
+        let view = photo.grey.view()?;
+        let near = |u: f64, v: f64, target: &Target| (u - target.u).hypot(v - target.v) < 0.5 * target.minor;
+        for target in seen {
+            if detection.targets.iter().any(|known| near(known.u, known.v, &target)) {
+                continue;
+            }
+            let Some(found) = self.again(&view, &target, options, field) else { continue };
+            detection.rejected_blobs.retain(|blob| {
+                let same = near(blob.u, blob.v, &target);
+                if let Some(count) = detection.rejected.get_mut(&blob.reason).filter(|_| same) {
+                    *count = count.saturating_sub(1);
+                }
+                !same
+            });
+            detection.targets.push(found);
+        }
+        detection.rejected.retain(|_, count| *count > 0);
+        Ok(())
+    }
+
+    /// A target that is known on the whole grid, measured on the sites; none where this colour does not show it.
+    fn again(&self, view: &GreyView, target: &Target, options: &DetectOptions, field: &mut Field) -> Option<Target> {
+        let (u, v) = (target.u - self.lit[0] as f64, target.v - self.lit[1] as f64);
+        self.measured(view, Target { u, v, ..target.clone() }, options, field).ok()
+    }
+
     /// A target of the search, measured on the sites. Other methods than the fit keep what they found in the picture.
     fn measured(
         &self,
