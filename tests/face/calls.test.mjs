@@ -151,9 +151,9 @@ function calls() {
   ];
   const all = [...Object.entries(known).map(([name, [sound, weight]]) => [name, sound, weight]), ...more];
   // What is not listed has come lately, and is called with what is odd alone.
-  const apart = new Set(['default', 'initSync', 'initCodecs', 'initCodecsSync', 'start']);
+  const starting = new Set(['default', 'initSync', 'initCodecs', 'initCodecsSync', 'start']);
   for (const name of Object.keys(sightline)) {
-    if (typeof sightline[name] === 'function' && !apart.has(name) && !(name in known)) all.push([name, [{}, {}, {}], 5]);
+    if (typeof sightline[name] === 'function' && !starting.has(name) && !(name in known)) all.push([name, [{}, {}, {}], 5]);
   }
   return all;
 }
