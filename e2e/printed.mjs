@@ -7,8 +7,9 @@ import { join } from 'node:path';
 
 import { rows } from './desk.mjs';
 
-/** A reason to skip, where there is nothing that reads a PDF. */
-export const unreadable = spawnSync('pdftotext', ['-v']).status === 0 ? false : 'skipped, no pdftotext';
+const fonts = spawnSync('fc-list', [':lang=ko'], { encoding: 'utf8' });
+/** A reason to skip, where there is nothing that reads a PDF, or nothing to print Korean with. */
+export const unreadable = spawnSync('pdftotext', ['-v']).status !== 0 ? 'skipped, no pdftotext' : fonts.status === 0 && !fonts.stdout.trim() ? 'skipped, no Korean font' : false;
 
 const SECTIONS = {
   en: ['Summary', 'Uncertainty of the coordinates', 'Observations and unknowns', 'Cameras', 'Network', 'Photos', 'Points', 'Control, check points and scale', 'Length measurement errors', 'Statistics and tests', 'Residuals by photo', 'Left out, and why', 'Features', 'Settings and inputs'],

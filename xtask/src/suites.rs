@@ -110,6 +110,7 @@ fn browser(products: &Products) -> Outcome<Count> {
     install::packages()?;
     install::poppler();
     let chromium = install::chromium()?;
+    install::korean_font();
     // The page's numbers are compared with those that Node has.
     products.build()?;
     single::write_to(&root().join("dist"))?;
