@@ -238,7 +238,8 @@ impl Pool {
                 let understood = listener(Heard::Said(body, bytes));
                 // Free before it is told: who hears of it may submit what comes next.
                 self.free(id, taken, understood.ends);
-                if long {
+                // What is said on the way is told at once, so that it never comes after the end.
+                if long && understood.ends {
                     self.tell_soon(batch, understood.tell);
                 } else {
                     (understood.tell)();
