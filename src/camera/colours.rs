@@ -11,7 +11,8 @@
 //! The differences d of the camera's parameters p are those that image best, over the whole picture, the ray of every g at g + s. With the
 //! residuals of [`Model::linearise`] in the measurement, and their derivatives J by the parameters, Gauss and Newton's iteration
 //! d ← d - (JᵀJ)⁻¹ Jᵀ e ends where the model leaves only what it cannot express. A shift is the principal point's, a scale the principal
-//! distance's, the cubic part is K1's; K2, K3, P1 and P2 take what is left where the distortion is large or the principal point not the middle. To first order
+//! distance's, the cubic part is K1's; K2, K3, P1 and P2 take what is left where the distortion is large or the principal point not the middle. Each of
+//! these four without which no place of the picture is imaged [`NEGLIGIBLE_PX`] elsewhere is left out, and the others are fitted without it. To first order
 //! d = L x with L = (JᵀJ)⁻¹ Jᵀ ∂s/∂x, so that its covariance is L N⁻¹ Lᵀ. This holds for both models, in millimetres and pixels.
 
 use std::collections::BTreeMap;
@@ -29,6 +30,8 @@ const PLACES: u32 = 24;
 const STEPS: usize = 4;
 /// Rms in pixels that the model may leave of the aberration: a tenth of what centres are measured to.
 const LEFT_PX: f64 = 0.005;
+/// Pixels that a parameter must move some place of the picture by, or it is left out: a hundredth of what centres are measured to.
+const NEGLIGIBLE_PX: f64 = 0.001;
 /// Share of the places that must have a ray.
 const SEEN: f64 = 0.95;
 
@@ -126,16 +129,13 @@ struct GridPlace {
 /// The differences with their standard errors, and the rms in pixels that they leave.
 fn fitted(camera: &Camera, centre: [f64; 2], corner: f64, seen: &Seen) -> Option<(ColourDifferences, f64)> {
     use Parameter as P;
-    let (distance, [x0, y0], [to_x, to_y]) = match camera.interior {
+    let (distance, [x0, y0], unit) = match camera.interior {
         Interior::Brown { .. } => {
             let [px, py] = camera.pitch();
             (P::C, [P::X0, P::Y0], [px, -py])
         }
         Interior::Opencv { .. } => (P::F, [P::Cx, P::Cy], [1.0, 1.0]),
     };
-    let wanted = [distance, x0, y0, P::K1, P::K2, P::K3, P::P1, P::P2];
-    let parameters = camera.interior.parameters();
-    let columns = wanted.map(|p| parameters.iter().position(|own| *own == p).unwrap_or_default());
     let place = |k: u32, size: u32| (f64::from(k) + 0.5) / f64::from(PLACES) * f64::from(size);
     let grid = (0..PLACES * PLACES).map(|k| [place(k % PLACES, camera.width), place(k / PLACES, camera.height)]);
     let rays: Vec<GridPlace> = grid
@@ -145,53 +145,87 @@ fn fitted(camera: &Camera, centre: [f64; 2], corner: f64, seen: &Seen) -> Option
             Some(GridPlace {
                 ray: ideal_from_pixel(camera, [u, v])?,
                 other: measurement_from_pixel(camera, other),
-                by: [by[0] * to_x, by[1] * to_y],
+                by: [by[0] * unit[0], by[1] * unit[1]],
             })
         })
         .collect();
     if (rays.len() as f64) < SEEN * f64::from(PLACES * PLACES) {
         return None;
     }
-    let mut differences: BTreeMap<Parameter, f64> = wanted.iter().map(|p| (*p, 0.0)).collect();
-    let (mut j, mut e) = (DMatrix::zeros(2 * rays.len(), wanted.len()), DVector::zeros(2 * rays.len()));
-    let mut b = DMatrix::zeros(2 * rays.len(), 4);
-    let mut linearise = |differences: &BTreeMap<Parameter, f64>, j: &mut DMatrix<f64>, e: &mut DVector<f64>| {
-        let model = Model::new(&camera.interior.plus(differences))?;
-        for (k, GridPlace { ray: [x, y], other, by }) in rays.iter().enumerate() {
-            let linear = model.linearise(*other, [*x, *y, -1.0], ResidualPlace::Measured)?;
-            for side in 0..2 {
-                let row = 2 * k + side;
-                e[row] = linear.residual[side];
-                (0..4).for_each(|n| b[(row, n)] = by[side][n]);
-                columns.iter().enumerate().for_each(|(n, column)| j[(row, n)] = linear.by_parameter[side][*column]);
-            }
-        }
-        Some(())
-    };
-    let mut inverse = DMatrix::zeros(wanted.len(), wanted.len());
-    for _ in 0..STEPS {
-        linearise(&differences, &mut j, &mut e)?;
-        // K3 in pixels and a principal distance in pixels differ by twenty powers of ten
-        let scale = DMatrix::from_diagonal(&DVector::from_iterator(
-            wanted.len(),
-            j.column_iter().map(|column| 1.0 / column.norm().max(f64::MIN_POSITIVE)),
-        ));
-        let scaled = &j * &scale;
-        inverse = &scale * (scaled.transpose() * &scaled).cholesky()?.inverse() * &scale;
-        let step = &inverse * (j.transpose() * &e);
-        for (p, step) in wanted.iter().zip(step.iter()) {
-            *differences.entry(*p).or_default() -= step;
+    let mut wanted = vec![distance, x0, y0, P::K1, P::K2, P::K3, P::P1, P::P2];
+    let whole = Fit::of(camera, &rays, &wanted)?;
+    let mut fit = None;
+    for p in [P::P2, P::P1, P::K3, P::K2] {
+        let others: Vec<Parameter> = wanted.iter().copied().filter(|q| *q != p).collect();
+        let without = Fit::of(camera, &rays, &others)?;
+        if without.off(&whole, unit) < NEGLIGIBLE_PX {
+            (wanted, fit) = (others, Some(without));
         }
     }
-    linearise(&differences, &mut j, &mut e)?;
-    let left = e.iter().zip([to_x, to_y].iter().cycle()).map(|(e, unit)| (e / unit).powi(2)).sum::<f64>();
-    let left = (left / e.len() as f64).sqrt();
-    let by_x = inverse * j.transpose() * b;
+    let fit = fit.unwrap_or(whole);
+    let pixels = fit.left.iter().zip(unit.iter().cycle()).map(|(e, unit)| (e / unit).powi(2)).sum::<f64>();
+    let left = (pixels / fit.left.len() as f64).sqrt();
+    let b = DMatrix::from_fn(fit.left.len(), 4, |row, n| rays[row / 2].by[row % 2][n]);
+    let by_x = fit.solution * b;
     let covariance = &by_x * seen.covariance * by_x.transpose();
     let sigma: BTreeMap<Parameter, f64> =
         wanted.iter().enumerate().map(|(k, p)| (*p, covariance[(k, k)].max(0.0).sqrt())).collect();
-    let finite = differences.values().chain(sigma.values()).all(|x| x.is_finite());
-    finite.then_some((ColourDifferences { parameters: differences, sigma }, left))
+    let finite = fit.differences.values().chain(sigma.values()).all(|x| x.is_finite());
+    finite.then_some((ColourDifferences { parameters: fit.differences, sigma }, left))
+}
+
+/// The differences of some of the parameters.
+struct Fit {
+    differences: BTreeMap<Parameter, f64>,
+    /// (JᵀJ)⁻¹ Jᵀ, a row a parameter.
+    solution: DMatrix<f64>,
+    /// What they leave at every place, u and v, in the camera's unit.
+    left: DVector<f64>,
+}
+
+impl Fit {
+    fn of(camera: &Camera, rays: &[GridPlace], wanted: &[Parameter]) -> Option<Self> {
+        let parameters = camera.interior.parameters();
+        let column = |p: &Parameter| parameters.iter().position(|own| own == p).unwrap_or_default();
+        let columns: Vec<usize> = wanted.iter().map(column).collect();
+        let mut differences: BTreeMap<Parameter, f64> = wanted.iter().map(|p| (*p, 0.0)).collect();
+        let (mut j, mut e) = (DMatrix::zeros(2 * rays.len(), wanted.len()), DVector::zeros(2 * rays.len()));
+        let linearise = |differences: &BTreeMap<Parameter, f64>, j: &mut DMatrix<f64>, e: &mut DVector<f64>| {
+            let model = Model::new(&camera.interior.plus(differences))?;
+            for (k, GridPlace { ray: [x, y], other, .. }) in rays.iter().enumerate() {
+                let linear = model.linearise(*other, [*x, *y, -1.0], ResidualPlace::Measured)?;
+                for side in 0..2 {
+                    let row = 2 * k + side;
+                    e[row] = linear.residual[side];
+                    columns.iter().enumerate().for_each(|(n, column)| j[(row, n)] = linear.by_parameter[side][*column]);
+                }
+            }
+            Some(())
+        };
+        let mut inverse = DMatrix::zeros(wanted.len(), wanted.len());
+        for _ in 0..STEPS {
+            linearise(&differences, &mut j, &mut e)?;
+            // K3 in pixels and a principal distance in pixels differ by twenty powers of ten
+            let scale = DMatrix::from_diagonal(&DVector::from_iterator(
+                wanted.len(),
+                j.column_iter().map(|column| 1.0 / column.norm().max(f64::MIN_POSITIVE)),
+            ));
+            let scaled = &j * &scale;
+            inverse = &scale * (scaled.transpose() * &scaled).cholesky()?.inverse() * &scale;
+            let step = &inverse * (j.transpose() * &e);
+            for (p, step) in wanted.iter().zip(step.iter()) {
+                *differences.entry(*p).or_default() -= step;
+            }
+        }
+        linearise(&differences, &mut j, &mut e)?;
+        Some(Self { differences, solution: inverse * j.transpose(), left: e })
+    }
+
+    /// How far apart two fits image a place at most, in pixels.
+    fn off(&self, other: &Self, unit: [f64; 2]) -> f64 {
+        let apart = |k: usize| (self.left[k] - other.left[k]) / unit[k % 2];
+        (0..self.left.len()).step_by(2).map(|k| apart(k).hypot(apart(k + 1))).fold(0.0, f64::max)
+    }
 }
 
 #[cfg(test)]

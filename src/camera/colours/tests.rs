@@ -80,6 +80,36 @@ fn both_models_image_the_colour_where_it_was_measured() {
 }
 
 #[test]
+fn what_moves_no_place_is_left_out() {
+    let [cx, cy] = CENTRE;
+    let (fx, fy) = (Some(3000.0), Some(3000.0));
+    let pinhole = Interior::Opencv { fx, fy, cx, cy, k1: 0.0, k2: 0.0, p1: 0.0, p2: 0.0, k3: 0.0 };
+    let pinhole = Camera::new("k", 4000, 3000, pinhole);
+    for (camera, distance) in [(&pinhole, Parameter::F), (&brown(), Parameter::C), (&opencv(), Parameter::F)] {
+        let set = colour_differences(camera, &[photo("1", X, 0.01)]).expect("a set");
+        let red = &set[&LensColour::Red];
+        assert!(red.parameters.keys().eq(red.sigma.keys()));
+        assert!(red.parameters.contains_key(&distance) && red.parameters.contains_key(&Parameter::K1));
+        for p in [Parameter::K2, Parameter::K3, Parameter::P1, Parameter::P2] {
+            let Some(value) = red.parameters.get(&p) else { continue };
+            // without it some place is imaged elsewhere; the others may take most of that
+            let mut without = set.clone();
+            without.get_mut(&LensColour::Red).expect("red").parameters.remove(&p);
+            let moved = off(camera, &without, X);
+            assert!(moved > 0.0009, "{p} of {value} moves {moved} px");
+        }
+        if camera.interior == pinhole.interior {
+            let names: Vec<_> = red.parameters.keys().copied().collect();
+            assert!(!names.contains(&Parameter::P1) && !names.contains(&Parameter::P2), "{names:?}");
+        }
+        assert!(off(camera, &set, X) < 0.01);
+    }
+    // a lens of one distortion for all colours that only shifts: nothing but the principal point has a share
+    let shifted = colour_differences(&brown(), &[photo("1", [0.1, 0.0, 0.0, 0.0], 0.01)]).expect("a set");
+    assert!(!shifted[&LensColour::Red].parameters.contains_key(&Parameter::K3));
+}
+
+#[test]
 fn millimetres_and_pixels_say_the_same() {
     let of =
         |camera: &Camera| colour_differences(camera, &[photo("1", X, 0.01)]).expect("a set").remove(&LensColour::Red);
@@ -105,7 +135,11 @@ fn standard_errors_are_the_scatter() {
                 .expect("red")
         })
         .collect();
-    for (p, sigma) in &sets[0].sigma {
+    // one whose effect is about the least that counts is in some of the sets only
+    let in_all = sets[0].sigma.iter().filter(|(p, _)| sets.iter().all(|set| set.parameters.contains_key(p)));
+    let in_all: BTreeMap<_, _> = in_all.collect();
+    assert!([Parameter::C, Parameter::X0, Parameter::Y0, Parameter::K1].iter().all(|p| in_all.contains_key(p)));
+    for (p, sigma) in in_all {
         let values = sets.iter().map(|set| set.parameters[p]);
         let mean = values.clone().sum::<f64>() / 200.0;
         let scatter = (values.map(|x| (x - mean).powi(2)).sum::<f64>() / 199.0).sqrt();
