@@ -1,10 +1,14 @@
 //! What a photo's EXIF block says about the camera. It is a hint for initial values, never a measurement.
 
+mod makers;
+
 use std::io::Cursor;
 
 use exif::experimental::Writer;
 use exif::{Exif, Field, In, Rational, Tag, Value};
 use serde::{Deserialize, Serialize};
+
+pub use makers::{Aberration, LensCorrection, Setting};
 
 /// What the EXIF block says; everything is absent where it is absent or nonsense.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,6 +28,9 @@ pub struct PhotoInfo {
     pub orientation: u8,
     /// When it was taken, as `YYYY-MM-DDThh:mm:ss`, local time of the camera.
     pub date: Option<String>,
+    /// Corrections of the lens that the maker's note speaks of.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub corrections: Vec<LensCorrection>,
 }
 
 impl Default for PhotoInfo {
@@ -36,6 +43,7 @@ impl Default for PhotoInfo {
             pixel_pitch: None,
             orientation: 1,
             date: None,
+            corrections: Vec::new(),
         }
     }
 }
@@ -101,7 +109,16 @@ fn info(block: &Exif) -> PhotoInfo {
         pixel_pitch: pixel_pitch(block),
         orientation: positive(block, Tag::Orientation).filter(|n| *n <= 8.0).map_or(1, |n| n as u8),
         date: text(block, Tag::DateTimeOriginal).or_else(|| text(block, Tag::DateTime)).and_then(|d| iso_date(&d)),
+        corrections: corrections(block),
     }
+}
+
+/// What the maker's note says of corrections, where the block has one.
+fn corrections(block: &Exif) -> Vec<LensCorrection> {
+    let note = block.get_field(Tag::MakerNote, In::PRIMARY).map(|field| &field.value);
+    let Some(Value::Undefined(_, place)) = note else { return Vec::new() };
+    let make = text(block, Tag::Make).unwrap_or_default();
+    makers::corrections(block.buf(), *place as usize, block.little_endian(), &make)
 }
 
 fn text(block: &Exif, tag: Tag) -> Option<String> {
@@ -222,9 +239,22 @@ mod tests {
             pixel_pitch: Some([0.0025, 0.005]),
             orientation: 6,
             date: Some("2026-02-03T04:05:06".into()),
+            corrections: Vec::new(),
         };
         for bytes in [block.clone(), in_jpeg(&block)] {
             assert_eq!(read(&bytes), expected);
+        }
+    }
+
+    #[test]
+    fn the_maker_s_note_is_found_in_the_block() {
+        // one entry of Sony's: distortion is corrected where the camera knows the lens
+        let note = b"SONY DSC \0\0\0\0\x01\x20\x13\0\x04\0\0\0\x01\0\0\0\x02\0\0\0\0".to_vec();
+        let block = exif_block(vec![(Tag::Make, ascii("SONY")), (Tag::MakerNote, Value::Undefined(note, 0))]);
+        let (aberration, setting) = (Aberration::Distortion, Setting::Auto);
+        let expected = [LensCorrection { aberration, setting, tag: "Sony 0x2013".into() }];
+        for bytes in [block.clone(), in_jpeg(&block)] {
+            assert_eq!(read(&bytes).corrections, expected);
         }
     }
 
@@ -238,6 +268,7 @@ mod tests {
             pixel_pitch: Some([0.004, 0.0045]),
             orientation: 8,
             date: Some("2026-02-03T04:05:06".into()),
+            corrections: Vec::new(),
         };
         let back = read(&write(&info));
         let pitch = back.pixel_pitch.unwrap();

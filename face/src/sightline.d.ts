@@ -776,6 +776,16 @@ export interface PhotoInfo {
   /** How the stored grid has to be turned for showing, 1 to 8. */
   orientation: number;
   date: string | null;
+  /** What the maker's note says of corrections of the lens. */
+  corrections?: LensCorrection[];
+}
+
+/** A correction of the lens that a maker's note speaks of: made, not made, or made where the camera knows the lens. */
+export interface LensCorrection {
+  aberration: "distortion" | "lateral_colour" | "vignetting" | "diffraction";
+  setting: "off" | "on" | "auto";
+  /** Whose tag says so, as "Sony 0x2013". */
+  tag: string;
 }
 
 /** The targets detected in one photo. */
