@@ -3,13 +3,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 
 use serde_json::{Value, json};
 use wasm_bindgen_cli_support::Bindgen;
 
 use crate::install::{self, TARGET};
 use crate::process::{cargo, output, program, root, run};
-use crate::{Outcome, offline, page, parts};
+use crate::{Outcome, kept, offline, page, parts};
 
 /// How the page is built.
 #[derive(Clone, Copy, PartialEq)]
@@ -70,15 +71,18 @@ pub fn dist(profile: Profile) -> Outcome {
 fn assemble_dist(profile: Profile) -> Outcome {
     let folder = root().join("dist");
     empty(&folder)?;
-    if profile == Profile::Release {
-        links_no_engine()?;
+    match profile {
+        Profile::Release => {
+            links_no_engine()?;
+            desk(&folder)?;
+            bindings(profile, "sightline-worker", &folder, page::WORKER, false)?;
+            bindings(profile, "sightline_codecs", &folder, page::CODECS, false)?;
+            view3d(&folder)?;
+            offline::icons(&folder)?;
+        }
+        Profile::Serve => changed(&folder)?,
     }
-    desk(profile, &folder)?;
-    bindings(profile, "sightline-worker", &folder, page::WORKER, false)?;
-    bindings(profile, "sightline_codecs", &folder, page::CODECS, false)?;
     page::assemble(&root(), &folder)?;
-    view3d(&folder)?;
-    offline::icons(&folder)?;
     offline::seal(&folder)?;
     report("dist", &folder.join(format!("{}_bg.wasm", page::MODULE)));
     for part in parts::later(&folder)? {
@@ -172,7 +176,10 @@ pub fn examples() -> Outcome<String> {
 
 /// Where cargo builds.
 pub fn target_directory() -> Outcome<String> {
-    Ok(metadata()?["target_directory"].as_str().ok_or("cargo metadata names no target directory")?.to_owned())
+    static KNOWN: OnceLock<Outcome<String>> = OnceLock::new();
+    let ask =
+        || Ok(metadata()?["target_directory"].as_str().ok_or("cargo metadata names no target directory")?.to_owned());
+    KNOWN.get_or_init(ask).clone()
 }
 
 /// The page's own module has the document, the results and the interface; what computes is in the workers. Told by the
@@ -245,13 +252,33 @@ fn view3d(dist: &Path) -> Outcome {
     run(program("npx", &arguments).current_dir(folder).stdout(std::io::stderr()))
 }
 
-/// The page's module; as it is handed out it comes in parts.
-fn desk(profile: Profile, folder: &Path) -> Outcome {
-    let module = linked(profile, "sightline-desk")?;
-    if profile == Profile::Serve {
-        return bind(&module, folder, page::MODULE, false);
-    }
+/// The page's module as it is handed out, in parts.
+fn desk(folder: &Path) -> Outcome {
+    let module = linked(Profile::Release, "sightline-desk")?;
     bind(&parts::cut(&module, folder, page::MODULE)?, folder, page::MODULE, false)
+}
+
+/// What the page is made of while it is worked on: only what has changed is made anew, side by side. Its module is whole.
+fn changed(folder: &Path) -> Outcome {
+    let shelf: PathBuf = format!("{}/{TARGET}/serve/page", target_directory()?).into();
+    // Its npm packages follow from the lock file.
+    let view = files(&root().join("web/view3d"))?;
+    let modules =
+        [("sightline-desk", page::MODULE), ("sightline-worker", page::WORKER), ("sightline_codecs", page::CODECS)];
+    std::thread::scope(|threads| {
+        let shelf = &shelf;
+        let bound = modules.map(|(module, name)| {
+            threads.spawn(move || {
+                let module = linked(Profile::Serve, module)?;
+                kept::product(shelf, name, std::slice::from_ref(&module), folder, |made| {
+                    bind(&module, made, name, false)
+                })
+            })
+        });
+        kept::product(shelf, "view3d", &view, folder, view3d)?;
+        kept::product(shelf, "icons", &[], folder, offline::icons)?;
+        bound.into_iter().try_for_each(|thread| thread.join().map_err(|_| "wasm-bindgen panicked")?)
+    })
 }
 
 /// A module as cargo left it.
@@ -269,11 +296,21 @@ fn bind(wasm: &Path, folder: &Path, name: &str, typescript: bool) -> Outcome {
     bindgen.input_path(wasm).out_name(name).typescript(typescript).web(true).map_err(fault)?;
     // The parts share the table of functions, which the linker made.
     bindgen.keep_lld_exports(name == page::MODULE);
-    bindgen.remove_name_section(true).remove_producers_section(true);
+    // Names are not kept, so none needs to be made readable.
+    bindgen.demangle(false).remove_name_section(true).remove_producers_section(true);
     bindgen.generate(folder).map_err(fault)
 }
 
-fn empty(folder: &Path) -> Outcome {
+/// The files of a folder, without those of the folders in it.
+fn files(folder: &Path) -> Outcome<Vec<PathBuf>> {
+    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut files: Vec<_> = entries.flatten().map(|entry| entry.path()).filter(|path| path.is_file()).collect();
+    files.sort();
+    Ok(files)
+}
+
+/// Leaves an empty folder.
+pub fn empty(folder: &Path) -> Outcome {
     if folder.exists() {
         fs::remove_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     }

@@ -4,6 +4,7 @@ mod bench;
 mod build;
 mod check;
 mod install;
+mod kept;
 mod offline;
 mod page;
 mod parts;

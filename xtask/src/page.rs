@@ -130,7 +130,8 @@ fn copy(from: &Path, to: &Path) -> Outcome {
     fs::copy(from, to).map(drop).map_err(|error| format!("{}: {error}", from.display()))
 }
 
-fn copy_folder(from: &Path, to: &Path) -> Outcome {
+/// Copies all that is in a folder.
+pub fn copy_folder(from: &Path, to: &Path) -> Outcome {
     for entry in fs::read_dir(from).map_err(|error| format!("{}: {error}", from.display()))? {
         let path = entry.map_err(|error| format!("{}: {error}", from.display()))?.path();
         let target = to.join(path.file_name().unwrap_or_default());

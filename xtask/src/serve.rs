@@ -8,7 +8,6 @@ use std::path::{Component, Path, PathBuf};
 use crate::Outcome;
 use crate::build::{self, Profile};
 use crate::process::root;
-use crate::single;
 
 /// `serve [--port N]`.
 pub fn command(arguments: &[String]) -> Outcome {
@@ -20,7 +19,6 @@ pub fn command(arguments: &[String]) -> Outcome {
         _ => return Err("serve [--port N]".into()),
     };
     build::dist(Profile::Serve)?;
-    single::write_to(&root().join("dist"))?;
     let listener = match port {
         Some(port) => listen(port)?,
         None => (8080..8100).find_map(|port| listen(port).ok()).map_or_else(|| listen(0), Ok)?,
