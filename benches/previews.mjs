@@ -48,7 +48,7 @@ async function measured() {
       };
       let first;
       const look = () => {
-        const all = document.querySelectorAll('.tile canvas');
+        const all = document.querySelectorAll('.tiles canvas');
         if (all.length && first === undefined) first = performance.now() - began;
         if (all.length === count && [...all].every(drawn)) resolve([first, performance.now() - began]);
         else setTimeout(look, 50);

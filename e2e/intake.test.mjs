@@ -80,3 +80,48 @@ test('photos, marks and control dropped together go where they belong', { skip: 
     await close();
   }
 });
+
+/** A JPEG with this one as the thumbnail of its EXIF block, and a number behind its end. */
+function withThumbnail(whole, thumbnail, number) {
+  const long = (value) => [value >>> 24, value >>> 16 & 255, value >>> 8 & 255, value & 255];
+  const entry = (tag, value) => [tag >> 8, tag & 255, 0, 4, ...long(1), ...long(value)];
+  const header = [...Buffer.from('MM\0*'), ...long(8)];
+  const second = [0, 2, ...entry(0x201, 44), ...entry(0x202, thumbnail.length), ...long(0)];
+  const block = Buffer.concat([Buffer.from('Exif\0\0'), Buffer.from([...header, 0, 0, ...long(14), ...second]), thumbnail]);
+  const length = block.length + 2;
+  return Buffer.concat([whole.subarray(0, 2), Buffer.from([0xff, 0xe1, length >> 8, length & 255]), block, whole.subarray(2), Buffer.from([number])]);
+}
+
+test('photos are on the page before they are read', { timeout: 120_000 }, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await page.waitForSelector('.desk');
+    const jpeg = async (width, height) => Buffer.from(await page.evaluate(async ([width, height]) => {
+      const canvas = new OffscreenCanvas(width, height);
+      const context = canvas.getContext('2d');
+      for (let x = 0; x < width; x += width / 8) {
+        context.fillStyle = `hsl(${360 * x / width} 80% 50%)`;
+        context.fillRect(x, 0, width / 8, height);
+      }
+      return [...new Uint8Array(await (await canvas.convertToBlob({ type: 'image/jpeg' })).arrayBuffer())];
+    }, [width, height]));
+    const [whole, small] = [await jpeg(2400, 1600), await jpeg(160, 107)];
+    await page.evaluate(() => {
+      window.coming = { most: 0, step: '' };
+      new MutationObserver(() => {
+        const pictures = document.querySelectorAll('.coming-tile canvas').length;
+        if (pictures > window.coming.most) window.coming = { most: pictures, step: location.hash, taken: document.querySelectorAll('.tile').length };
+      }).observe(document.body, { childList: true, subtree: true });
+    });
+    const paths = Array.from({ length: 8 }, (_, k) => scratch(`early${k}.jpg`, withThumbnail(whole, small, k)));
+    await photos(page, [...paths, scratch('again.jpg', withThumbnail(whole, small, 3)), scratch('letter.jpg', 'Dear Sir or Madam')]);
+    assert.deepEqual(await page.evaluate(() => window.coming), { most: 9, step: '#photos', taken: 0 });
+    // What comes whole takes its place, and what is the same photo or none is told as ever.
+    assert.equal(await page.locator('.tile').count(), 8);
+    assert.equal(await page.locator('.coming-tile').count(), 0);
+    assert.equal(await page.locator('.problems li').count(), 2);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});

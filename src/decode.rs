@@ -8,6 +8,7 @@
 //! named ([`Photo::damaged_rows`]).
 
 mod bytes;
+mod embedded;
 mod jpeg;
 mod open;
 mod palette;
@@ -20,6 +21,7 @@ use crate::detection::Channel;
 use crate::error::{Damage, Error, Place, Result};
 use crate::image::{Grey, Samples};
 use crate::limits;
+pub use embedded::{Embedded, embedded};
 use open::{bits, decoding_error, prepared};
 pub use show::{Picture, picture};
 use signature::{Signature, signature};

@@ -74,6 +74,25 @@ fn stretch(image: &mut DynamicImage) {
     }
 }
 
+/// The middle of a picture, of the shape of another one; as it is where the two agree to a fiftieth.
+pub fn cropped(picture: Picture, [width, height]: [u64; 2]) -> Picture {
+    let [own, other] =
+        [[picture.width.into(), picture.height.into()], [width, height]].map(|[w, h]: [u64; 2]| w as f64 / h as f64);
+    if (own / other - 1.0).abs() < 0.02 {
+        return picture;
+    }
+    let [across, down] = if own > other {
+        [(f64::from(picture.height) * other).round() as u32, picture.height]
+    } else {
+        [picture.width, (f64::from(picture.width) / other).round() as u32]
+    };
+    let [across, down] = [across.clamp(1, picture.width), down.clamp(1, picture.height)];
+    let [left, top] = [(picture.width - across) / 2, (picture.height - down) / 2].map(|n| n as usize);
+    let rows = picture.rgba.chunks_exact(4 * picture.width as usize).skip(top).take(down as usize);
+    let rgba = rows.flat_map(|row| &row[4 * left..4 * (left + across as usize)]).copied().collect();
+    Picture { width: across, height: down, rgba }
+}
+
 /// The small picture of a JPEG: means of its luma, coloured by the means of its chroma blocks (JFIF 1.02).
 pub fn reduced_luma(luma: &Luma, max_side: u32) -> Picture {
     let [width, height] = fitted([luma.plane.width as u32, luma.plane.height as u32], max_side);

@@ -7,6 +7,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 use super::*;
 
 mod damage;
+mod embedded_pictures;
 mod jpeg_kinds;
 
 fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {

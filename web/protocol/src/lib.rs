@@ -114,9 +114,9 @@ macro_rules! tasks {
                 }
             }
 
-            /// Whether its files may be too large to be held: they are read in pieces.
+            /// Whether its files are read in pieces: they may be too large to be held, or little of them is wanted.
             pub fn streams(&self) -> bool {
-                matches!(self, Self::Pack(_) | Self::Unpack(_))
+                matches!(self, Self::Pack(_) | Self::Unpack(_) | Self::Glance(_))
             }
 
             /// Whether the bytes of its answer are pictures of tiles ([`Pyramid`]): the worker makes of them what a canvas draws, for
@@ -171,6 +171,8 @@ pub fn from_text<M: DeserializeOwned>(text: &str) -> std::result::Result<M, Stri
 }
 
 tasks! {
+    /// Find the picture that a photo's file carries of itself, without reading the file; its bytes come along.
+    Glance { /** Longest side of the small picture. */ pub max_side: u32 } => Nothing, Option<Glanced>;
     /// Look into a photo: size, EXIF, a small picture, whose bytes come along.
     Open { /** Longest side of the small picture. */ pub max_side: u32 } => Nothing, Opened;
     /// Decode a photo for the screen; the bytes of its tiles come along, level by level.
@@ -279,6 +281,15 @@ tasks! {
         /** Of the file. */ pub name: String,
         /** Longest side of the small picture. */ pub max_side: u32,
     } => Nothing, SamplePhotoMade;
+}
+
+/// A photo that is not read yet.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Glanced {
+    /// Width and height of the small picture.
+    pub small: [u32; 2],
+    /// How it has to be turned for showing, 1 to 8.
+    pub orientation: u8,
 }
 
 /// What a photo's file says.

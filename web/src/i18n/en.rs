@@ -54,6 +54,7 @@ declare! { desk {
     add_photos: "Add photos…";
     on_to_targets: "Targets";
     opening_photos: "Opening photos";
+    being_read: "Being read";
     photo_count(n): "{n} {n:photo|photos}";
     rows_damaged(photo, rows): "Photo {photo}: rows {rows} of the file are damaged and were not measured";
     photo_failed(photo, reason): "Photo {photo}: {reason}";

@@ -48,6 +48,7 @@ translate! { Korean desk {
     add_photos: "사진 추가…";
     on_to_targets: "표적";
     opening_photos: "사진 여는 중";
+    being_read: "읽는 중";
     photo_count(n): "사진 {n}매";
     rows_damaged(photo, rows): "사진 {photo}: 파일의 {rows}행이 손상되어 측정하지 않았습니다";
     photo_failed(photo, reason): "사진 {photo}: {reason}";

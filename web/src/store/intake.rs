@@ -8,10 +8,10 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::exif::PhotoInfo;
 use sightline::project::{Photo, Project};
-use sightline_protocol::Open;
+use sightline_protocol::{Glance, Open};
 
-use super::document::Change;
-use super::pool::{Failure, Outcome};
+use super::document::{Change, Document};
+use super::pool::{Batch, Failure, Outcome};
 use super::saving::{is_project, is_text};
 use super::{Desk, JobKind, PhotoFile, Problem, Reason, Step, Until};
 use crate::browser::file::NamedFile;
@@ -23,6 +23,14 @@ use crate::parts::{Absent, part};
 
 /// Longest side of the small pictures, sharp on twice as dense screens.
 pub const SMALL_SIDE: u32 = 320;
+
+/// A photo that is being read; the project has it when all of it is known.
+#[derive(Clone)]
+pub struct Coming {
+    pub name: String,
+    /// What its file carries of itself, and how it is turned for showing.
+    pub picture: Option<(Picture, u8)>,
+}
 
 type Taken = Rc<RefCell<Vec<(usize, Result<PhotoFile, Problem>)>>>;
 
@@ -85,10 +93,12 @@ impl Desk {
         files.sort_by(|a, b| natural(&a.name, &b.name));
         let taken = Taken::default();
         let keep = taken.clone();
-        // As many pixels as a JPEG has at most in so many bytes.
-        let largest = files.iter().map(|file| 3.0 * file.content.size()).fold(2e6, f64::max);
+        // As many pixels as a JPEG has at most in so many bytes; a sensor's noise does not pack below a byte a pixel.
+        let most = |file: &NamedFile| if pairs::is_raw(&file.name) { 1.0 } else { 3.0 } * file.content.size();
+        let largest = files.iter().map(most).fold(2e6, f64::max);
         self.pool.with_value(|pool| pool.expect_pixels(largest));
         let batch = self.start_job(JobKind::Opening, files.len(), move || self.add_photos(&keep));
+        self.glance_at(batch, &files);
         for (place, file) in files.into_iter().enumerate() {
             let (taken, texts) = (taken.clone(), texts.clone());
             let content = file.content.clone();
@@ -110,8 +120,38 @@ impl Desk {
         }
     }
 
+    /// Shows what the files carry of themselves, before any of them is read whole.
+    fn glance_at(self, batch: Batch, files: &[NamedFile]) {
+        let coming = |file: &NamedFile| Coming { name: file.name.clone(), picture: None };
+        self.coming.set(files.iter().map(coming).collect());
+        for (place, file) in files.iter().enumerate() {
+            let on_outcome = move |outcome: Outcome<Glance>| {
+                // Where nothing is found the photo's own picture comes when it is read.
+                let Outcome::Done(Some(found), bytes) = outcome else { return };
+                let Some(bytes) = bytes.into_iter().next() else { return };
+                spawn_local(async move {
+                    let Ok(picture) = Picture::from_rgba(bytes, found.small[0], found.small[1]).await else { return };
+                    if !self.job.with_untracked(|job| job.as_ref().is_some_and(|job| job.batch == batch)) {
+                        return;
+                    }
+                    self.coming.update(|all| {
+                        if let Some(coming) = all.get_mut(place) {
+                            coming.picture = Some((picture, found.orientation));
+                        }
+                    });
+                    if self.step.get_untracked() == Step::Start {
+                        self.go(Step::Photos);
+                    }
+                });
+            };
+            let task = Glance { max_side: SMALL_SIDE };
+            self.pool.with_value(|pool| pool.submit(batch, task, vec![file.content.clone()], on_outcome));
+        }
+    }
+
     /// Adds what was looked into, in the order of the file names, as one change.
     fn add_photos(self, taken: &Taken) {
+        self.coming.set(Vec::new());
         let mut all = taken.take();
         all.sort_by_key(|(place, _)| *place);
         let mut project = self.document.with_untracked(|d| (*d.project).clone());
@@ -173,10 +213,12 @@ impl Desk {
                 self.select_photo(&photo.id);
             }
         });
-        // Where nothing could be taken the start page stays, and says why.
+        // Where nothing could be taken the start page says why.
         let empty = self.document.with_untracked(|d| d.project.photos.is_empty());
-        if self.step.get_untracked() == Step::Start && !empty {
-            self.go(Step::Photos);
+        match self.step.get_untracked() {
+            Step::Start if !empty => self.go(Step::Photos),
+            Step::Photos if self.document.with_untracked(Document::is_empty) => self.go(Step::Start),
+            _ => {}
         }
     }
 

@@ -348,6 +348,8 @@ pub struct Desk {
     apart: RwSignal<Vec<apart::Apart>>,
     values: RwSignal<values::Asked>,
     pub problems: RwSignal<Vec<Problem>>,
+    /// Photos that are being read.
+    pub coming: RwSignal<Vec<intake::Coming>, LocalStorage>,
     /// Files of shots whose other file is measured: RAW beside what was developed from it.
     pub others: StoredValue<Vec<PhotoFile>>,
     pub notice: RwSignal<Option<Notice>>,
@@ -425,6 +427,7 @@ impl Desk {
             apart: RwSignal::default(),
             values: RwSignal::default(),
             problems: RwSignal::default(),
+            coming: RwSignal::new_local(Vec::new()),
             others: StoredValue::default(),
             notice: RwSignal::default(),
             asking: RwSignal::new_local(None),
@@ -519,7 +522,8 @@ impl Desk {
             return self.show_experiment(name);
         }
         let step = Step::from_name(&page::hash());
-        let empty = self.document.with_untracked(Document::is_empty);
+        let coming = self.coming.with_untracked(|coming| !coming.is_empty());
+        let empty = self.document.with_untracked(Document::is_empty) && !coming;
         let allowed = if empty && !step.is_before() { Step::Start } else { step };
         if self.step.get_untracked() != allowed {
             self.step.set(allowed);

@@ -80,7 +80,8 @@ struct Slot {
 impl Job {
     /// Whether it takes what no other photo takes: it works on a document, or makes a whole photo ready for the screen.
     fn is_apart(&self) -> bool {
-        self.files.is_empty() || self.request.streams() || matches!(self.request, Request::ShowPhoto(_))
+        let document = matches!(self.request, Request::Pack(_) | Request::Unpack(_));
+        self.files.is_empty() || document || matches!(self.request, Request::ShowPhoto(_))
     }
 }
 

@@ -40,10 +40,11 @@ pub fn Photos() -> impl IntoView {
         </TitleBar>
         <main class="photos">
             <div class="gallery scroll">
-                <Show when=move || !any.get()>
+                <Show when=move || !any.get() && desk.coming.with(Vec::is_empty)>
                     <p class="note">{text::no_photos_yet}</p>
                 </Show>
                 {move || cameras.get().into_iter().map(|camera| view! { <Gallery camera picked/> }).collect_view()}
+                <Coming/>
                 <Problems/>
             </div>
             <aside class="side scroll" aria-label=text::cameras>
@@ -75,6 +76,38 @@ fn Gallery(camera: String, picked: RwSignal<BTreeSet<String>>) -> impl IntoView 
         <ul class="tiles">
             {move || photos.get().into_iter().map(|(id, file, enabled)| view! { <Tile id file enabled picked/> }).collect_view()}
         </ul>
+    }
+}
+
+/// The photos that are being read, with what their files carry of themselves.
+#[component]
+fn Coming() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let names =
+        Memo::new(move |_| desk.coming.with(|all| all.iter().map(|photo| photo.name.clone()).collect::<Vec<_>>()));
+    let tile = move |(place, name): (usize, String)| {
+        let here =
+            Memo::new(move |_| desk.coming.with(|all| all.get(place).is_some_and(|photo| photo.picture.is_some())));
+        let picture = move || {
+            here.get();
+            let picture = desk.coming.with_untracked(|all| all.get(place)?.picture.clone());
+            picture.map(|(picture, orientation)| view! { <Thumbnail picture orientation/> })
+        };
+        view! {
+            <li class="coming-tile">
+                <span class="frame">{picture}</span>
+                <span class="tile-name">{name}</span>
+            </li>
+        }
+    };
+    view! {
+        <Show when=move || !names.with(Vec::is_empty)>
+            <h2 class="section-head">
+                <span>{text::being_read}</span>
+                <span class="aside">{move || text::photo_count(format::count(names.with(Vec::len)))}</span>
+            </h2>
+            <ul class="tiles" aria-busy="true">{move || names.get().into_iter().enumerate().map(tile).collect_view()}</ul>
+        </Show>
     }
 }
 

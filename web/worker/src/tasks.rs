@@ -24,10 +24,10 @@ use sightline::tiles::{self, Pyramid};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
     Adjust, Adjusted, Adjusting, BeginPlan, CompareResults, Content, Detect, DifferColours, DrawSheets, Drawn, Export,
-    ExportExperiment, Given, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, Nothing,
-    Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReportMade, RunExperiment, Sample, SamplePhoto,
-    SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto,
-    Unpack, Unpacked, Values, WriteSheets,
+    ExportExperiment, Given, Glance, Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours,
+    MeasureFeatures, Nothing, Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReportMade, RunExperiment,
+    Sample, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated,
+    Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteSheets,
 };
 
 use crate::codecs::{shot_of, unpack};
@@ -37,6 +37,19 @@ type Files = Vec<Given>;
 
 /// Does every task of the page.
 pub struct Engine;
+
+impl Service<Glance> for Engine {
+    fn serve(&self, task: Glance, files: Files, _: Progress<Nothing>) -> Served<Option<Glanced>> {
+        let found = match files.into_iter().next() {
+            Some(Given::Stream(mut stream)) => decode::embedded(&mut stream, task.max_side),
+            Some(Given::Whole(bytes)) => decode::embedded(&mut Cursor::new(bytes), task.max_side),
+            None => None,
+        };
+        let Some(found) = found else { return Ok((None, Vec::new())) };
+        let small = [found.picture.width, found.picture.height];
+        Ok((Some(Glanced { small, orientation: found.orientation }), vec![found.picture.rgba]))
+    }
+}
 
 impl Service<Open> for Engine {
     fn serve(&self, task: Open, files: Files, _: Progress<Nothing>) -> Served<Opened> {
