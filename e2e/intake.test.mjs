@@ -125,3 +125,34 @@ test('photos are on the page before they are read', { timeout: 120_000 }, async 
     await close();
   }
 });
+
+/** A JPEG whose maker's note says that the camera straightened it. */
+function straightened(whole) {
+  const [short, long] = [(value) => [value >> 8, value & 255], (value) => [value >>> 24, value >>> 16 & 255, value >>> 8 & 255, value & 255]];
+  const entry = (tag, kind, count, value) => [...short(tag), ...short(kind), ...long(count), ...long(value)];
+  const first = [...short(2), ...entry(0x10f, 2, 5, 38), ...entry(0x8769, 4, 1, 44), ...long(0)];
+  const below = [...short(1), ...entry(0x927c, 7, 30, 62), ...long(0)];
+  const note = [...short(2), ...entry(0x2011, 4, 1, 0), ...entry(0x2013, 4, 1, 2), ...long(0)];
+  const block = Buffer.from([...Buffer.from('Exif\0\0MM\0*'), ...long(8), ...first, ...Buffer.from('SONY\0\0'), ...below, ...note]);
+  return Buffer.concat([whole.subarray(0, 2), Buffer.from([0xff, 0xe1, ...short(block.length + 2)]), block, whole.subarray(2)]);
+}
+
+test('what the camera corrected is told, and is another camera\'s', { timeout: 120_000 }, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await page.waitForSelector('.desk');
+    const whole = Buffer.from(await page.evaluate(async () => {
+      const canvas = new OffscreenCanvas(600, 400);
+      canvas.getContext('2d').fillRect(0, 0, 300, 400);
+      return [...new Uint8Array(await (await canvas.convertToBlob({ type: 'image/jpeg' })).arrayBuffer())];
+    }));
+    await photos(page, [scratch('plain.jpg', whole), scratch('straight.jpg', straightened(whole))]);
+    assert.equal(await page.locator('[data-result=corrections]').count(), 1);
+    const said = () => page.textContent('[data-result=corrections]');
+    assert.match(await said(), /corrected: distortion, where it knows the lens \(Sony 0x2013\).*calibrate and measure with the same setting.*left uncorrected: vignetting \(Sony 0x2011\)/);
+    assert.equal(await page.locator('.photos .tiles:has(.tile)').count(), 2, 'two cameras');
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});

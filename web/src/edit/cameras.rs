@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use sightline::adjustment::AdjustedCamera;
 use sightline::detection::{Channel, Colour, Detection};
-use sightline::exif::PhotoInfo;
+use sightline::exif::{Aberration, LensCorrection, PhotoInfo, Setting};
 use sightline::project::{Camera, ColourDifferences, Interior, LensColour, Parameter, Photo, PhotoColours, Project};
 
+use super::pairs;
 use crate::store::document::Document;
 
 /// Photos with the same signature are taken to share one camera and focus.
@@ -19,6 +20,8 @@ pub struct Signature {
     size: [u32; 2],
     /// Without a focal length the beginning of the file name stands for the camera, as in 043_0005 and 671_0021.
     prefix: Option<String>,
+    /// Whether the camera has straightened them, as far as its note says: what it has not is imaged by another camera.
+    straightened: bool,
 }
 
 impl Signature {
@@ -27,7 +30,12 @@ impl Signature {
             Some(_) => None,
             None => file.split_once(['_', '-']).map(|(prefix, _)| prefix.to_owned()),
         };
-        Self { make: info.make.clone(), model: info.model.clone(), focal_length_mm: info.focal_length_mm, size, prefix }
+        let bent = |correction: &LensCorrection| {
+            correction.aberration == Aberration::Distortion && correction.setting != Setting::Off
+        };
+        let straightened = !pairs::is_raw(file) && info.corrections.iter().any(bent);
+        let (make, model) = (info.make.clone(), info.model.clone());
+        Self { make, model, focal_length_mm: info.focal_length_mm, size, prefix, straightened }
     }
 
     /// A short name for people: the beginning of the file names, the model, or a number.
@@ -349,6 +357,21 @@ mod tests {
         assert_eq!(camera(&a, &info, &Project::default()).id, "043");
         let info = PhotoInfo { focal_length_mm: Some(7.3), ..info };
         assert_eq!(Signature::of("a_1.jpg", &info, SIZE), Signature::of("b_1.jpg", &info, SIZE));
+    }
+
+    #[test]
+    fn what_the_camera_straightened_is_another_camera_s() {
+        let with = |aberration, setting| PhotoInfo {
+            corrections: vec![LensCorrection { aberration, setting, tag: "Sony 0x2013".into() }],
+            ..info()
+        };
+        let of = |file: &str, info: &PhotoInfo| Signature::of(file, info, SIZE);
+        let straight = with(Aberration::Distortion, Setting::Auto);
+        assert_ne!(of("a.jpg", &info()), of("b.jpg", &straight));
+        // what is measured on the sensor's own samples is not straightened
+        assert_eq!(of("a.arw", &info()), of("b.arw", &straight));
+        assert_eq!(of("a.jpg", &info()), of("b.jpg", &with(Aberration::Distortion, Setting::Off)));
+        assert_eq!(of("a.jpg", &info()), of("b.jpg", &with(Aberration::Vignetting, Setting::On)));
     }
 
     #[test]

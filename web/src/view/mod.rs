@@ -5,6 +5,7 @@ pub mod advice;
 mod apart;
 pub mod changes;
 pub mod control;
+mod corrections;
 pub mod equipment;
 pub mod experiments;
 pub mod field;

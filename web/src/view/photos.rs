@@ -243,6 +243,12 @@ fn CameraPanel(id: String) -> impl IntoView {
         let words = mm.into_iter().chain(film).collect::<Vec<_>>().join(", ");
         (!words.is_empty()).then_some(words)
     };
+    let corrections = move || {
+        let photo = desk
+            .document
+            .with(|d| d.project.photos.iter().find(|p| p.camera == id.get_value()).map(|p| p.id.clone()))?;
+        desk.files.with(|files| files.get(&photo).and_then(|f| super::corrections::sentence(&f.name, &f.info)))
+    };
     let exif = move |value: Option<String>| value.unwrap_or_else(|| text::not_in_exif().to_owned());
     let unit = move || if camera.with(|c| c.as_ref().is_some_and(|c| c.pixel_pitch.is_some())) { "mm" } else { "px" };
     let with = move |read: fn(&Camera) -> String| camera.with(|c| c.as_ref().map(read).unwrap_or_default());
@@ -256,6 +262,7 @@ fn CameraPanel(id: String) -> impl IntoView {
             <dt>{text::make_and_model}</dt><dd>{move || exif(model())}</dd>
             <dt>{text::focal_length}</dt><dd>{move || exif(lens())}</dd>
         </dl>
+        {move || corrections().map(|text| view! { <p class="hint" data-result="corrections">{text}</p> })}
         <div class="fields">
             <label class="field">
                 <span>{text::name}</span>

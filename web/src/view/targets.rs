@@ -297,10 +297,21 @@ fn code_note(note: CodeNote) -> &'static str {
 fn PictureNote() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let sentence = move || {
-        current(desk).map_or(String::new(), |d| match &d.measured {
+        let Some(d) = current(desk) else { return String::new() };
+        let measured = match &d.measured {
             Some(measured) => super::measured::sentence(measured),
             None => picture_sentence(&d.picture),
-        })
+        };
+        let photo = desk.selection.with(|s| s.photo.clone());
+        let corrections = desk.files.with(|files| {
+            let file = files.get(&photo?)?;
+            super::corrections::sentence(&file.name, &file.info)
+        });
+        [Some(measured).filter(|text| !text.is_empty()), corrections]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join(" ")
     };
     view! {
         <Show when=move || !sentence().is_empty()>
