@@ -308,8 +308,9 @@ fn adjusted(project: &Project) -> Result<Project, String> {
     }
 }
 
-/// The truth adjusted without what is wrong and what is seen once.
-fn reference(network: &Network) -> Option<Project> {
+/// The truth adjusted without what is wrong and what is seen once, where that comes to an end, and whether it solves the network:
+/// all photos have measurements, and it ends near the truth. What a weak network's noise makes of it is no orientation's fault.
+fn reference(network: &Network) -> (Option<Project>, bool) {
     let mut project = network.truth.clone();
     for &k in &network.wrong {
         project.observations[k].enabled = false;
@@ -317,12 +318,13 @@ fn reference(network: &Network) -> Option<Project> {
     let mut rays: BTreeMap<String, usize> = BTreeMap::new();
     project.observations.iter().filter(|o| o.enabled).for_each(|o| *rays.entry(o.point.clone()).or_default() += 1);
     project.observations.iter_mut().for_each(|o| o.enabled &= rays.get(&o.point).is_some_and(|n| *n > 1));
-    let solved = adjusted(&project).ok()?;
-    let off = wrong_photos(&solved, &network.truth)?;
+    let Ok(solved) = adjusted(&project) else { return (None, false) };
+    let near = wrong_photos(&solved, &network.truth).is_some_and(|off| off.is_empty());
     let c = |p: &Project| p.cameras[0].interior.get(Parameter::C).unwrap_or(0.0);
     let measured = |photo: &Photo| project.observations.iter().any(|o| o.enabled && o.photo == photo.id);
     let whole = solved.photos.iter().all(measured);
-    (whole && off.is_empty() && (c(&solved) / c(&network.truth) - 1.0).abs() < 0.03).then_some(solved)
+    let solvable = whole && near && (c(&solved) / c(&network.truth) - 1.0).abs() < 0.03;
+    (Some(solved), solvable)
 }
 
 /// Photos that are turned by more than half a degree or shifted by more than 2 % of their distance, after the best
@@ -359,8 +361,8 @@ fn wrong_photos(project: &Project, truth: &Project) -> Option<BTreeSet<String>> 
 /// Judges an orientation.
 pub fn judged(network: &Network, oriented: &Oriented) -> Verdict {
     let mut verdict = Verdict::default();
-    let reference = reference(network);
-    verdict.solvable = reference.is_some();
+    let (reference, solvable) = reference(network);
+    verdict.solvable = solvable;
     let unoriented = |p: &&Photo| p.position.is_none() || p.rotation.is_none();
     verdict.missing = oriented.project.photos.iter().filter(unoriented).count();
     let result = adjusted(&oriented.project);

@@ -125,6 +125,6 @@ fuzz_target!(|data: &[u8]| {
             assert!(tree::is_finite(&format!("{adjustment:?}")));
             assert!(tree::is_finite(&format!("{:?}", apply(&project, &adjustment))));
         }
-        Err(error) => assert!(tree::is_finite(&format!("{error:?}"))),
+        Err(error) => assert!(tree::is_finite(&format!("{error:?}")), "{error:?}"),
     }
 });

@@ -82,8 +82,10 @@ fn standard_error(project: &Project, network: &Network, state: &State) -> Option
     let usual = median(all.iter().map(|(in_px, ..)| *in_px).collect())?;
     let apart = |in_px: f64| (in_px / usual).ln().abs();
     let (in_px, value, at) = all.into_iter().max_by(|a, b| apart(a.0).total_cmp(&apart(b.0)))?;
-    let usual = Number(rounded(usual * value / in_px));
-    (apart(in_px) > APART.ln()).then(|| invalid(Reason::StandardErrorsApart { value: Number(value), usual }, at))
+    let usual = rounded(usual * value / in_px);
+    // a camera that makes nothing of lengths, or any, is what has slipped then
+    let told = apart(in_px) > APART.ln() && usual.is_finite();
+    told.then(|| invalid(Reason::StandardErrorsApart { value: Number(value), usual: Number(usual) }, at))
 }
 
 /// To two digits.

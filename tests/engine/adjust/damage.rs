@@ -86,6 +86,23 @@ fn damaged_json_gives_a_result_or_an_error() {
     assert!(results > 150 && errors > 100 && refused > 100, "{results} results, {errors} errors, {refused} refused");
 }
 
+/// Principal distances and standard errors next to nothing: what a standard error should be is not told as infinite then.
+#[test]
+fn numbers_too_small_to_compute_with_make_no_infinite_ones() {
+    let wanted = Wanted { photos: 4, points: 9, distances: (1, 0.1), cameras: vec![brown(&[])], ..Wanted::default() };
+    let sound = noisy(&exact(&wanted, 29), &mut Noise::new(29, 0));
+    let mut told = 0;
+    for (round, [c, sigma]) in
+        [[1e-300, 1e-300], [1e-200, 1e-300], [1e-300, 1.0], [80.0, 1e-300]].into_iter().enumerate()
+    {
+        let mut project = sound.clone();
+        project.cameras[0].interior.set(Parameter::C, c);
+        project.distances[0].sigma = sigma;
+        told += usize::from(!adjusted(&project, &AdjustOptions::default(), round));
+    }
+    assert_eq!(told, 4);
+}
+
 /// Networks that hang by a thread: everything free, few rays, starting far from the truth. Many never converge.
 #[test]
 fn an_adjustment_that_no_longer_gains_ends_however_many_iterations_are_allowed() {
