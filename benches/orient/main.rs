@@ -72,7 +72,7 @@ fn main() {
         let seconds = seconds_used() - began;
         let verdict = judged(&network, &oriented);
         let rays = network.given.observations.len() as f64 / network.given.points.len() as f64;
-        let bad = verdict.solvable && (!verdict.right || verdict.silent > 0) || verdict.silent_c;
+        let bad = verdict.solvable && (!verdict.right || !verdict.wrong.is_empty()) || verdict.silent_c;
         let clean = case.wrong == 0.0;
         if bad || clean && verdict.falsely_wrong > 0 || wordy {
             println!(
@@ -85,7 +85,7 @@ fn main() {
                 verdict.solvable,
                 verdict.right,
                 verdict.missing,
-                verdict.silent,
+                verdict.wrong.len(),
                 verdict.silent_c,
                 verdict.falsely_wrong,
                 seconds,
@@ -94,6 +94,18 @@ fn main() {
         }
         if words.iter().any(|w| w == "-n") {
             oriented.notes.iter().for_each(|note| println!("    {note:?}"));
+            for (photo, [degrees, hundredths]) in &verdict.wrong {
+                let mut told = BTreeMap::new();
+                for (k, o) in oriented.project.observations.iter().enumerate().filter(|(_, o)| o.photo == *photo) {
+                    let enabled = oriented.project.observations.iter().filter(|p| p.enabled && p.point == o.point);
+                    let aside = oriented.project.set_aside.iter().find(|s| s.photo == *photo && s.point == o.point);
+                    let wrong = network.wrong.contains(&k);
+                    *told.entry((aside.map(|s| format!("{:?}", s.reason)), enabled.count(), wrong)).or_insert(0) += 1;
+                }
+                println!(
+                    "    {photo} is wrong by {degrees:.2} degrees, {hundredths:.2} %; reason, rays, wrong name: {told:?}"
+                );
+            }
         }
         let (a, b, c) =
             (KINDS[case.kind].to_string(), format!("c {:?}", case.distance), format!("wrong {}", case.wrong));
@@ -105,7 +117,7 @@ fn main() {
                 flag(verdict.solvable),
                 flag(verdict.solvable && verdict.right),
                 flag(verdict.solvable && verdict.missing > 0),
-                flag(verdict.silent > 0),
+                flag(!verdict.wrong.is_empty()),
                 flag(verdict.silent_c),
                 flag(clean && verdict.falsely_wrong > 0),
                 seconds,

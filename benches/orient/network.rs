@@ -285,8 +285,8 @@ pub struct Verdict {
     pub right: bool,
     /// Photos without orientation.
     pub missing: usize,
-    /// Photos in a wrong pose that no note names.
-    pub silent: usize,
+    /// Photos in a wrong pose that no note names, by how many degrees and hundredths of their distance.
+    pub wrong: Vec<(String, [f64; 2])>,
     /// c is more than 10 % off, and no note says so.
     pub silent_c: bool,
     /// Right observations called wrong.
@@ -328,8 +328,8 @@ fn reference(network: &Network) -> (Option<Project>, bool) {
 }
 
 /// Photos that are turned by more than half a degree or shifted by more than 2 % of their distance, after the best
-/// similarity that the photos and points allow.
-fn wrong_photos(project: &Project, truth: &Project) -> Option<BTreeSet<String>> {
+/// similarity that the photos and points allow: by how many degrees and hundredths.
+fn wrong_photos(project: &Project, truth: &Project) -> Option<BTreeMap<String, [f64; 2]>> {
     let points = project.points.iter().zip(&truth.points).filter_map(|(p, t)| p.xyz.zip(t.xyz));
     let photos = project.photos.iter().zip(&truth.photos).filter_map(|(p, t)| p.position.zip(t.position));
     let (source, target): (Vec<Vector3<f64>>, Vec<Vector3<f64>>) =
@@ -337,7 +337,7 @@ fn wrong_photos(project: &Project, truth: &Project) -> Option<BTreeSet<String>> 
     let (found, _) = sightline::initial::similarity::fit_robust(&source, &target, 0)
         .or_else(|_| fit(&source, &target).map(|f| (f, Vec::new())))
         .ok()?;
-    let mut wrong = BTreeSet::new();
+    let mut wrong = BTreeMap::new();
     for (p, t) in project.photos.iter().zip(&truth.photos) {
         let (Some(own), Some(real)) = (Pose::of_photo(p), Pose::of_photo(t)) else { continue };
         let carried = found.transform.pose(&own);
@@ -351,8 +351,9 @@ fn wrong_photos(project: &Project, truth: &Project) -> Option<BTreeSet<String>> 
             .map(|xyz| (Vector3::from(xyz) - real.centre).norm())
             .collect();
         let distance = near.iter().sum::<f64>() / near.len().max(1) as f64;
-        if !(angle < 0.5_f64.to_radians() && (carried.centre - real.centre).norm() < 0.02 * distance) {
-            wrong.insert(p.id.clone());
+        let shift = (carried.centre - real.centre).norm() / distance;
+        if !(angle < 0.5_f64.to_radians() && shift < 0.02) {
+            wrong.insert(p.id.clone(), [angle.to_degrees(), 100.0 * shift]);
         }
     }
     Some(wrong)
@@ -372,7 +373,11 @@ pub fn judged(network: &Network, oriented: &Oriented) -> Verdict {
     let named: BTreeSet<&str> = oriented.notes.iter().filter_map(noted_photo).collect();
     // A note about the camera says that every pose depends on it.
     let weak = oriented.notes.iter().any(says_weak);
-    verdict.silent = wrong.iter().filter(|id| !weak && !named.contains(id.as_str())).count();
+    verdict.wrong = wrong
+        .iter()
+        .filter(|(id, _)| !weak && !named.contains(id.as_str()))
+        .map(|(id, off)| (id.clone(), *off))
+        .collect();
     let c = |p: &Project| p.cameras[0].interior.get(Parameter::C).unwrap_or(0.0);
     verdict.silent_c = verdict.missing < solved.photos.len()
         && (c(&solved) / c(&network.truth) - 1.0).abs() > 0.1
