@@ -4,7 +4,8 @@
 //! 2. Without them, a first pair is oriented from image points alone.
 //! 3. Photo by photo the rest follows: intersect, resect, refine by a small bundle adjustment, leave out what disagrees.
 //! 4. A model of its own is carried into the system of the known points, or given a scale and a place.
-//! 5. What was left out and misses by less than a wrong name would is adjusted with the rest once more.
+//! 5. What was left out and misses by less than a wrong name would is adjusted with the rest once more; photos that may stand in the
+//!    second of two poses are oriented anew.
 //!
 //! What is given stays as it is: orientations and coordinates bit by bit, camera parameters unless the project leaves
 //! them free without observing them. What cannot be found stays null, and a note says why. The same project gives the
@@ -25,6 +26,7 @@ mod principal_distance;
 mod readmission;
 mod refine;
 mod remaining;
+mod second_look;
 mod seed;
 mod ties;
 mod trial;
@@ -147,6 +149,7 @@ impl Attempt {
             trial
         };
         let mut borne = vec![false; block.views.len()];
+        let mut looked = borne.clone();
         let mut settled;
         loop {
             readmission::readmit(&mut block);
@@ -159,7 +162,9 @@ impl Attempt {
             let split = ties::split(&mut block, &trial);
             if !split.is_empty() {
                 apart.extend(split);
-            } else if !remaining::orient(&mut block, &mut borne) {
+            } else if !remaining::orient(&mut block, &mut borne)
+                && !second_look::again(&mut block, &mut borne, &mut looked)
+            {
                 break;
             }
         }

@@ -150,6 +150,17 @@ fn nearly_flat_objects_need_no_pair_of_photos_with_many_points() {
     }
 }
 
+/// Ten points of a wall that two photos show have two relative orientations. These networks had photos in the other one, up to 74° and
+/// their whole distance off, with right measurements called wrong for it and a sigma0 of 1; the third had no end.
+#[test]
+fn the_second_pose_of_a_wall_is_left_for_the_first() {
+    for seed in [832, 1367, 1406] {
+        let network = network::network(&Case::of(seed, 60));
+        let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
+        assert!(verdict.right && verdict.falsely_wrong == 0, "seed {seed}: {verdict:?}");
+    }
+}
+
 /// Rough models of few photos carried the given principal distance of these networks away, and no adjustment came to an end.
 #[test]
 fn a_given_distance_is_held_where_the_network_fails_otherwise() {
