@@ -61,10 +61,12 @@ fn moments(kind: Robust, spread: f64) -> [f64; 3] {
 }
 
 /// Variance of unit weight for the cofactors of equations with weights: s² E[ψ²] E[factor]/E[ψ']², where the errors are `sigma0`
-/// and the scale of the weights is s.
+/// and the scale of the weights is s. Where errors are so far beyond that scale that hardly one keeps a weight the expectations are
+/// nothing over nothing, and σ0² itself stands for it.
 pub fn variance(kind: Robust, sigma0: f64, s: f64) -> f64 {
     let [squared, slope, weight] = moments(kind, sigma0 / s);
-    s * s * squared * weight / (slope * slope)
+    let variance = s * s * squared * weight / (slope * slope);
+    if variance.is_finite() { variance } else { sigma0 * sigma0 }
 }
 
 /// Scale by the median of |t|: of errors by half of which nothing is known but that they are not smaller.
@@ -119,6 +121,16 @@ mod tests {
     use crate::noise::Noise;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn a_variance_is_a_number_however_far_beyond_the_scale_the_errors_are() {
+        for kind in [Robust::Huber, Robust::Tukey] {
+            for sigma0 in [1.0, 30.0, 1e3, 3e4, 1e6, 1e12] {
+                let found = variance(kind, sigma0, 1.0);
+                assert!(found.is_finite() && found > 0.0, "{kind:?} {sigma0}: {found}");
+            }
+        }
+    }
 
     #[test]
     fn a_prediction_does_not_depend_on_the_own_weight() {
