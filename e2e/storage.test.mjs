@@ -119,7 +119,7 @@ test('a full disk is told, the file is the way out, and what waited is written w
   }
 });
 
-test('photos that do not fit are told, and stay in use', { timeout: 600_000, todo: 'what is written after the photos finds no room since photos are shown before they are read' }, async () => {
+test('photos that do not fit are told, and stay in use', { timeout: 600_000 }, async () => {
   const { page, context, url, close } = await open({ width: 1366, height: 768 });
   try {
     await page.waitForSelector('.desk');
@@ -128,18 +128,20 @@ test('photos that do not fit are told, and stay in use', { timeout: 600_000, tod
     const session = await context.newCDPSession(page);
     const { origin } = new URL(url);
     const { usage } = await session.send('Storage.getUsageAndQuota', { origin });
-    await session.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: usage + 8_000_000 });
+    await session.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: usage + 5_000_000 });
     await sample(page);
-    // Room for what is written beside the photos, and for none of them.
-    const room = async (bytes) => {
-      const { usage } = await session.send('Storage.getUsageAndQuota', { origin });
-      await session.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: usage + bytes });
-    };
+    const used = async () => (await session.send('Storage.getUsageAndQuota', { origin })).usage;
+    const room = async (bytes) => session.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: await used() + bytes });
     await storageLine(page, 'not copied|is full');
-    await room(400_000);
+    // Until every photo has been tried: one that is still to come would take the room that is made.
+    for (let before; before !== (before = await used());) await page.waitForTimeout(3000);
+    // Photos and what is written beside them come in any order; browsers give files their room by the megabyte. Now there is enough for the
+    // document, and not for all that is missing of the photos.
+    await room(2_500_000);
     // It stands there for as long as it is so, whatever else is told.
     await storageLine(page, '\\d photos? (is|are) not copied .*saved with photos');
     await page.waitForFunction(() => /saved \S+( [AP]M)?, \d photos? not/.test(document.querySelector('.project span')?.textContent));
+    await room(400_000);
     await go(page, 'targets');
     const targets = await figure(page, 'targets');
     await page.click('[data-action=detect]');
