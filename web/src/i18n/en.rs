@@ -251,7 +251,7 @@ declare! { desk {
         "The file names corrections of its lens ({names}). None was made here: a camera calibrated in corrected pictures is another camera.";
     corrections_made(names):
         "The camera's note says that it corrected: {names}. Its distortion is what the correction left, not the lens's: calibrate and measure with the same setting; it changes with zoom and focus.";
-    corrections_without_distortion(names): "The camera's note says that it corrected: {names}. Places in the luma are not moved by that.";
+    corrections_without_distortion(names): "The camera's note says that it corrected: {names}. Distortion is not among them.";
     corrections_of_developed(names):
         "The camera's note asks for corrections of pictures developed from this file: {names}. None was made here: a camera calibrated in corrected pictures is another camera.";
     corrections_off(names): "It says that it left uncorrected: {names}.";

@@ -243,7 +243,7 @@ translate! { Korean desk {
         "파일에 렌즈 보정({names})이 적혀 있으나 여기서는 적용하지 않았습니다. 보정된 영상에서 검정한 카메라는 이와 다른 카메라입니다.";
     corrections_made(names):
         "제조사 기록에 따르면 카메라가 다음을 보정했습니다: {names}. 이때의 왜곡은 렌즈의 왜곡이 아니라 보정하고 남은 왜곡입니다. 검정과 측정을 같은 설정으로 하십시오. 보정량은 줌과 초점에 따라 달라집니다.";
-    corrections_without_distortion(names): "제조사 기록에 따르면 카메라가 다음을 보정했습니다: {names}. 휘도 영상에서의 위치는 바뀌지 않습니다.";
+    corrections_without_distortion(names): "제조사 기록에 따르면 카메라가 다음을 보정했습니다: {names}. 왜곡은 그 가운데 없습니다.";
     corrections_of_developed(names):
         "제조사 기록은 이 파일에서 현상한 영상에 다음을 보정하도록 정하고 있습니다: {names}. 여기서는 적용하지 않았습니다. 보정된 영상에서 검정한 카메라는 이와 다른 카메라입니다.";
     corrections_off(names): "보정하지 않았다고 적힌 항목: {names}.";

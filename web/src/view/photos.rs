@@ -262,8 +262,8 @@ fn CameraPanel(id: String) -> impl IntoView {
             <dt>{text::make_and_model}</dt><dd>{move || exif(model())}</dd>
             <dt>{text::focal_length}</dt><dd>{move || exif(lens())}</dd>
         </dl>
-        {move || corrections().map(|text| view! { <p class="hint" data-result="corrections">{text}</p> })}
         <div class="fields">
+            {move || corrections().map(|text| view! { <p class="hint" data-result="corrections">{text}</p> })}
             <label class="field">
                 <span>{text::name}</span>
                 <Field value=Signal::stored(id.get_value()) commit=move |typed: String| desk.rename_camera(&id.get_value(), &typed) attr:data-field="name"/>
