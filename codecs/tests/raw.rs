@@ -2,6 +2,9 @@
 
 #[path = "support/camera.rs"]
 mod camera;
+#[allow(dead_code, reason = "shared with the engine's tests, which use all of it")]
+#[path = "../../tests/engine/support/coded_patch.rs"]
+mod coded_patch;
 #[path = "support/dng.rs"]
 mod dng;
 #[allow(dead_code, reason = "shared with the engine's tests, which use all of it")]
@@ -10,6 +13,7 @@ mod painter;
 
 use std::collections::BTreeSet;
 
+use coded_patch::{CodedPatch, Curve, Kind, coded_patch};
 use dng::Dng;
 use nalgebra::{DMatrix, DVector};
 use painter::{Canvas, Spot, Uniform};
@@ -18,6 +22,7 @@ use sightline::detection::{Channel, Codes, Colour, DetectOptions, Detection, Mea
 use sightline::error::Error;
 use sightline::image::{Grey, Samples};
 use sightline::noise::Noise;
+use sightline::ring_code::Family;
 use sightline::sensor::{self, Shot, Unpacked};
 use sightline::{decode, sample};
 use sightline_codecs::{Wanted, unpack};
@@ -482,4 +487,97 @@ fn codes_are_read_as_in_grey() {
             assert!(in_grey.len() > 8 && in_raw.is_subset(&in_grey) && in_raw.len() + 1 >= in_grey.len(), "{in_raw:?}");
         }
     }
+}
+
+/// A picture of patches drawn at random, six in a row, and where the middle of each of their dots is.
+fn sheet(family: Family, kinds: &[Kind], seed: u64) -> (Grey, Vec<(CodedPatch, [f64; 2])>) {
+    const CELL: usize = 260;
+    let mut random = Uniform(seed);
+    let (columns, rows) = (6, kinds.len().div_ceil(6));
+    let mut samples = vec![40u8; columns * rows * CELL * CELL];
+    let mut patches = Vec::new();
+    for (k, kind) in kinds.iter().enumerate() {
+        // green has every other site: what is hardly read in grey is not read in light
+        let patch = loop {
+            let patch = coded_patch(*kind, family, Curve::Flat, &mut random);
+            if patch.size <= CELL && patch.sector > 4.0 && patch.tilt < 0.75 && patch.contrast > 80.0 {
+                break patch;
+            }
+        };
+        let [left, top] = [k % columns * CELL, k / columns * CELL];
+        for (y, row) in patch.samples.chunks_exact(patch.size).enumerate() {
+            let at = (top + y) * columns * CELL + left;
+            samples[at..at + patch.size].copy_from_slice(row);
+        }
+        let place = [left as f64 + patch.u, top as f64 + patch.v];
+        patches.push((patch, place));
+    }
+    (Grey { width: columns * CELL, height: rows * CELL, samples: Samples::U8(samples) }, patches)
+}
+
+#[test]
+fn metashape_codes_are_read_as_in_grey() {
+    const FAMILIES: [(Family, Codes); 4] = [
+        (Family::Metashape12, Codes::Metashape12),
+        (Family::Metashape14, Codes::Metashape14),
+        (Family::Metashape16, Codes::Metashape16),
+        (Family::Metashape20, Codes::Metashape20),
+    ];
+    let mut totals = [0; 2];
+    for (seed, (family, codes)) in (61..).zip(FAMILIES) {
+        let mut kinds = vec![Kind::Code; 30];
+        kinds.extend([Kind::Other, Kind::Full, Kind::Strange, Kind::Dots, Kind::Hidden, Kind::Satellites]);
+        let (grey, patches) = sheet(family, &kinds, seed);
+        let Samples::U8(samples) = &grey.samples else { panic!("not of 8 bits") };
+        let mut noise = Noise::new(seed, 0);
+        let mut light = |level: &u8| (512.0 + 50.0 * f64::from(*level) + 4.0 * noise.normal()).round() as u16;
+        let dng = Dng {
+            width: grey.width,
+            height: grey.height,
+            bits: 14,
+            pattern: "RGGB",
+            black: 512,
+            white: 16383,
+            active_area: [0, 0, grey.height as u32, grey.width as u32],
+            samples: samples.iter().map(&mut light).collect(),
+            lossless_jpeg: false,
+            opcodes: Vec::new(),
+            orientation: 1,
+            preview: Vec::new(),
+        };
+        let shot = shot(&dng.file());
+        let options = DetectOptions { codes, ..DetectOptions::default() };
+        // how many are read, and those that are read as something else
+        let judge = |found: &Detection| {
+            let (mut read, mut wrong) = (0, Vec::new());
+            for (patch, [u, v]) in &patches {
+                let near = |t: &&Target| (t.u - u).hypot(t.v - v) < 2.0;
+                let Some(code) = found.targets.iter().find(near).and_then(|target| target.code) else { continue };
+                if patch.number == Some(code) {
+                    read += 1;
+                } else {
+                    wrong.push((patch.kind, patch.number, code));
+                }
+            }
+            (read, wrong)
+        };
+        let (in_grey, _) = judge(&detect(&grey.view().expect("a view"), &options).expect("targets"));
+        let in_raw = detect_shot(&shot, &options).expect("targets");
+        let clicked = in_raw.targets.iter().filter(|target| target.code.is_some()).filter(|target| {
+            let click = measure_in_shot(&shot, target.u, target.v, &options).expect("a place");
+            click.is_some_and(|click| click.code == target.code)
+        });
+        let clicked = clicked.count();
+        let all = in_raw.targets.iter().filter(|target| target.code.is_some()).count();
+        let (read, wrong) = judge(&in_raw);
+        println!("{codes:?}: {read} read in light, {in_grey} in grey, {clicked} of {all} by clicks, wrong {wrong:?}");
+        assert_eq!(wrong, [], "{codes:?}");
+        // nothing beside a dot is a code, and a click reads what the search did
+        assert_eq!((read, clicked), (all, all), "{codes:?}");
+        totals[0] += read;
+        totals[1] += in_grey;
+    }
+    // half of the sites are green
+    let [read, in_grey] = totals;
+    assert!(in_grey >= 90 && 10 * read >= 9 * in_grey, "{read} of {in_grey}");
 }
