@@ -267,7 +267,13 @@ impl<'a> Session<'a> {
         let cost = refused.unwrap_or(self.normal.cost);
         let full = options.statistics == StatisticsChoice::Full;
         let cofactors = cofactors(&self.normal, context!(self, options.residuals), self.datum.as_ref(), full);
-        let cofactors = Some(cofactors.ok_or_else(unsound)?);
+        let cofactors = cofactors.ok_or_else(unsound)?;
+        if !cofactors.are_sound() {
+            // What has come to rest there is determined by nothing; what ended on its way has no standard errors to state.
+            let nothing = Solution { cost, cofactors: None, covariance: None, check_lengths: Vec::new() };
+            return if polish { Err(self.rank_defect()) } else { Ok(nothing) };
+        }
+        let cofactors = Some(cofactors);
         let variance = self.variance(cost);
         let covariance = if options.covariance_of.is_empty() {
             None

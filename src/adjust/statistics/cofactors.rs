@@ -47,6 +47,22 @@ pub struct Cofactors {
     pub given_points: Vec<[f64; 3]>,
 }
 
+/// Beyond this a cofactor's products with scales and variances are no numbers any more.
+const LARGEST: f64 = 1e150;
+
+impl Cofactors {
+    /// Whether all are numbers that can be reckoned with: equations whose pivots pass for sound may leave others, at values far
+    /// beyond anything measured.
+    pub fn are_sound(&self) -> bool {
+        let matrices = self.photo_interior.iter().chain(&self.interiors).flat_map(|q| q.iter());
+        let own = self.photos.iter().flat_map(|q| q.iter()).chain(self.points.iter().flat_map(|q| q.iter()));
+        let rays = self.rays.iter().chain(&self.influence).flatten();
+        let given = self.given_points.iter().flatten().chain(&self.bars);
+        let sound = |x: &f64| x.abs() < LARGEST;
+        matrices.chain(own).chain(rays).chain(given).all(sound) && self.given_influence.shifts().all(|x| sound(&x))
+    }
+}
+
 /// Computes cofactors from undamped, factored equations at `state`; none where a projection does not exist.
 pub fn cofactors(normal: &Normal, context: Context<'_>, datum: Option<&FreeDatum>, full: bool) -> Option<Cofactors> {
     with_interior_size!(context.network, compute(normal, context, datum, full))
@@ -321,5 +337,33 @@ fn reduced_blocks(
             let own = block(inverse, at, at);
             DMatrix::from_fn(length, length, |i, j| own.get(i, j))
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    #[test]
+    fn one_number_beyond_reckoning_makes_all_unsound() {
+        let sound = Cofactors {
+            rays: vec![[0.5; 2]],
+            points: vec![Matrix3::identity()],
+            bars: vec![0.2],
+            ..Cofactors::default()
+        };
+        assert!(sound.are_sound());
+        for bad in [f64::NAN, f64::INFINITY, -1e200] {
+            let mut point = sound.clone();
+            point.points[0][(1, 2)] = bad;
+            let mut ray = sound.clone();
+            ray.rays[0][1] = bad;
+            let mut given = sound.clone();
+            given.given_influence.bars.push((bad, 0));
+            let photo = Cofactors { photos: vec![Matrix6::from_element(bad)], ..sound.clone() };
+            assert!([point, ray, given, photo].iter().all(|c| !c.are_sound()), "{bad}");
+        }
     }
 }

@@ -148,6 +148,12 @@ impl Blocks<'_> {
 }
 
 impl Influence {
+    /// Every shift.
+    pub fn shifts(&self) -> impl Iterator<Item = f64> {
+        let given = self.points.iter().chain(&self.photos).flatten();
+        given.chain(self.interiors.iter().flatten()).chain(&self.bars).map(|(shift, _)| *shift)
+    }
+
     /// Nothing yet.
     pub fn new(network: &Network) -> Self {
         Self {
