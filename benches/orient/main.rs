@@ -1,7 +1,8 @@
 //! Orientation over seeded networks: `cargo bench --bench orient -- [first] [count] [most photos] [-v] [-n]`, with -v a line
 //! for every network, with -n its notes;
 //! `-- large [first] [count]` for 60 photos with 300 points; `-- seeds 3 14 15` (and `-- large seeds 2`) for those networks alone,
-//! a line for each; `-- dots` for the matching of bare dots.
+//! a line for each; `-- dots` for the matching of bare dots; `-- write FOLDER` (and `-- large write FOLDER`) writes what orientation
+//! is given of the networks, for `benches/oriented.mjs`.
 
 mod dots;
 mod network;
@@ -58,9 +59,15 @@ fn main() {
     };
     // Per group: networks, solvable, right, missing photos, silent, silent c, falsely wrong networks (clean only), seconds.
     let mut groups: BTreeMap<String, [f64; 8]> = BTreeMap::new();
+    let folder = words.iter().position(|w| w == "write").and_then(|at| words.get(at + 1));
     for seed in seeds {
         let case = if large { Case::large(seed) } else { Case::of(seed, most) };
         let network = network::network(&case);
+        if let Some(folder) = folder {
+            let json = serde_json::to_vec(&network.given).expect("a document");
+            std::fs::write(format!("{folder}/{seed}.json"), json).expect("a folder to write to");
+            continue;
+        }
         let began = seconds_used();
         let oriented = match orient(&network.given) {
             Ok(oriented) => oriented,

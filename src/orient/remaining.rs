@@ -4,8 +4,8 @@
 //! pose because too little agreed with it, is looked at once more against cameras and points that stand. Three determined
 //! points, neighbours, and rough guesses (the poses of photos that show the same points, rolled by quarters, and resections
 //! from points put at the usual depth of their one ray) are starts of a robust pose from points and rays together. The best
-//! few are adjusted with everything else, and one is kept if it is the only one that would hardly come about by chance
-//! ([`evidence::by_chance`]).
+//! few are adjusted with everything else, and one is kept if it would hardly come about by chance ([`evidence::by_chance`]) and is
+//! a hundred times likelier than any other.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -28,7 +28,7 @@ const TOLERANCE: f64 = FROM_GUESSES[FROM_GUESSES.len() - 1];
 /// Neighbours whose poses are guesses, poses that are adjusted with everything else.
 const MOST_GUESSES: usize = 16;
 const MOST_ADJUSTED: usize = 3;
-/// The pose kept is as many times less likely by chance as the next best.
+/// The pose kept is as many times likelier than any other.
 const FEWER: f64 = 0.01;
 
 /// Orients the photos for which there is evidence now, each once, and marks them; whether there was one.
@@ -147,25 +147,35 @@ fn with_photo(block: &Block, photo: usize, pairs: &mut Pairs) -> Option<Block> {
             }
         }
     }
-    let mut kept: Option<(f64, Block)> = None;
-    let mut rival = f64::INFINITY;
+    let mut found: Vec<(f64, Block)> = Vec::new();
     for (.., pose) in distinct {
         let Some((chance, next)) = adjusted(block, photo, pose, &sights, &seen) else { continue };
-        match &mut kept {
-            Some((least, best)) => {
-                let other = best.views[photo].pose.zip(next.views[photo].pose);
-                if other.is_some_and(|(a, b)| same(block, &a, &b)) {
-                    continue;
-                }
-                rival = rival.min(chance.max(*least));
-                if chance < *least {
-                    (*least, *best) = (chance, next);
-                }
-            }
-            None => kept = Some((chance, next)),
+        let pose = next.views[photo].pose;
+        match found
+            .iter_mut()
+            .find(|(_, other)| other.views[photo].pose.zip(pose).is_some_and(|(a, b)| same(block, &a, &b)))
+        {
+            Some(known) if chance < known.0 => *known = (chance, next),
+            Some(_) => {}
+            None => found.push((chance, next)),
         }
     }
-    kept.filter(|(chance, _)| *chance < evidence::CHANCE && *chance < FEWER * rival).map(|(_, next)| next)
+    let least = found.iter().map(|(chance, _)| *chance).fold(f64::INFINITY, f64::min);
+    found.retain(|(chance, _)| *chance < evidence::CHANCE && *chance * FEWER <= least);
+    let noise = block.noise_px?;
+    let best =
+        (0..found.len()).find(|&k| (0..found.len()).all(|l| l == k || is_likelier(&found[k], &found[l], noise)))?;
+    Some(found.swap_remove(best).1)
+}
+
+/// Whether the first of two models with a photo is [`FEWER`] times likelier than the second: by what would agree by chance, and by
+/// the residuals of what agrees in both, for two poses of a plane may have the same measurements within the tolerance.
+fn is_likelier((chance, model): &(f64, Block), (other_chance, other): &(f64, Block), noise_px: f64) -> bool {
+    let squares = |a: &Block, b: &Block| -> f64 {
+        let both = (0..a.sights.len()).filter(|&s| a.sights[s].taken && b.sights[s].taken);
+        both.filter_map(|s| Some(a.misfit_px(s)?.powi(2) - b.misfit_px(s)?.powi(2))).sum()
+    };
+    (chance / other_chance).ln() + squares(model, other) / (2.0 * noise_px * noise_px) < FEWER.ln()
 }
 
 /// Whether two poses of a photo are the same but for what an adjustment evens out.
