@@ -501,6 +501,9 @@ async function take({ id }) {
   return open({ id }, [], (await hold(id)) ?? (await hold(id, true)));
 }
 
+/** A part's text, of pieces that are texts or bytes of one. */
+const joined = (pieces) => pieces.map((piece) => (typeof piece === 'string' ? piece : new TextDecoder().decode(piece))).join('');
+
 /** A part, as what changed since the last of its kind where that is shorter. */
 function partOf(id, kind, words, last) {
   const before = last.get(kind);
@@ -541,7 +544,7 @@ async function append({ id, note, parts, card, snapshot }, texts) {
   }
   const before = new Map(project.last);
   try {
-    const items = parts.map(([number, kind], i) => partOf(number, kind, texts[i], project.last));
+    const items = parts.map(([number, kind], i) => partOf(number, kind, joined(texts[i]), project.last));
     items.push({ note });
     await backend.setCard(id, { ...(await cardOf(id)), ...card });
     if (snapshot) {

@@ -1,6 +1,8 @@
 //! What page and workers say to each other. A task, what is said on its way and what it ends with belong together by
 //! type; pictures and files travel beside these as bytes.
 
+mod pieces;
+
 use std::collections::BTreeMap;
 use std::io::{Read, Seek};
 
@@ -19,6 +21,8 @@ use sightline::report::plots::Plot;
 use sightline::sheets::{CodeCount, SheetOptions};
 pub use sightline::tiles::Pyramid;
 use sightline::{Error, Result};
+
+pub use pieces::{Long, Piece, to_pieces};
 
 /// Work for a worker. The files it needs come with it.
 pub trait Task: Serialize + DeserializeOwned + 'static {
@@ -195,7 +199,7 @@ tasks! {
         /** Pixels down. */ pub v: f64,
         /** How. */ pub options: DetectOptions,
     } => Nothing, Option<Target>;
-    /// Orient what is not oriented and adjust; progress per iteration.
+    /// Orient what is not oriented and adjust; progress per iteration. The texts of both come along in pieces.
     Adjust { /** What. */ pub project: Project, /** How. */ pub options: AdjustOptions } => Adjusting, Adjusted;
     /// Measure the features of a project at the values that an adjustment with these options gave it.
     MeasureFeatures { /** With the adjusted values. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Measured;
@@ -385,13 +389,13 @@ pub enum Adjusting {
     Iteration(Iteration),
 }
 
-/// The project with its initial values, and the adjustment made from it.
+/// The project with its initial values, and the adjustment made from it: their texts come along, the one's pieces before the other's.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Adjusted {
     /// The project that was adjusted.
-    pub oriented: Project,
+    pub oriented: Vec<Piece>,
     /// Its result.
-    pub adjustment: Adjustment,
+    pub adjustment: Vec<Piece>,
 }
 
 /// What a plan begins with.

@@ -4,6 +4,24 @@ use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{HtmlElement, Window};
 
+#[wasm_bindgen]
+extern "C" {
+    type MessageChannel;
+    type MessagePort;
+    #[wasm_bindgen(constructor, catch)]
+    fn new() -> Result<MessageChannel, JsValue>;
+    #[wasm_bindgen(method, getter)]
+    fn port1(this: &MessageChannel) -> MessagePort;
+    #[wasm_bindgen(method, getter)]
+    fn port2(this: &MessageChannel) -> MessagePort;
+    #[wasm_bindgen(method, setter)]
+    fn set_onmessage(this: &MessagePort, listener: &js_sys::Function);
+    #[wasm_bindgen(method, js_name = postMessage)]
+    fn post_message(this: &MessagePort, message: &JsValue);
+    #[wasm_bindgen(method)]
+    fn close(this: &MessagePort);
+}
+
 fn window() -> Option<Window> {
     web_sys::window()
 }
@@ -88,6 +106,15 @@ pub fn after(milliseconds: i32, work: impl FnOnce() + 'static) {
         let work = Closure::once_into_js(work);
         let _ = window.set_timeout_with_callback_and_timeout_and_arguments_0(work.unchecked_ref(), milliseconds);
     }
+}
+
+/// Lets the page do what waits before this goes on, at once; timers would wait for seconds where the page is not shown.
+pub async fn breathe() {
+    let Ok(channel) = MessageChannel::new() else { return };
+    let came = js_sys::Promise::new(&mut |resolve, _| channel.port1().set_onmessage(&resolve));
+    channel.port2().post_message(&JsValue::NULL);
+    let _ = JsFuture::from(came).await;
+    channel.port1().close();
 }
 
 /// Waits so many milliseconds.

@@ -14,15 +14,24 @@ use web_sys::{ErrorEvent, MessageEvent};
 
 use super::file::Blob;
 use super::picture::Picture;
-use super::worker::{describe, error_words, field, set, start_script};
+use super::worker::{Bytes, describe, error_words, field, set, start_script};
 
 /// What goes along with a call or its answer.
 pub enum Extra {
     Text(String),
+    /// A text in pieces.
+    Pieces(Vec<Piece>),
     Blob(Blob),
     Picture(Picture),
     /// What was asked for is not here.
     Nothing,
+}
+
+/// Of a text: bytes stay what they are on the way.
+#[derive(Clone)]
+pub enum Piece {
+    Text(String),
+    Bytes(Bytes),
 }
 
 /// Why a call gave nothing: the browser's name for it, and its words.
@@ -125,10 +134,20 @@ impl Storage {
     }
 }
 
+impl Piece {
+    fn as_js(&self) -> JsValue {
+        match self {
+            Self::Text(text) => text.into(),
+            Self::Bytes(Bytes(bytes)) => bytes.into(),
+        }
+    }
+}
+
 impl Extra {
     fn as_js(&self) -> JsValue {
         match self {
             Self::Text(text) => text.into(),
+            Self::Pieces(pieces) => pieces.iter().map(Piece::as_js).collect::<Array>().into(),
             Self::Blob(blob) => blob.as_js(),
             Self::Picture(picture) => picture.bitmap.clone().into(),
             Self::Nothing => JsValue::NULL,

@@ -15,6 +15,12 @@ use super::file::Blob;
 #[derive(Clone)]
 pub struct Bytes(pub(super) Uint8Array);
 
+impl Bytes {
+    pub fn to_vec(&self) -> Vec<u8> {
+        self.0.to_vec()
+    }
+}
+
 /// What a worker says.
 pub enum Message {
     /// It has started and takes requests.

@@ -3,12 +3,16 @@
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use sightline::adjustment::{AdjustOptions, Iteration};
-use sightline_protocol::{Adjust, Adjusted, Adjusting, Match};
+use leptos::task::spawn_local;
+use sightline::adjustment::{AdjustOptions, Adjustment, Iteration};
+use sightline::project::Project;
+use sightline_protocol::{Adjust, Adjusted, Adjusting, Long, Match, Piece, from_bytes};
 
 use super::document::{self, Change};
-use super::pool::{self, Failure};
+use super::pool::{self, Batch, Failure};
 use super::{Desk, JobKind, Step, Until};
+use crate::browser::worker::Bytes;
+use crate::browser::{page, storage};
 use crate::edit::targets;
 use crate::format;
 use crate::i18n::{comparing, text};
@@ -38,23 +42,53 @@ impl Desk {
                 self.iterations.update(|all: &mut Vec<Iteration>| all.push(iteration));
                 self.step_job(batch);
             }
-            pool::Outcome::Done(Adjusted { oriented, adjustment }, _) => {
-                self.end_job();
-                let outcome = document::Outcome { input: input.clone(), oriented: Arc::new(oriented), adjustment };
-                self.iterations.set(outcome.adjustment.iterations.clone());
-                self.change(Change::Adjusted, |document| document.result = Some(Arc::new(outcome)));
-                then(self);
+            pool::Outcome::Done(adjusted, texts) => {
+                let input = input.clone();
+                spawn_local(async move {
+                    match self.read_result(batch, input, adjusted, texts).await {
+                        Ok(true) => then(self),
+                        Ok(false) => {}
+                        Err(detail) => self.fail_to_adjust(Failure::Lost(detail)),
+                    }
+                });
             }
-            pool::Outcome::Failed(failure) => {
-                self.end_job();
-                self.show_iterations_of_result();
-                if let Failure::Refused(error) = &failure {
-                    self.adjust_failure.set(Some(error.clone()));
-                }
-                self.tell_failure(failure);
-            }
+            pool::Outcome::Failed(failure) => self.fail_to_adjust(failure),
         };
         self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
+    }
+
+    /// Takes a result, whose texts are kept as they came; false where it was cancelled while it was read.
+    async fn read_result(
+        self,
+        batch: Batch,
+        input: Arc<Project>,
+        adjusted: Adjusted,
+        mut texts: Vec<Bytes>,
+    ) -> Result<bool, String> {
+        let of_adjustment = texts.split_off(adjusted.oriented.len().min(texts.len()));
+        let wanted = || self.job.with_untracked(|job| job.as_ref().is_some_and(|job| job.batch == batch));
+        let Some(oriented) = read::<Project>(&adjusted.oriented, &texts, wanted).await? else { return Ok(false) };
+        let Some(adjustment) = read::<Adjustment>(&adjusted.adjustment, &of_adjustment, wanted).await? else {
+            return Ok(false);
+        };
+        self.end_job();
+        let outcome = Arc::new(document::Outcome { input, oriented: Arc::new(oriented), adjustment });
+        self.iterations.set(outcome.adjustment.iterations.clone());
+        if self.storage().is_some() {
+            self.keeper
+                .with_value(|keeper| keeper.book.borrow_mut().came(&outcome, [texts, of_adjustment].map(as_they_are)));
+        }
+        self.change(Change::Adjusted, |document| document.result = Some(outcome));
+        Ok(true)
+    }
+
+    fn fail_to_adjust(self, failure: Failure) {
+        self.end_job();
+        self.show_iterations_of_result();
+        if let Failure::Refused(error) = &failure {
+            self.adjust_failure.set(Some(error.clone()));
+        }
+        self.tell_failure(failure);
     }
 
     /// After a cancelled adjustment the last result stands, with its own iterations, and the page says of what it is.
@@ -137,4 +171,27 @@ impl Desk {
             self.refuse(typed, text::no_diameter);
         }
     }
+}
+
+fn as_they_are(texts: Vec<Bytes>) -> Vec<storage::Piece> {
+    texts.into_iter().map(storage::Piece::Bytes).collect()
+}
+
+/// An object from its text in pieces, each read in a task of the page of its own; nothing where it is not wanted any more.
+async fn read<T: Long>(pieces: &[Piece], texts: &[Bytes], wanted: impl Fn() -> bool) -> Result<Option<T>, String> {
+    let all = || pieces.iter().zip(texts);
+    let frame = all().filter(|(piece, _)| **piece == Piece::Frame).flat_map(|(_, text)| text.to_vec());
+    let mut object = from_bytes::<T>(&frame.collect::<Vec<_>>())?;
+    for (piece, text) in all() {
+        if let Piece::Rows(name) = piece {
+            page::breathe().await;
+            if !wanted() {
+                return Ok(None);
+            }
+            object.add(name, &text.to_vec())?;
+        }
+    }
+    // What is made of it takes a task too.
+    page::breathe().await;
+    Ok(wanted().then_some(object))
 }

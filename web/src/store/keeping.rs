@@ -16,7 +16,7 @@ use super::{Desk, PhotoFile, Selection, Step, Until};
 use crate::browser::file::{Blob, NamedFile};
 use crate::browser::page;
 use crate::browser::picture::Picture;
-use crate::browser::storage::{Extra, Fault, LOST, Storage};
+use crate::browser::storage::{Extra, Fault, LOST, Piece, Storage};
 use crate::i18n::text;
 
 /// Undoable states that are read ahead of being asked for.
@@ -97,7 +97,7 @@ pub(super) struct Append {
     parts: Vec<(u64, String)>,
     card: KeptCard,
     #[serde(skip)]
-    texts: Vec<String>,
+    texts: Vec<Vec<Piece>>,
 }
 
 #[derive(Serialize)]
@@ -306,7 +306,7 @@ impl Desk {
         spawn_local(async move {
             let mut outcome = Ok(());
             while let Some(next) = self.keeper.try_update_value(|keeper| keeper.backlog.pop_front()).flatten() {
-                let extras = next.texts.iter().cloned().map(Extra::Text).collect();
+                let extras = next.texts.iter().cloned().map(Extra::Pieces).collect();
                 match storage.call::<Appended>("append", &next, extras).await {
                     Ok((Appended { size }, _)) => {
                         self.keeper.update_value(|keeper| keeper.written += 1);

@@ -13,6 +13,7 @@ use sightline::project::{Parameter, Project};
 use sightline_protocol::{from_text, to_text};
 
 use super::document::{Change, Document, History, Outcome};
+use crate::browser::storage::Piece;
 use crate::edit::targets;
 
 /// A document by the numbers of its parts.
@@ -70,20 +71,23 @@ pub struct KeptFile {
     pub digest: u64,
 }
 
-/// The part of a result, as it is written.
-#[derive(Serialize)]
-struct ResultToKeep<'a> {
-    input: u64,
-    oriented: u64,
-    adjustment: &'a Adjustment,
-}
-
-/// The part of a result, as it is read.
+/// The part of a result, as [`result_text`] writes it.
 #[derive(Deserialize)]
 struct KeptResult {
     input: u64,
     oriented: u64,
     adjustment: Adjustment,
+}
+
+/// The part of a result around the text of its adjustment.
+fn result_text(input: u64, oriented: u64, adjustment: Vec<Piece>) -> Vec<Piece> {
+    let before = Piece::Text(format!(r#"{{"input":{input},"oriented":{oriented},"adjustment":"#));
+    [vec![before], adjustment, vec![Piece::Text("}".into())]].concat()
+}
+
+/// A text of one piece.
+fn whole<T: Serialize>(part: &T) -> Vec<Piece> {
+    vec![Piece::Text(to_text(part))]
 }
 
 /// The parts that one part names: those of photos in a part of detections, the projects in that of a result.
@@ -128,7 +132,7 @@ pub struct Part {
     pub number: u64,
     /// Parts of a kind are alike, and written as what changed since the last one.
     pub kind: String,
-    pub text: String,
+    pub text: Vec<Piece>,
 }
 
 /// Parts that are known by their place in memory, which stays theirs while they are watched.
@@ -174,6 +178,8 @@ pub struct Book {
     maps: Known<BTreeMap<String, Arc<Detection>>>,
     doubtful: Known<Vec<Doubtful>>,
     results: Known<Outcome>,
+    /// The texts that a result came as, until it is written.
+    came: Option<(Weak<Outcome>, [Vec<Piece>; 2])>,
     past: Vec<u64>,
     future: Vec<u64>,
     present: Option<State>,
@@ -197,32 +203,38 @@ impl Book {
         self.present.is_none()
     }
 
-    fn project(&mut self, part: &Arc<Project>, kind: &str) -> u64 {
+    fn project(&mut self, part: &Arc<Project>, kind: &str, text: Option<Vec<Piece>>) -> u64 {
         let (number, new) = number(&mut self.projects, &mut self.next, &self.in_journal, part);
         if new {
-            self.new.push(Part { number, kind: kind.to_owned(), text: to_text(&**part) });
+            let text = text.unwrap_or_else(|| whole(&**part));
+            self.new.push(Part { number, kind: kind.to_owned(), text });
         }
         number
     }
 
+    /// A result came as these texts, that of its oriented project and that of its adjustment: the next note has it as they are.
+    pub fn came(&mut self, result: &Arc<Outcome>, texts: [Vec<Piece>; 2]) {
+        self.came = Some((Arc::downgrade(result), texts));
+    }
+
     fn state(&mut self, document: &Document) -> State {
-        let project = self.project(&document.project, "project");
+        let project = self.project(&document.project, "project", None);
         let (detections, new) = number(&mut self.maps, &mut self.next, &self.in_journal, &document.detections);
         if new {
             let mut numbers = BTreeMap::new();
             for (photo, found) in &*document.detections {
                 let (number, new) = number(&mut self.detections, &mut self.next, &self.in_journal, found);
                 if new {
-                    let (kind, text) = (format!("targets {photo}"), to_text(&**found));
+                    let (kind, text) = (format!("targets {photo}"), whole(&**found));
                     self.new.push(Part { number, kind, text });
                 }
                 numbers.insert(photo, number);
             }
-            self.new.push(Part { number: detections, kind: DETECTIONS.into(), text: to_text(&numbers) });
+            self.new.push(Part { number: detections, kind: DETECTIONS.into(), text: whole(&numbers) });
         }
         let (doubtful, new) = number(&mut self.doubtful, &mut self.next, &self.in_journal, &document.doubtful);
         if new {
-            self.new.push(Part { number: doubtful, kind: "doubtful".into(), text: to_text(&*document.doubtful) });
+            self.new.push(Part { number: doubtful, kind: "doubtful".into(), text: whole(&*document.doubtful) });
         }
         let result = document.result.as_ref().map(|result| self.result(result));
         let sigmas = document.sigmas_of_held.iter();
@@ -233,9 +245,12 @@ impl Book {
     fn result(&mut self, result: &Arc<Outcome>) -> u64 {
         let (number, new) = number(&mut self.results, &mut self.next, &self.in_journal, result);
         if new {
-            let input = self.project(&result.input, "project");
-            let oriented = self.project(&result.oriented, "oriented");
-            let text = to_text(&ResultToKeep { input, oriented, adjustment: &result.adjustment });
+            let came = self.came.take_if(|(of, _)| std::ptr::eq(of.as_ptr(), Arc::as_ptr(result)));
+            let (oriented, adjustment) = came.map(|(_, [oriented, adjustment])| (oriented, adjustment)).unzip();
+            let input = self.project(&result.input, "project", None);
+            let oriented = self.project(&result.oriented, "oriented", oriented);
+            let adjustment = adjustment.unwrap_or_else(|| whole(&result.adjustment));
+            let text = result_text(input, oriented, adjustment);
             self.new.push(Part { number, kind: RESULT.into(), text });
         }
         number
@@ -276,6 +291,7 @@ impl Book {
         let past = self.stack(true, &history.past);
         let future = self.stack(false, &history.future);
         let state = self.state(document);
+        self.came = None;
         let present = (self.present.as_ref() != Some(&state)).then_some(state);
         if present.is_some() {
             self.present.clone_from(&present);
@@ -284,7 +300,7 @@ impl Book {
         if self.files.as_ref().is_none_or(|(known, _)| known != files) {
             let number = self.next;
             self.next += 1;
-            self.new.push(Part { number, kind: "files".into(), text: to_text(files) });
+            self.new.push(Part { number, kind: "files".into(), text: whole(files) });
             self.files = Some((files.clone(), number));
             note.files = Some(number);
         }
@@ -446,7 +462,7 @@ pub(super) mod tests {
             let Some((note, parts)) = added else { return };
             self.notes.push(to_text(&note));
             self.kinds.extend(parts.iter().map(|part| (part.number, part.kind.clone())));
-            self.texts.extend(parts.into_iter().map(|part| (part.number, part.text)));
+            self.texts.extend(parts.into_iter().map(|part| (part.number, joined(part.text))));
         }
 
         pub fn read(&self) -> (Document, History, Book) {
@@ -463,6 +479,14 @@ pub(super) mod tests {
             }
             (document, history, book)
         }
+    }
+
+    fn joined(text: Vec<Piece>) -> String {
+        let words = |piece| match piece {
+            Piece::Text(text) => text,
+            Piece::Bytes(_) => panic!("there are none outside browsers"),
+        };
+        text.into_iter().map(words).collect()
     }
 
     pub fn renamed(document: &Document, name: &str) -> Document {
@@ -521,6 +545,31 @@ pub(super) mod tests {
         let changed = renamed(&read, "b");
         let (_, parts) = book.note(&changed, &past, &BTreeMap::new()).unwrap();
         assert_eq!(parts.iter().map(|part| part.kind.as_str()).collect::<Vec<_>>(), ["project"]);
+    }
+
+    #[test]
+    fn a_result_is_written_as_it_came() {
+        let (mut book, mut journal) = (Book::default(), Journal::default());
+        let outcome = |sigma0| {
+            let input = Arc::new(Project::default());
+            let adjustment = Adjustment { sigma0: Some(sigma0), ..Adjustment::default() };
+            Arc::new(Outcome { oriented: Arc::new(Project::clone(&input)), input, adjustment })
+        };
+        let text = |text: &str| Piece::Text(text.into());
+        let (first, second) = (outcome(0.5), outcome(1.5));
+        let mut document = renamed(&Document::default(), "a");
+        document.result = Some(first.clone());
+        let [oriented, adjustment] = [to_text(&*first.oriented), to_text(&first.adjustment)];
+        let (start, end) = adjustment.split_at(1);
+        book.came(&first, [vec![text(&oriented), text(" ")], vec![text(start), text(" "), text(end)]]);
+        journal.add(book.note(&document, &History::default(), &BTreeMap::new()));
+        assert_eq!(journal.texts.values().filter(|text| text.contains("{ ") || text.ends_with("} ")).count(), 2);
+        assert_eq!(journal.read().0.result, Some(first));
+        // The texts of one result are not those of another.
+        book.came(&outcome(2.5), [vec![text("")], vec![text("")]]);
+        document.result = Some(second.clone());
+        journal.add(book.note(&document, &History::default(), &BTreeMap::new()));
+        assert_eq!(journal.read().0.result, Some(second));
     }
 
     #[test]

@@ -27,7 +27,7 @@ use sightline_protocol::{
     ExportExperiment, Given, Glance, Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours,
     MeasureFeatures, Nothing, Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReportMade, RunExperiment,
     Sample, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated,
-    Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteSheets,
+    Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteSheets, to_pieces,
 };
 
 use crate::codecs::{shot_of, unpack};
@@ -115,7 +115,10 @@ impl Service<Adjust> for Engine {
             progress(Adjusting::Iteration(iteration.clone()));
             true
         })?;
-        Ok((Adjusted { oriented, adjustment }, Vec::new()))
+        let (oriented, mut texts) = to_pieces(&oriented);
+        let (adjustment, more) = to_pieces(&adjustment);
+        texts.extend(more);
+        Ok((Adjusted { oriented, adjustment }, texts))
     }
 }
 

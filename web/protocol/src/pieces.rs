@@ -1,0 +1,185 @@
+//! Long objects as text in pieces: one after the other they are the whole text, and each is read by itself, so that the page
+//! does something else between two of them.
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use sightline::adjustment::Adjustment;
+use sightline::project::Project;
+
+use crate::{from_bytes, to_bytes};
+
+/// Bytes after which a piece ends.
+const LONG: usize = 1 << 18;
+
+/// What a piece of an object's text has.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Piece {
+    /// Some of what is left of the object without long arrays.
+    Frame,
+    /// Elements of the object's array of this name; all but its first piece begin with the comma before them.
+    Rows(String),
+}
+
+/// An object with long arrays.
+pub trait Long: Serialize + DeserializeOwned {
+    /// Names of the arrays.
+    const ROWS: &'static [&'static str];
+
+    /// Adds elements to the array of this name, from their text.
+    ///
+    /// # Errors
+    /// Where the text is another one's: what was found.
+    fn add(&mut self, name: &str, rows: &[u8]) -> Result<(), String>;
+}
+
+macro_rules! long {
+    ($object:ty: $($rows:ident),*) => {
+        impl Long for $object {
+            const ROWS: &'static [&'static str] = &[$(stringify!($rows)),*];
+
+            fn add(&mut self, name: &str, rows: &[u8]) -> Result<(), String> {
+                match name {
+                    $(stringify!($rows) => extend(&mut self.$rows, rows),)*
+                    _ => Err(format!("no array {name}")),
+                }
+            }
+        }
+    };
+}
+
+long!(Project: photos, points, observations);
+long!(Adjustment: photos, points, observations);
+
+fn extend<T: DeserializeOwned>(all: &mut Vec<T>, rows: &[u8]) -> Result<(), String> {
+    let rows = rows.strip_prefix(b",").unwrap_or(rows);
+    all.append(&mut from_bytes(&[b"[", rows, b"]"].concat())?);
+    Ok(())
+}
+
+/// An object's text in pieces.
+pub fn to_pieces<T: Long>(object: &T) -> (Vec<Piece>, Vec<Vec<u8>>) {
+    cut(&to_bytes(object), T::ROWS, LONG)
+}
+
+/// Cuts the text of an object, as it is written without spaces, between elements of these arrays.
+fn cut(text: &[u8], arrays: &[&str], long: usize) -> (Vec<Piece>, Vec<Vec<u8>>) {
+    let (mut pieces, mut parts) = (Vec::new(), Vec::new());
+    let mut begun = 0;
+    let mut end = |piece: Piece, at: usize| {
+        if at > begun {
+            pieces.push(piece);
+            parts.push(text[begun..at].to_vec());
+            begun = at;
+        }
+        at
+    };
+    let (mut depth, mut key, mut rows, mut since) = (0, "", None::<&str>, 0);
+    let mut at = 0;
+    while at < text.len() {
+        match text[at] {
+            b'"' => {
+                let start = at + 1;
+                at = start + text[start..].iter().scan(false, escaped).take_while(|ends| !ends).count();
+                if depth == 1 {
+                    key = arrays.iter().find(|name| name.as_bytes() == &text[start..at]).copied().unwrap_or_default();
+                }
+            }
+            b'{' | b'[' => {
+                depth += 1;
+                if depth == 2 && text[at] == b'[' && !key.is_empty() {
+                    rows = Some(key);
+                    since = end(Piece::Frame, at + 1);
+                }
+            }
+            b'}' | b']' => {
+                depth -= 1;
+                if let Some(name) = rows.take_if(|_| depth == 1) {
+                    end(Piece::Rows(name.to_owned()), at);
+                }
+            }
+            b',' if depth == 2 && at - since >= long => {
+                if let Some(name) = rows {
+                    since = end(Piece::Rows(name.to_owned()), at);
+                }
+            }
+            _ => {}
+        }
+        at += 1;
+    }
+    end(Piece::Frame, text.len());
+    (pieces, parts)
+}
+
+/// Whether a string ends with this byte; what is scanned says whether the byte before it was a backslash that counts.
+fn escaped(after_backslash: &mut bool, byte: &u8) -> Option<bool> {
+    let ends = *byte == b'"' && !*after_backslash;
+    *after_backslash = *byte == b'\\' && !*after_backslash;
+    Some(ends)
+}
+
+#[cfg(test)]
+mod tests {
+    use sightline::adjustment::{AdjustedObservation, AdjustedPoint};
+
+    use super::*;
+    use crate::to_text;
+
+    /// An adjustment whose texts look like what is between them.
+    fn adjustment(rows: usize) -> Adjustment {
+        let point = |k| AdjustedPoint {
+            id: format!("p{k}\\\"],[{{"),
+            xyz: [0.1 * k as f64, 1e-300, -0.0],
+            ..Default::default()
+        };
+        let observation = |k| AdjustedObservation {
+            photo: r#""observations":["#.into(),
+            point: format!("점 {k},\\"),
+            vx: Some(1.0 / (k as f64 + 3.0)),
+            ..Default::default()
+        };
+        Adjustment {
+            points: (0..rows).map(point).collect(),
+            observations: (0..rows).map(observation).collect(),
+            sigma0: Some(0.1 + 0.2),
+            ..Adjustment::default()
+        }
+    }
+
+    /// Reads pieces as the page does.
+    fn read<T: Long>(pieces: &[Piece], parts: &[Vec<u8>]) -> Result<T, String> {
+        let frame = pieces.iter().zip(parts).filter(|(piece, _)| **piece == Piece::Frame);
+        let mut object = from_bytes::<T>(&frame.flat_map(|(_, part)| part.clone()).collect::<Vec<_>>())?;
+        for (piece, part) in pieces.iter().zip(parts) {
+            if let Piece::Rows(name) = piece {
+                object.add(name, part)?;
+            }
+        }
+        Ok(object)
+    }
+
+    #[test]
+    fn pieces_are_the_whole_text_and_give_the_object_back() {
+        for (rows, long) in [(0, 1), (1, 1), (2, 1), (7, 1), (40, 500), (40, 1 << 20)] {
+            let object = adjustment(rows);
+            let text = to_text(&object);
+            let (pieces, parts) = cut(text.as_bytes(), Adjustment::ROWS, long);
+            assert_eq!(String::from_utf8(parts.concat()).unwrap(), text);
+            assert!(parts.iter().all(|part| std::str::from_utf8(part).is_ok()));
+            assert_eq!(read::<Adjustment>(&pieces, &parts).unwrap(), object, "{rows} {long}");
+            let cuts = pieces.iter().filter(|piece| **piece == Piece::Rows("observations".into())).count();
+            let expected = match long {
+                1 => cuts == rows,
+                500 => (2..rows).contains(&cuts),
+                _ => cuts == 1,
+            };
+            assert!(expected, "{rows} rows of {long} bytes in {cuts} pieces");
+        }
+    }
+
+    #[test]
+    fn a_piece_of_something_else_is_refused() {
+        let mut object = adjustment(1);
+        assert!(object.add("observations", br#"{"photo":1}"#).is_err());
+        assert!(object.add("cameras", b"").is_err());
+    }
+}
