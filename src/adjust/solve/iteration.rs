@@ -109,7 +109,8 @@ pub fn iterate(setting: &Setting<'_>, normal: &mut Normal, log: &mut dyn FnMut(I
         let trial = state.stepped(network, &solution.step);
         let going = log(Iteration {
             sigma0: (before / unit).sqrt(),
-            step: solution.step.largest() * network.frame.scale,
+            // A step that overflows is not taken, but it is told by a number, which files can hold.
+            step: (solution.step.largest() * network.frame.scale).min(f64::MAX),
             damping: lambda,
         });
         let usable = trial.is_sound() && solution.decrement.is_finite() && lost.is_empty();
