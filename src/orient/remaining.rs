@@ -162,7 +162,8 @@ fn with_photo(block: &Block, photo: usize, pairs: &mut Pairs) -> Option<Block> {
     }
     let least = found.iter().map(|(chance, _)| *chance).fold(f64::INFINITY, f64::min);
     found.retain(|(chance, _)| *chance < evidence::CHANCE && *chance * FEWER <= least);
-    let noise = block.noise_px?;
+    // without a noise to compare with, chance alone decides
+    let noise = block.noise_px.unwrap_or(f64::INFINITY);
     let best =
         (0..found.len()).find(|&k| (0..found.len()).all(|l| l == k || is_likelier(&found[k], &found[l], noise)))?;
     Some(found.swap_remove(best).1)

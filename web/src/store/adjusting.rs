@@ -179,6 +179,9 @@ fn as_they_are(texts: Vec<Bytes>) -> Vec<storage::Piece> {
 
 /// An object from its text in pieces, each read in a task of the page of its own; nothing where it is not wanted any more.
 async fn read<T: Long>(pieces: &[Piece], texts: &[Bytes], wanted: impl Fn() -> bool) -> Result<Option<T>, String> {
+    if pieces.len() != texts.len() {
+        return Err(format!("{} texts of {} pieces", texts.len(), pieces.len()));
+    }
     let all = || pieces.iter().zip(texts);
     let frame = all().filter(|(piece, _)| **piece == Piece::Frame).flat_map(|(_, text)| text.to_vec());
     let mut object = from_bytes::<T>(&frame.collect::<Vec<_>>())?;
