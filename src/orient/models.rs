@@ -11,7 +11,7 @@ use super::seed::{Cores, Outcome, grown_out};
 
 /// Principal distances tried, as multiples of the assumed one or of the given one, when the first leaves large
 /// residuals.
-const OTHER_ASSUMED: [f64; 4] = [1.6, 0.65, 2.8, 0.45];
+const OTHER_ASSUMED: [f64; 6] = [0.8, 1.25, 1.6, 0.65, 2.8, 0.45];
 const OTHER_GIVEN: [f64; 2] = [1.25, 0.8];
 /// Models built, at most, and cores grown over all photos for each where none stands beyond doubt.
 const MOST_MODELS: usize = 8;

@@ -150,6 +150,15 @@ fn nearly_flat_objects_need_no_pair_of_photos_with_many_points() {
     }
 }
 
+/// A corridor in six photos, nothing wrong and c unknown: from principal distances too far apart it ended at one and a half times c, with five right
+/// measurements called wrong.
+#[test]
+fn a_weak_network_is_started_near_its_principal_distance() {
+    let network = network::network(&Case::of(1098, 60));
+    let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
+    assert!(verdict.right && verdict.falsely_wrong == 0, "{verdict:?}");
+}
+
 /// Ten points of a wall that two photos show have two relative orientations. These networks had photos in the other one, up to 74° and
 /// their whole distance off, with right measurements called wrong for it and a sigma0 of 1; the third had no end.
 #[test]
