@@ -1,5 +1,5 @@
-//! Estimation on seeded networks whose truth is known: `cargo xtask bench estimation`, or with a number of samples
-//! `cargo bench --bench estimation -- 20`.
+//! Estimation on seeded networks whose truth is known: `cargo xtask bench estimation`, or with a number of samples and the
+//! beginning of a network's name `cargo bench --bench estimation -- 1000 "3 photos"`: clean data of that one alone.
 
 #![allow(dead_code, reason = "the networks are shared with the tests, which want more of them")]
 
@@ -12,6 +12,7 @@ use sightline::adjustment::{AdjustOptions, Robust};
 
 fn main() {
     let samples = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(150);
+    let named = std::env::args().skip(1).find(|a| !a.starts_with('-') && a.parse::<usize>().is_err());
     let with = |robust, snooping| AdjustOptions { robust, snooping, ..AdjustOptions::default() };
     let ways = [
         ("least squares", with(None, false)),
@@ -20,7 +21,8 @@ fn main() {
         ("Tukey", with(Some(Robust::Tukey), false)),
     ];
     println!("clean data, {samples} samples each: redundancy, mean sigma0, coverage of 95 %, passed, thrown");
-    for trial in trials::trials() {
+    let wanted = |name: &str| named.as_deref().is_none_or(|named| name.starts_with(named));
+    for trial in trials::trials().into_iter().filter(|trial| wanted(trial.name)) {
         for (way, options) in &ways {
             let found = trials::clean(&trial.wanted, options, samples, 100);
             println!(
@@ -28,6 +30,9 @@ fn main() {
                 trial.name, found.redundancy, found.sigma0, found.coverage, found.passed, found.thrown
             );
         }
+    }
+    if named.is_some() {
+        return;
     }
     println!("gross errors of 10 to 500 sigma, {samples} samples each; sigma0 against the same noise without them");
     for trial in trials::trials() {
