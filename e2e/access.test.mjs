@@ -182,6 +182,7 @@ test('at 1366 pixels no table of the results is cut, and a sorted column shows i
   try {
     await sample(page);
     await page.waitForSelector('[data-result=sigma0]');
+    await page.waitForSelector('.results .c2 tr.data');
     const cut = await page.$$eval('.results .table-frame, .results section', (all) => all.filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => `${e.className} ${e.scrollWidth} in ${e.clientWidth}`));
     assert.deepEqual(cut, []);
     const points = page.locator('.results .c1');

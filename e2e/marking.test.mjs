@@ -83,6 +83,7 @@ test('eight photos without codes are named by hand and adjusted in at most 60 cl
     await go(page, 'results');
     assert.ok(clicks <= 60, `${clicks} clicks`);
     assert.ok((await figure(page, 'sigma0')) < 3);
+    await page.waitForSelector('.results .c1 tr.data');
     const rays = await page.$$eval('.results .c1 tbody tr.data td:nth-child(2)', (all) => all.map((cell) => Number(cell.textContent)));
     assert.ok(rays.filter((n) => n >= 6).length >= 20, `${rays}`);
     assert.deepEqual(errors, []);

@@ -22,7 +22,7 @@ use sightline::sheets::{CodeCount, SheetOptions};
 pub use sightline::tiles::Pyramid;
 use sightline::{Error, Result};
 
-pub use pieces::{Long, Piece, to_pieces};
+pub use pieces::{Long, Piece, from_pieces, to_pieces, written};
 
 /// Work for a worker. The files it needs come with it.
 pub trait Task: Serialize + DeserializeOwned + 'static {
@@ -199,8 +199,9 @@ tasks! {
         /** Pixels down. */ pub v: f64,
         /** How. */ pub options: DetectOptions,
     } => Nothing, Option<Target>;
-    /// Orient what is not oriented and adjust; progress per iteration. The texts of both come along in pieces.
-    Adjust { /** What. */ pub project: Project, /** How. */ pub options: AdjustOptions } => Adjusting, Adjusted;
+    /// Orient what is not oriented and adjust; progress per iteration. The project's text is given as files, in pieces; those of what is oriented and
+    /// of the adjustment come along in pieces.
+    Adjust { /** The project, a file each. */ pub project: Vec<Piece>, /** How. */ pub options: AdjustOptions } => Adjusting, Adjusted;
     /// Measure the features of a project at the values that an adjustment with these options gave it.
     MeasureFeatures { /** With the adjusted values. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Measured;
     /// Name uncoded targets by the geometry of the photos, which are oriented and adjusted first where they are not.

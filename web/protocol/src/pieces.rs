@@ -10,6 +10,8 @@ use crate::{from_bytes, to_bytes};
 
 /// Bytes after which a piece ends.
 const LONG: usize = 1 << 18;
+/// Elements after which a piece ends that is written when it is asked for: some 200 kB.
+const ROWS_AT_ONCE: usize = 2000;
 
 /// What a piece of an object's text has.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -30,6 +32,13 @@ pub trait Long: Serialize + DeserializeOwned {
     /// # Errors
     /// Where the text is another one's: what was found.
     fn add(&mut self, name: &str, rows: &[u8]) -> Result<(), String>;
+
+    /// The object without what is in its long arrays.
+    #[must_use]
+    fn frame(&self) -> Self;
+
+    /// The text of at most so many elements of the array of this name from a place on, as [`Self::add`] reads it; none from its end on.
+    fn rows(&self, name: &str, from: usize, most: usize) -> Option<Vec<u8>>;
 }
 
 macro_rules! long {
@@ -43,6 +52,19 @@ macro_rules! long {
                     _ => Err(format!("no array {name}")),
                 }
             }
+
+            fn frame(&self) -> Self {
+                let mut frame = self.clone();
+                $(frame.$rows.clear();)*
+                frame
+            }
+
+            fn rows(&self, name: &str, from: usize, most: usize) -> Option<Vec<u8>> {
+                match name {
+                    $(stringify!($rows) => some(&self.$rows, from, most),)*
+                    _ => None,
+                }
+            }
         }
     };
 }
@@ -54,6 +76,45 @@ fn extend<T: DeserializeOwned>(all: &mut Vec<T>, rows: &[u8]) -> Result<(), Stri
     let rows = rows.strip_prefix(b",").unwrap_or(rows);
     all.append(&mut from_bytes(&[b"[", rows, b"]"].concat())?);
     Ok(())
+}
+
+fn some<T: Serialize>(all: &[T], from: usize, most: usize) -> Option<Vec<u8>> {
+    let rows = all.get(from..(from + most).min(all.len())).filter(|rows| !rows.is_empty())?;
+    let mut text = to_bytes(&rows);
+    // the brackets
+    text.pop();
+    text.remove(0);
+    Some(text)
+}
+
+/// An object in pieces, each written when it is asked for: they are no text together, as those of [`to_pieces`] are, but are read alike.
+pub fn written<T: Long>(object: &T) -> impl Iterator<Item = (Piece, Vec<u8>)> {
+    let frame = std::iter::once_with(|| (Piece::Frame, to_bytes(&object.frame())));
+    let rows = T::ROWS.iter().flat_map(move |name| {
+        let places = (0..).map(|k| k * ROWS_AT_ONCE);
+        let texts = places.map_while(move |from| object.rows(name, from, ROWS_AT_ONCE));
+        texts.map(|text| (Piece::Rows((*name).to_owned()), text))
+    });
+    frame.chain(rows)
+}
+
+/// An object from its pieces, at once.
+///
+/// # Errors
+/// Where the texts are another object's: what was found.
+pub fn from_pieces<'a, T: Long>(pieces: &[Piece], texts: impl Iterator<Item = &'a [u8]> + Clone) -> Result<T, String> {
+    if pieces.len() != texts.clone().count() {
+        return Err(format!("{} texts of {} pieces", texts.count(), pieces.len()));
+    }
+    let all = || pieces.iter().zip(texts.clone());
+    let frame = all().filter(|(piece, _)| **piece == Piece::Frame).flat_map(|(_, text)| text.to_vec());
+    let mut object = from_bytes::<T>(&frame.collect::<Vec<_>>())?;
+    for (piece, text) in all() {
+        if let Piece::Rows(name) = piece {
+            object.add(name, text)?;
+        }
+    }
+    Ok(object)
 }
 
 /// An object's text in pieces.
@@ -145,16 +206,19 @@ mod tests {
         }
     }
 
-    /// Reads pieces as the page does.
     fn read<T: Long>(pieces: &[Piece], parts: &[Vec<u8>]) -> Result<T, String> {
-        let frame = pieces.iter().zip(parts).filter(|(piece, _)| **piece == Piece::Frame);
-        let mut object = from_bytes::<T>(&frame.flat_map(|(_, part)| part.clone()).collect::<Vec<_>>())?;
-        for (piece, part) in pieces.iter().zip(parts) {
-            if let Piece::Rows(name) = piece {
-                object.add(name, part)?;
-            }
+        from_pieces(pieces, parts.iter().map(Vec::as_slice))
+    }
+
+    #[test]
+    fn pieces_written_one_by_one_give_the_object_back() {
+        for rows in [0, 1, ROWS_AT_ONCE, 2 * ROWS_AT_ONCE + 1] {
+            let object = adjustment(rows);
+            let (pieces, parts): (Vec<_>, Vec<_>) = written(&object).unzip();
+            assert_eq!(pieces.len(), 1 + 2 * rows.div_ceil(ROWS_AT_ONCE));
+            assert_eq!(read::<Adjustment>(&pieces, &parts).unwrap(), object, "{rows}");
+            assert!(read::<Adjustment>(&pieces, &parts[1..]).is_err(), "{rows}");
         }
-        Ok(object)
     }
 
     #[test]

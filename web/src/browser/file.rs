@@ -27,6 +27,10 @@ impl Blob {
         web_sys::Blob::new_with_u8_array_sequence(&Array::of1(&bytes.0)).map(Self::of).map_err(|e| describe(&e))
     }
 
+    pub fn of_text(text: &[u8]) -> Result<Self, String> {
+        Self::from_bytes(&Bytes(Uint8Array::from(text)))
+    }
+
     /// Some of its bytes: they stay where they are.
     pub fn part(&self, start: f64, size: f64) -> Result<Self, String> {
         let inner = self.inner.slice_with_f64_and_f64(start, start + size).map_err(|e| describe(&e))?;

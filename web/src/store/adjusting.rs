@@ -6,11 +6,12 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::adjustment::{AdjustOptions, Adjustment, Iteration};
 use sightline::project::Project;
-use sightline_protocol::{Adjust, Adjusted, Adjusting, Long, Match, Piece, from_bytes};
+use sightline_protocol::{Adjust, Adjusted, Adjusting, Long, Match, Piece, from_bytes, written};
 
 use super::document::{self, Change};
 use super::pool::{self, Batch, Failure};
 use super::{Desk, JobKind, Step, Until};
+use crate::browser::file::Blob;
 use crate::browser::worker::Bytes;
 use crate::browser::{page, storage};
 use crate::edit::targets;
@@ -30,7 +31,7 @@ impl Desk {
         self.go(Step::Adjust);
         let most = options.max_iterations;
         let batch = self.start_job(JobKind::Adjusting, most, move || self.keep_last_result());
-        let task = Adjust { project: (*input).clone(), options };
+        let project = input.clone();
         let on_outcome = move |outcome: pool::Outcome<Adjust>| match outcome {
             pool::Outcome::Progress(Adjusting::Oriented(notes)) => {
                 // Where a worker was lost, another begins again.
@@ -54,7 +55,21 @@ impl Desk {
             }
             pool::Outcome::Failed(failure) => self.fail_to_adjust(failure),
         };
-        self.pool.with_value(|pool| pool.submit(batch, task, Vec::new(), on_outcome));
+        spawn_local(async move {
+            match in_files(&*project, || self.is_at_work(batch)).await {
+                Ok(Some((project, files))) => {
+                    let task = Adjust { project, options };
+                    self.pool.with_value(|pool| pool.submit(batch, task, files, on_outcome));
+                }
+                Ok(None) => {}
+                Err(detail) => self.fail_to_adjust(Failure::Lost(detail)),
+            }
+        });
+    }
+
+    /// Whether these tasks are what the page waits for, and nobody has cancelled them.
+    fn is_at_work(self, batch: Batch) -> bool {
+        self.job.with_untracked(|job| job.as_ref().is_some_and(|job| job.batch == batch))
     }
 
     /// Takes a result, whose texts are kept as they came; false where it was cancelled while it was read.
@@ -66,7 +81,7 @@ impl Desk {
         mut texts: Vec<Bytes>,
     ) -> Result<bool, String> {
         let of_adjustment = texts.split_off(adjusted.oriented.len().min(texts.len()));
-        let wanted = || self.job.with_untracked(|job| job.as_ref().is_some_and(|job| job.batch == batch));
+        let wanted = || self.is_at_work(batch);
         let Some(oriented) = read::<Project>(&adjusted.oriented, &texts, wanted).await? else { return Ok(false) };
         let Some(adjustment) = read::<Adjustment>(&adjusted.adjustment, &of_adjustment, wanted).await? else {
             return Ok(false);
@@ -175,6 +190,21 @@ impl Desk {
 
 fn as_they_are(texts: Vec<Bytes>) -> Vec<storage::Piece> {
     texts.into_iter().map(storage::Piece::Bytes).collect()
+}
+
+/// An object in pieces, each written in a task of the page of its own, as files; nothing where they are not wanted any more.
+async fn in_files<T: Long>(object: &T, wanted: impl Fn() -> bool) -> Result<Option<(Vec<Piece>, Vec<Blob>)>, String> {
+    let (mut pieces, mut files) = (Vec::new(), Vec::new());
+    let mut all = written(object);
+    loop {
+        page::breathe().await;
+        if !wanted() {
+            return Ok(None);
+        }
+        let Some((piece, text)) = all.next() else { return Ok(Some((pieces, files))) };
+        pieces.push(piece);
+        files.push(Blob::of_text(&text)?);
+    }
 }
 
 /// An object from its text in pieces, each read in a task of the page of its own; nothing where it is not wanted any more.

@@ -79,9 +79,12 @@ struct KeptResult {
     adjustment: Adjustment,
 }
 
+/// What stands before the adjustment, which is long and comes last.
+const ADJUSTMENT: &str = r#","adjustment":"#;
+
 /// The part of a result around the text of its adjustment.
 fn result_text(input: u64, oriented: u64, adjustment: Vec<Piece>) -> Vec<Piece> {
-    let before = Piece::Text(format!(r#"{{"input":{input},"oriented":{oriented},"adjustment":"#));
+    let before = Piece::Text(format!(r#"{{"input":{input},"oriented":{oriented}{ADJUSTMENT}"#));
     [vec![before], adjustment, vec![Piece::Text("}".into())]].concat()
 }
 
@@ -101,7 +104,8 @@ pub fn named_in(kind: &str, text: &str) -> Result<Vec<u64>, String> {
     Ok(match kind {
         DETECTIONS => from_text::<BTreeMap<String, u64>>(text)?.into_values().collect(),
         RESULT => {
-            let Of { input, oriented } = from_text(text)?;
+            let head = text.split_once(ADJUSTMENT).and_then(|(head, _)| from_text(&format!("{head}}}")).ok());
+            let Of { input, oriented } = head.map_or_else(|| from_text(text), Ok)?;
             vec![input, oriented]
         }
         _ => Vec::new(),

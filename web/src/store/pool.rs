@@ -80,7 +80,7 @@ struct Slot {
 impl Job {
     /// Whether it takes what no other photo takes: it works on a document, or makes a whole photo ready for the screen.
     fn is_apart(&self) -> bool {
-        let document = matches!(self.request, Request::Pack(_) | Request::Unpack(_));
+        let document = matches!(self.request, Request::Pack(_) | Request::Unpack(_) | Request::Adjust(_));
         self.files.is_empty() || document || matches!(self.request, Request::ShowPhoto(_))
     }
 }

@@ -9,6 +9,7 @@ mod tables;
 mod units;
 
 use leptos::prelude::*;
+use leptos::task::spawn_local;
 use sightline::adjustment::Adjustment;
 use sightline::project::{Camera, Project, Role};
 
@@ -16,6 +17,7 @@ use super::changes::change_words;
 use super::icon::{Glyph, Icon};
 use super::plots::{ResidualPlot, Vector};
 use super::shell::export_tables;
+use crate::browser::page;
 use crate::format;
 use crate::i18n::{comparing, text};
 use crate::store::{Desk, Step};
@@ -106,6 +108,15 @@ fn Current() -> impl IntoView {
     let explained = RwSignal::new(None::<Statistic>);
     let desk = expect_context::<Desk>();
     let compared = Memo::new(move |_| desk.result_before().is_some());
+    // Every table has a task of the page of its own: each is laid out as it comes.
+    let tables = RwSignal::new(0);
+    spawn_local(async move {
+        for there in 1..=3 {
+            page::breathe().await;
+            tables.try_set(there);
+        }
+    });
+    let there = move |table: i32| move || tables.get() >= table;
     let views: [(Shown, crate::i18n::Text); 4] = [
         (Shown::Tables, text::tables),
         (Shown::Plots, text::plots),
@@ -129,10 +140,10 @@ fn Current() -> impl IntoView {
             Shown::Tables => view! {
                 <main class="results">
                     <section class="a1"><Residuals/></section>
-                    <section class="a2"><PhotosTable/></section>
+                    <section class="a2"><Show when=there(2)><PhotosTable/></Show></section>
                     <section class="b scroll" tabindex="0" aria-label=text::cameras><Cameras/><CheckPoints/><GivenTable/></section>
-                    <section class="c1"><PointsTable/></section>
-                    <section class="c2"><Worst/></section>
+                    <section class="c1"><Show when=there(1)><PointsTable/></Show></section>
+                    <section class="c2"><Show when=there(3)><Worst/></Show></section>
                 </main>
             }.into_any(),
             Shown::Plots => view! { <Drawings/> }.into_any(),

@@ -8,7 +8,7 @@ use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Terminati
 use sightline::camera::colour_differences;
 use sightline::comparison::{Comparison, compare};
 use sightline::detection::{Channel, Codes, ColoursApart, DetectOptions, Detection, Target};
-use sightline::error::{Error, Place, Thing};
+use sightline::error::{Error, Place, Reason, Thing};
 use sightline::exchange::export;
 use sightline::exchange::package::{self, Held, Package};
 use sightline::experiments::{self, Experiment};
@@ -27,7 +27,7 @@ use sightline_protocol::{
     ExportExperiment, Given, Glance, Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours,
     MeasureFeatures, Nothing, Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReportMade, RunExperiment,
     Sample, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated,
-    Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteSheets, to_pieces,
+    Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteSheets, from_pieces, to_pieces,
 };
 
 use crate::codecs::{shot_of, unpack};
@@ -109,8 +109,12 @@ impl Service<Measure> for Engine {
 }
 
 impl Service<Adjust> for Engine {
-    fn serve(&self, task: Adjust, _: Files, progress: Progress<Adjusting>) -> Served<Adjusted> {
-        let oriented = with_what_is_oriented(&task.project, &mut |notes| progress(Adjusting::Oriented(notes)))?;
+    fn serve(&self, task: Adjust, files: Files, progress: Progress<Adjusting>) -> Served<Adjusted> {
+        let texts = files.iter().map(|file| if let Given::Whole(text) = file { &text[..] } else { &[] });
+        let project = from_pieces(&task.project, texts)
+            .map_err(|message| Error::Invalid { reason: Reason::NotJson { message }, at: Place::default() })?;
+        drop(files);
+        let oriented = with_what_is_oriented(&project, &mut |notes| progress(Adjusting::Oriented(notes)))?;
         let adjustment = adjust(&oriented, &task.options, &mut |iteration| {
             progress(Adjusting::Iteration(iteration.clone()));
             true

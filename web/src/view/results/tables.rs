@@ -1,12 +1,18 @@
 //! Check points, photos, points and the worst observations of a result.
 
+use std::collections::HashMap;
+use std::sync::Arc;
+
 use leptos::prelude::*;
-use sightline::adjustment::AdjustedObservation;
+use leptos::task::spawn_local;
+use sightline::adjustment::{AdjustedObservation, Adjustment};
 
 use super::read;
 use super::units::{common_unit, factors};
+use crate::browser::page;
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{language, text};
+use crate::store::document::Outcome;
 use crate::store::{Desk, Kind, Step};
 use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 
@@ -128,7 +134,44 @@ pub(super) fn largest_w(o: &AdjustedObservation) -> Option<f64> {
     [o.wx, o.wy].into_iter().flatten().max_by(|a, b| a.abs().total_cmp(&b.abs()))
 }
 
-/// Observations by the size of their test value.
+/// A result: the same where it is the same object.
+#[derive(Clone)]
+struct Same(Arc<Outcome>);
+
+impl PartialEq for Same {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+/// Observations whose rows are made in one task of the page.
+const AT_ONCE: usize = 5000;
+
+fn worst_row(a: &Adjustment, factors: &HashMap<String, [f64; 2]>, o: &AdjustedObservation) -> Row {
+    let [fx, fy] = factors.get(&o.photo).copied().unwrap_or([1.0, 1.0]);
+    let decimals = 2 + usize::from(fx < 100.0);
+    let w = largest_w(o);
+    let r = [o.rx, o.ry].into_iter().flatten().min_by(f64::total_cmp);
+    let over = w.is_some_and(|w| w.abs() > a.criteria.w);
+    let mut size = Cell::number(w, 2).class(if over { "bad" } else { "" });
+    size.order = w.map(f64::abs);
+    let verdict = if over { format!("✕ {}", text::over(format::fixed(a.criteria.w, 2))) } else { String::new() };
+    Row {
+        key: format!("{}\u{1f}{}", o.photo, o.point),
+        cells: vec![
+            Cell::id(&o.point),
+            Cell::words(&o.photo),
+            Cell::number(o.vx.map(|v| v * fx), decimals),
+            Cell::number(o.vy.map(|v| v * fy), decimals),
+            Cell::number(r, 2),
+            size,
+            Cell::words(verdict).class("left wide bad"),
+        ],
+        off: !o.enabled,
+    }
+}
+
+/// Observations by the size of their test value: their rows are made piece by piece, for there may be many.
 #[component]
 pub(super) fn Worst() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -145,35 +188,25 @@ pub(super) fn Worst() -> impl IntoView {
             Column::words(text::verdict),
         ]
     });
-    let rows = Memo::new(move |_| {
-        read(desk, |a, _| {
+    let current = Memo::new(move |_| desk.document.with(|d| d.current().cloned().map(Same)));
+    let rows = RwSignal::new(Vec::<Row>::new());
+    Effect::new(move |_| {
+        // Its words are of a language.
+        language();
+        let Some(Same(result)) = current.get() else { return rows.set(Vec::new()) };
+        spawn_local(async move {
+            let a = &result.adjustment;
             let factors = factors(a);
-            let row = |o: &AdjustedObservation| {
-                let [fx, fy] = factors.get(&o.photo).copied().unwrap_or([1.0, 1.0]);
-                let decimals = 2 + usize::from(fx < 100.0);
-                let w = largest_w(o);
-                let r = [o.rx, o.ry].into_iter().flatten().min_by(f64::total_cmp);
-                let over = w.is_some_and(|w| w.abs() > a.criteria.w);
-                let mut size = Cell::number(w, 2).class(if over { "bad" } else { "" });
-                size.order = w.map(f64::abs);
-                let verdict =
-                    if over { format!("✕ {}", text::over(format::fixed(a.criteria.w, 2))) } else { String::new() };
-                Row {
-                    key: format!("{}\u{1f}{}", o.photo, o.point),
-                    cells: vec![
-                        Cell::id(&o.point),
-                        Cell::words(&o.photo),
-                        Cell::number(o.vx.map(|v| v * fx), decimals),
-                        Cell::number(o.vy.map(|v| v * fy), decimals),
-                        Cell::number(r, 2),
-                        size,
-                        Cell::words(verdict).class("left wide bad"),
-                    ],
-                    off: !o.enabled,
-                }
-            };
-            a.observations.iter().filter(|o| o.enabled).map(row).collect::<Vec<_>>()
-        })
+            let mut all = Vec::new();
+            for some in a.observations.chunks(AT_ONCE) {
+                page::breathe().await;
+                all.extend(some.iter().filter(|o| o.enabled).map(|o| worst_row(a, &factors, o)));
+            }
+            let is_meant = || current.try_get_untracked().flatten().is_some_and(|now| now == Same(result.clone()));
+            if is_meant() {
+                rows.try_set(all);
+            }
+        });
     });
     let chosen = Signal::derive(move || {
         desk.selection.with(|s| Some(format!("{}\u{1f}{}", s.photo.clone()?, s.point.clone()?)))
