@@ -1,7 +1,7 @@
 // Formats whose decoders are a file of their own: it is fetched when the first such photo comes, and kept.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { copyFileSync, mkdtempSync } from 'node:fs';
+import { copyFileSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
@@ -9,11 +9,20 @@ import { test } from 'node:test';
 import { open } from './browser.mjs';
 import { detect, drop, idle, photos, sample } from './desk.mjs';
 
+let writtenTo;
+/** A folder with photo.heic and photo.dng, written once. */
+const written = () => {
+  if (!writtenTo) {
+    writtenTo = mkdtempSync(join(tmpdir(), 'sightline-written-'));
+    execFileSync(join(process.env.SIGHTLINE_EXAMPLES, 'written'), [writtenTo]);
+  }
+  return writtenTo;
+};
+
 const count = (text) => Number(text.replace(/\D/g, ''));
 
 test('HEIC and RAW are opened and measured, and without one no decoder is fetched', { timeout: 180_000 }, async () => {
-  const folder = mkdtempSync(join(tmpdir(), 'sightline-written-'));
-  execFileSync(join(process.env.SIGHTLINE_EXAMPLES, 'written'), [folder]);
+  const folder = written();
   const { page, context, errors, close } = await open({ width: 1366, height: 768 });
   const asked = [];
   context.on('request', (request) => asked.push(request.url()));
@@ -73,8 +82,7 @@ test('HEIC and RAW are opened and measured, and without one no decoder is fetche
 });
 
 test('the single file has the decoders inside', { timeout: 120_000 }, async () => {
-  const folder = mkdtempSync(join(tmpdir(), 'sightline-written-'));
-  execFileSync(join(process.env.SIGHTLINE_EXAMPLES, 'written'), [folder]);
+  const folder = written();
   const address = new URL('../dist/sightline.html', import.meta.url).href;
   const { page, errors, close } = await open({ address, width: 1366, height: 768 });
   try {
@@ -85,6 +93,35 @@ test('the single file has the decoders inside', { timeout: 120_000 }, async () =
     await detect(page, {});
     const found = count(await page.textContent('[data-step=targets] .figure'));
     assert.ok(found > 40, `${found} targets`);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('HEIC photos show the thumbnails that they carry before any of them is decoded', { timeout: 120_000 }, async () => {
+  const folder = written();
+  const photo = readFileSync(join(folder, 'photo.heic'));
+  // as many different photos: a box that says nothing at the end
+  const paths = Array.from({ length: 8 }, (_, k) => {
+    const path = join(folder, `early${k}.heic`);
+    writeFileSync(path, Buffer.concat([photo, Buffer.from([0, 0, 0, 9]), Buffer.from('free'), Buffer.from([k])]));
+    return path;
+  });
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await page.waitForSelector('.desk');
+    await page.evaluate(() => {
+      window.early = 0;
+      const look = () => {
+        const taken = document.querySelectorAll('.tile').length;
+        if (taken === 0) window.early = Math.max(window.early, document.querySelectorAll('.coming-tile canvas').length);
+      };
+      new MutationObserver(look).observe(document.body, { subtree: true, childList: true });
+    });
+    await photos(page, paths);
+    assert.equal(await page.locator('.tile').count(), 8);
+    assert.equal(await page.evaluate(() => window.early), 8);
     assert.deepEqual(errors, []);
   } finally {
     await close();

@@ -5,6 +5,7 @@
 //! orientation says the same a second time in such files and is not read.
 
 mod colour;
+mod thumbnail;
 mod turn;
 
 use std::borrow::Cow;
@@ -33,7 +34,7 @@ const DEPTH: u32 = 4;
 pub fn unpack(bytes: &[u8], wanted: Wanted) -> Result<Unpacked> {
     let readable = readable(bytes);
     let file = HeifFile::parse(&readable).map_err(|error| said(&error))?;
-    let source = source(&file)?;
+    let source = source(&file, file.primary_id)?;
     check_size(source.size, bytes.len(), MOST_FROM_A_BYTE)?;
     let crop = turn::crop(&file, file.primary_id, source.size)?;
     let exif = file.exif(file.primary_id).ok().flatten().unwrap_or_default();
@@ -41,6 +42,13 @@ pub fn unpack(bytes: &[u8], wanted: Wanted) -> Result<Unpacked> {
     let mut header =
         Header { format: "HEIC".into(), width: crop[2], height: crop[3], bits: source.bits, info, ..Header::default() };
     let (mut samples, mut rgba) = (Samples::U8(Vec::new()), Vec::new());
+    if !wanted.samples
+        && wanted.max_side > 0
+        && let Some((size, small)) = thumbnail::thumbnail(&file, bytes.len(), wanted.max_side)
+    {
+        header.small = size;
+        return Ok(Unpacked { header, samples, small });
+    }
     if wanted.samples || wanted.max_side > 0 {
         let coloured = wanted.max_side > 0 || wanted.channel != Channel::Grey;
         let planes = assembled(&file, &source, coloured)?;
@@ -89,10 +97,9 @@ struct Source {
     bits: u32,
 }
 
-/// Finds the coded pictures of the primary item.
-fn source(file: &HeifFile) -> Result<Source> {
+/// Finds the coded pictures of an item.
+fn source(file: &HeifFile, mut id: ItemId) -> Result<Source> {
     let container = |error: heifer_isobmff::Error| said(&error);
-    let mut id = file.primary_id;
     for _ in 0..DEPTH {
         let kind = file.item(id).map_err(container)?.item_type.0;
         match &kind {

@@ -22,7 +22,8 @@ pub struct Wanted {
     pub channel: Channel,
     /// Whether the samples are wanted.
     pub samples: bool,
-    /// Longest side of the small picture; 0 where none is wanted. That of a RAW is the one its camera embedded.
+    /// Longest side of the small picture; 0 where none is wanted. That of a RAW is the one its camera embedded, and so is that of a HEIC without
+    /// its samples, where it has one of at least half this side.
     pub max_side: u32,
 }
 

@@ -6,6 +6,7 @@ mod painter;
 
 use heifer::{EncodeOptions, Image, Metadata};
 use heifer_isobmff::HeifFile;
+use heifer_isobmff::boxes::Property;
 use painter::{Canvas, Spot, Uniform};
 use sightline::decode;
 use sightline::detect::{detect_photo, detect_shot};
@@ -139,6 +140,51 @@ fn exif_and_turns_are_told_and_the_grid_stays() {
     let (unpacked, grey) = luma(&turned);
     assert_eq!((unpacked.header.info.orientation, grey.width, grey.height), (8, 96, 64));
     assert_eq!(grey, upright);
+}
+
+/// Without its samples a file shows the thumbnail that it carries, as its whole picture would be shown, a little blurred; whole, where the thumbnail
+/// is too small, damaged or turned otherwise.
+#[test]
+fn the_thumbnail_that_a_file_carries_is_shown_for_it() {
+    let (canvas, _) = scene();
+    let file = heic(&canvas.expose(1.0, 5), 85);
+    let shown = |file: &[u8], max_side: u32, samples: bool| {
+        let unpacked = unpack(file, Wanted { channel: Channel::Grey, samples, max_side }).expect("a picture");
+        (unpacked.header.small, unpacked.small)
+    };
+    let apart =
+        |a: &[u8], b: &[u8]| a.iter().zip(b).map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>() / a.len() as f64;
+    let (size, whole) = shown(&file, 160, true);
+    let (small, thumbnail) = shown(&file, 160, false);
+    assert_eq!((size, small), ([160, 156], [160, 156]));
+    let blurred = apart(&whole, &thumbnail);
+    assert!(whole != thumbnail && blurred < 12.0, "{blurred}");
+    // beyond twice its side it shows too little
+    assert_eq!(shown(&file, 700, false), shown(&file, 700, true));
+    // the thumbnail's own samples lost
+    let mut damaged = file.clone();
+    let extent = {
+        let parsed = HeifFile::parse(&file).expect("boxes");
+        let id = parsed.referencing_items(parsed.primary_id, b"thmb")[0];
+        parsed.item(id).expect("an item").location.as_ref().expect("a place").extents[0]
+    };
+    damaged[extent.offset as usize..(extent.offset + extent.length) as usize].fill(0);
+    assert_eq!(shown(&damaged, 160, false), shown(&file, 160, true));
+    // a rotation in the place of the colours of the one and not of the other
+    let mut turned = file.clone();
+    let at = turned.windows(8).position(|bytes| bytes == b"colrnclx").expect("colours");
+    turned[at..at + 5].copy_from_slice(b"irot\x01");
+    let turns = {
+        let parsed = HeifFile::parse(&turned).expect("boxes");
+        let id = parsed.referencing_items(parsed.primary_id, b"thmb")[0];
+        let turned = |id| parsed.item_properties(id).expect("properties").any(|p| matches!(p, Property::Rotation(_)));
+        [turned(parsed.primary_id), turned(id)]
+    };
+    println!("the picture and its thumbnail are turned: {turns:?}");
+    let own = unpack(&turned, Wanted { channel: Channel::Grey, samples: false, max_side: 160 }).expect("a picture");
+    let of_whole = unpack(&turned, Wanted { channel: Channel::Grey, samples: true, max_side: 160 }).expect("a picture");
+    assert_eq!(own.header.info.orientation, of_whole.header.info.orientation);
+    assert_eq!(own.small == of_whole.small, turns[0] != turns[1]);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 use js_sys::{Array, Function, Object, Promise, Reflect, Uint8Array, Uint8ClampedArray, Uint16Array};
 use sightline::decode;
 use sightline::image::Samples;
-use sightline_protocol::{Given, Request, Said, SaidTo, ShowPhoto, from_bytes};
+use sightline_protocol::{Given, Request, Said, SaidTo, ShowPhoto, Stream, from_bytes};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
 use web_sys::{
@@ -43,7 +43,12 @@ async fn serve(message: &JsValue) {
             Err(detail) => return say(request.unreadable(detail), Vec::new()),
         }
     }
-    if files.iter().any(|file| matches!(file, Given::Whole(bytes) if decode::packed(bytes).is_some())) {
+    let glances = matches!(request, Request::Glance(_));
+    let packed = |file: &mut Given| match file {
+        Given::Whole(bytes) => decode::packed(bytes).is_some(),
+        Given::Stream(stream) => glances && is_heic(stream),
+    };
+    if files.iter_mut().any(packed) {
         load_codecs().await;
     }
     if !request.draws() {
@@ -65,6 +70,13 @@ async fn serve(message: &JsValue) {
             _ => say(body, bytes),
         }
     }
+}
+
+/// Whether what it carries of itself is packed as the photo is.
+fn is_heic(file: &mut dyn Stream) -> bool {
+    let mut head = Vec::new();
+    let read = Read::take(&mut *file, 64).read_to_end(&mut head).and_then(|_| file.rewind());
+    read.is_ok() && decode::packed(&head).is_some_and(|format| format.starts_with("HEI"))
 }
 
 /// Pictures that a canvas can draw, from red, green, blue, alpha bytes of these widths and heights.

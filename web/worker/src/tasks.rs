@@ -1,7 +1,7 @@
 //! How the engine does each task: every one is a call into it.
 
 use std::collections::{BTreeMap, HashSet};
-use std::io::Cursor;
+use std::io::{Cursor, Read, Seek};
 
 use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
@@ -41,13 +41,12 @@ pub struct Engine;
 impl Service<Glance> for Engine {
     fn serve(&self, task: Glance, files: Files, _: Progress<Nothing>) -> Served<Option<Glanced>> {
         let found = match files.into_iter().next() {
-            Some(Given::Stream(mut stream)) => decode::embedded(&mut stream, task.max_side),
-            Some(Given::Whole(bytes)) => decode::embedded(&mut Cursor::new(bytes), task.max_side),
+            Some(Given::Stream(mut stream)) => glanced(&mut stream, task.max_side),
+            Some(Given::Whole(bytes)) => glanced(&mut Cursor::new(bytes), task.max_side),
             None => None,
         };
-        let Some(found) = found else { return Ok((None, Vec::new())) };
-        let small = [found.picture.width, found.picture.height];
-        Ok((Some(Glanced { small, orientation: found.orientation }), vec![found.picture.rgba]))
+        let (glanced, rgba) = found.unzip();
+        Ok((glanced, rgba.into_iter().collect()))
     }
 }
 
@@ -415,6 +414,30 @@ fn look_into_packed(file: &[u8], format: &str, max_side: u32) -> Result<(Opened,
     let sha256 = report::sha256(file);
     Ok((Opened { size, info, small: small.0, digest, sha256 }, small.1))
 }
+
+/// The picture that a file carries of itself, in RGBA. That of a HEIC is packed as the photo is, and the file is read for it: it is small.
+fn glanced(file: &mut (impl Read + Seek), max_side: u32) -> Option<(Glanced, Vec<u8>)> {
+    if let Some(found) = decode::embedded(file, max_side) {
+        let small = [found.picture.width, found.picture.height];
+        return Some((Glanced { small, orientation: found.orientation }, found.picture.rgba));
+    }
+    file.rewind().ok()?;
+    let mut bytes = Vec::new();
+    file.by_ref().take(HEAD).read_to_end(&mut bytes).ok()?;
+    let format = decode::packed(&bytes).filter(|format| !is_raw(format))?;
+    // without one the whole picture would be decoded, which is as well done once
+    if !bytes.windows(THUMBNAIL.len()).any(|kind| kind == THUMBNAIL) {
+        return None;
+    }
+    file.read_to_end(&mut bytes).ok()?;
+    let found = unpack(&bytes, format, Channel::default(), false, max_side).ok()?;
+    Some((Glanced { small: found.header.small, orientation: found.header.info.orientation }, found.small))
+}
+
+/// Bytes in which a HEIC says what it has.
+const HEAD: u64 = 1 << 16;
+/// The name there of what refers to a picture as its thumbnail.
+const THUMBNAIL: &[u8] = b"thmb";
 
 fn is_raw(format: &str) -> bool {
     format.starts_with("RAW")
