@@ -60,10 +60,12 @@ pub(super) fn PhotosTable() -> impl IntoView {
     let rows = Memo::new(move |_| {
         read(desk, |a, _| {
             let factors = factors(a);
+            // As the best of them is known: a column has one number of decimals.
+            let known = a.photos.iter().filter_map(|p| p.sigma_position).flatten().filter(|sigma| *sigma > 0.0);
+            let decimals = format::decimals_for(known.fold(f64::INFINITY, f64::min));
             let row = |p: &sightline::adjustment::AdjustedPhoto| {
                 let [fx, fy] = factors.get(&p.id).copied().unwrap_or([1.0, 1.0]);
                 let sigma = p.sigma_position;
-                let decimals = sigma.map_or(3, |s| format::decimals_for(s.into_iter().fold(f64::INFINITY, f64::min)));
                 let mut cells = vec![Cell::id(&p.id), Cell::count(p.points)];
                 cells.push(Cell::number(Some(p.rms_x * fx), 2 + usize::from(fx < 100.0)));
                 cells.push(Cell::number(Some(p.rms_y * fy), 2 + usize::from(fy < 100.0)));
