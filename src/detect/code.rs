@@ -235,7 +235,7 @@ fn judge(family: Family, tones: &[Tone]) -> Reading {
         CodeNote::Disturbed
     } else if !in_doubt.is_empty() {
         CodeNote::BetweenLevels
-    } else if ratio > limits::AS_GOOD || radial.off_grid(division) > 1.0 {
+    } else if ratio > limits::AS_GOOD || radial.off_grid(division) > 1.0 || radial.left(division) > 1.0 {
         CodeNote::OtherFamily
     } else {
         return Reading::Code { number: numbers[0], margin };

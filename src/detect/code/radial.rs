@@ -194,6 +194,14 @@ impl Radial {
         (bare * bare + self.share * division.misfit * division.misfit).sqrt()
     }
 
+    /// What a division leaves of a direction even where each sector has a level of its own, over what it may be: arcs that end between the
+    /// sectors leave more than the picture's noise, which is in what the bands leave.
+    pub fn left(&self, division: &Division) -> f64 {
+        let (count, directions) = (division.sigmas.len() as f64, self.ring.len() as f64);
+        let left = division.sigmas.iter().sum::<f64>() / count * (directions / count).sqrt();
+        left / (limits::LEFT[0] * (division.high - division.low)).max(limits::LEFT[1] * self.misfit)
+    }
+
     /// The ring's division into sectors.
     pub fn divide(&self, bits: u32) -> Option<Division> {
         sectors::divide(&self.polar, &self.ring, self.middle, bits)
