@@ -396,8 +396,13 @@ pub(crate) mod code {
         /// Most sectors that may be in doubt, fewest set ones beyond doubt.
         DOUBTFUL: usize = 3, Judged "up to eight candidates are a question, more are none";
         SURE: usize = 2, Judged "a ring shows in sectors that are beyond doubt";
-        /// Distance of an arc's end from the grid: sectors, and pixels besides.
-        ENDS: [f64; 2] = [0.12, 0.35], Measured "of codes as in `codes`, geometry known, q99 is 0.08 sectors of 12 px, 0.16 of 5 px";
+        /// Distance of an arc's end from the grid, one end's and the rms of all: sectors, and pixels besides.
+        ENDS: [f64; 2] = [0.05, 0.5], Measured "of codes as in `codes` q99.7 is 0.54 px in sectors of 3 to 5 px, 0.52 px in those of 12 to 20";
+        ENDS_RMS: [f64; 2] = [0.04, 0.28], Measured "of the same codes q99.7 is 0.37 px in sectors of 3 to 4 px, 0.30 px in those of 5 to 8";
+        /// What sectors of free levels leave of a direction: of their contrast, and of what the bands of a ray leave where noise is more.
+        LEFT: [f64; 2] = [0.075, 2.5], Measured "of the same codes q99.7 is 0.067; rings of other sectors that passed all else had 0.08 to 0.14, 3.3 to 8";
+        /// Distance of the ring's rims from those of the design: radii of the dot, and pixels besides.
+        RIMS: [f64; 2] = [0.08, 0.5], Measured "of the same codes at most 0.13 radii of 4 px, 0.04 of 16 px";
         /// Largest difference between the grounds beside set and beside unset sectors.
         GROUNDS: f64 = 0.12, Measured "of the same codes at most 0.05; a ring wider by 0.6 radii 0.31";
         /// Distance of two ends of arcs, in sectors, up to which they are the same.

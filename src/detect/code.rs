@@ -5,8 +5,8 @@
 //! [`sectors`] divides the ring into sectors; here it is decided what that is.
 //!
 //! A ring is a code when every sector is clearly one of two levels and the same at its inner and its outer half, when the
-//! gap is clear, and the ground outside beside each set sector, when sectors end on the grid of n and not better on that of
-//! another family, and when the family has the code. Where a few sectors only leave a doubt, the codes that remain are its
+//! gap is clear, and the ground outside beside each set sector, when its rims are where the design has them, when sectors end
+//! on the grid of n and not better on that of another family, and when the family has the code. Where a few sectors only leave a doubt, the codes that remain are its
 //! candidates. A margin is a level's distance from half-way, 1 when it is as clear as dot and background; the code's
 //! margin is that of its worst sector.
 
@@ -148,10 +148,16 @@ fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, design: 
     Some(best.1)
 }
 
+/// The division into so many sectors under the tone curve that explains the whole picture best. The sectors alone would not tell: what a
+/// wrong curve adds to their width is taken off their neighbours, and it shows in gap, halves and outside.
+fn best(tones: &[Tone], bits: u32) -> Option<(&Radial, &Division)> {
+    let under = tones.iter().filter_map(|(radial, divisions)| Some((radial, divisions.of(radial, bits)?)));
+    under.min_by(|a, b| a.0.whole_misfit(a.1).total_cmp(&b.0.whole_misfit(b.1)))
+}
+
 /// What a ring is as a code of a family, given its divisions into the sectors of every family of its design.
 fn judge(family: Family, tones: &[Tone]) -> Reading {
-    let own = tones.iter().filter_map(|(radial, divisions)| Some((radial, divisions.of(radial, family.bits())?)));
-    let Some((radial, division)) = own.min_by(|a, b| a.1.misfit.total_cmp(&b.1.misfit)) else { return Reading::Plain };
+    let Some((radial, division)) = best(tones, family.bits()) else { return Reading::Plain };
     let (low, high) = (division.low, division.high);
     let scale = high - low;
     if !limits::HIGH.contains(&high) || low.abs() > limits::LOW {
@@ -182,7 +188,7 @@ fn judge(family: Family, tones: &[Tone]) -> Reading {
     let set: Vec<usize> = (0..n).filter(|k| division.is_set(*k)).collect();
     let mean = |levels: &[f64]| set.iter().map(|k| levels[*k]).sum::<f64>() / set.len().max(1) as f64 / scale;
     if mean(&gap).abs() > limits::MEAN_CLEAR
-        || mean(&outside) > limits::MEAN_CLEAR
+        || mean(&outside).abs() > limits::MEAN_CLEAR
         || mean(&halves).abs() > limits::MEAN_HALVES
     {
         return Reading::Plain;
@@ -197,14 +203,18 @@ fn judge(family: Family, tones: &[Tone]) -> Reading {
         return Reading::Plain;
     }
     // a ring shows in sectors that are beyond doubt
-    if set.iter().filter(|k| !in_doubt.contains(k)).count() < limits::SURE {
+    let sure: Vec<usize> = set.iter().copied().filter(|k| !in_doubt.contains(k)).collect();
+    if sure.len() < limits::SURE {
         return Reading::Plain;
     }
-    let others = DIVISIONS.into_iter().filter(|bits| *bits != family.bits());
-    let others = others.flat_map(|n| tones.iter().filter_map(move |(radial, divisions)| divisions.of(radial, n)));
-    let best =
-        others.filter(|other| !other.same_arcs(division)).map(|other| other.misfit).fold(f64::INFINITY, f64::min);
-    let ratio = (division.misfit / best).powi(2);
+    // and its rims are where the design has them
+    let mean = |levels: &[f64]| sure.iter().map(|k| levels[*k]).sum::<f64>() / sure.len() as f64 / scale;
+    if radial.off_rims([mean(&gap), mean(&halves), mean(&outside)]) > 1.0 {
+        return Reading::Plain;
+    }
+    let others = DIVISIONS.into_iter().filter(|bits| *bits != family.bits()).filter_map(|bits| best(tones, bits));
+    let others = others.filter(|(_, other)| !other.same_arcs(division)).map(|(_, other)| other.misfit);
+    let ratio = (division.misfit / others.fold(f64::INFINITY, f64::min)).powi(2);
     if ratio > limits::BETTER {
         return Reading::Plain;
     }
@@ -225,7 +235,7 @@ fn judge(family: Family, tones: &[Tone]) -> Reading {
         CodeNote::Disturbed
     } else if !in_doubt.is_empty() {
         CodeNote::BetweenLevels
-    } else if ratio > limits::AS_GOOD || radial.off_grid(division) > 1.0 {
+    } else if ratio > limits::AS_GOOD || radial.off_grid(division) > 1.0 || radial.left(division) > 1.0 {
         CodeNote::OtherFamily
     } else {
         return Reading::Code { number: numbers[0], margin };

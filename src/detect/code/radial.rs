@@ -35,6 +35,7 @@ const LOOKS: usize = 60;
 #[derive(Clone, Debug)]
 pub(super) struct Radial {
     pub polar: Polar,
+    design: [f64; 2],
     middle: f64,
     pub ring: Vec<f64>,
     pub gap: Vec<f64>,
@@ -44,6 +45,10 @@ pub(super) struct Radial {
     pub ground: Vec<f64>,
     /// Rms of what the bands leave.
     pub misfit: f64,
+    /// The same of a model that has nothing but the ring, at one level in each direction.
+    bare: f64,
+    /// Share of the ring in what is sampled.
+    share: f64,
 }
 
 /// Level of the dot less that of the gap around it, where both are free of the rim.
@@ -159,12 +164,42 @@ impl Radial {
             number += seen.len() as u32;
         }
         let misfit = (squares / f64::from(number.max(1))).sqrt();
-        Self { polar, middle, ring, gap, halves, outside, ground, misfit }
+        // what gap, halves and outside have taken up, each over its width
+        let mean_square = |levels: &[f64]| levels.iter().map(|level| level * level).sum::<f64>() / count as f64;
+        let taken = mean_square(&gap) * (inner - START)
+            + mean_square(&halves) / 4.0 * (outer - inner)
+            + mean_square(&outside) * GROUND;
+        let bare = (misfit * misfit + taken / (outer + GROUND - START)).sqrt();
+        let share = (outer - inner) / (outer + GROUND - START);
+        Self { polar, design: [inner, outer], middle, ring, gap, halves, outside, ground, misfit, bare, share }
     }
 
     /// Largest distance of an arc's end from the grid of a division, over what it may be.
     pub fn off_grid(&self, division: &Division) -> f64 {
         division.off_grid(&self.polar, &self.ring, self.middle)
+    }
+
+    /// Larger distance of the ring's two rims from those of the design, over what it may be, from means of gap, halves and outside as
+    /// shares of the ring's level. A rim aside by d leaves d, as an integral over the radius, in the bands on both sides of it.
+    pub fn off_rims(&self, [gap, halves, outside]: [f64; 3]) -> f64 {
+        let [inner, outer] = self.design;
+        let uneven = halves / 2.0 * (outer - inner) / 2.0;
+        let [first, second] = [gap * (inner - 1.0) + uneven, outside * GROUND - uneven];
+        first.abs().max(second.abs()) / (limits::RIMS[0] + limits::RIMS[1] / self.polar.area.sqrt())
+    }
+
+    /// Rms of what a division leaves of the whole picture of gap, ring and outside, over the step between its levels.
+    pub fn whole_misfit(&self, division: &Division) -> f64 {
+        let bare = self.bare / (division.high - division.low);
+        (bare * bare + self.share * division.misfit * division.misfit).sqrt()
+    }
+
+    /// What a division leaves of a direction even where each sector has a level of its own, over what it may be: arcs that end between the
+    /// sectors leave more than the picture's noise, which is in what the bands leave.
+    pub fn left(&self, division: &Division) -> f64 {
+        let (count, directions) = (division.sigmas.len() as f64, self.ring.len() as f64);
+        let left = division.sigmas.iter().sum::<f64>() / count * (directions / count).sqrt();
+        left / (limits::LEFT[0] * (division.high - division.low)).max(limits::LEFT[1] * self.misfit)
     }
 
     /// The ring's division into sectors.

@@ -13,7 +13,7 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::polar::{Polar, step};
-use crate::detect::acceptance::code::{ENDS, SAME, STANDS_OUT};
+use crate::detect::acceptance::code::{ENDS, ENDS_RMS, SAME, STANDS_OUT};
 
 /// Steps of the phase, as shares of a sector: a coarse and a fine search.
 const PHASES: [&[f64]; 2] = [&[-0.16, -0.08, 0.0, 0.08, 0.16], &[-0.04, -0.02, 0.02, 0.04]];
@@ -191,10 +191,21 @@ impl Division {
         self.bits >> (self.levels.len() - 1 - sector) & 1 == 1
     }
 
-    /// Largest distance of an arc's end from the grid, over what it may be. What stands on the wrong side of an end, as far as half a
-    /// sector to both sides, is its shift times the step between the levels, whatever the blur. Light changes the level of set sectors
-    /// around the ring: a plane goes through what lies well inside of them.
+    /// Largest distance of an arc's end from the grid, or the rms of all, over what it may be. All ends of a code are where they belong but
+    /// for chance; a ring of other sectors that has none far from the grid has many a little off.
     pub fn off_grid(&self, polar: &Polar, levels: &[f64], radius: f64) -> f64 {
+        let shifts = self.shifts(polar, levels, radius);
+        let over =
+            |limit: [f64; 2]| move |[shift, sector_px]: &[f64; 2]| shift.abs() / (limit[0] + limit[1] / sector_px);
+        let largest = shifts.iter().map(over(ENDS)).fold(0.0, f64::max);
+        let squares = shifts.iter().map(over(ENDS_RMS)).map(|share| share * share).sum::<f64>();
+        largest.max((squares / shifts.len().max(1) as f64).sqrt())
+    }
+
+    /// Distance of each arc's end from the grid in sectors, and a sector's width there in pixels. What stands on the wrong side of an end,
+    /// as far as half a sector to both sides, is its shift times the step between the levels, whatever the blur. Light changes the level of
+    /// set sectors around the ring: a plane goes through what lies well inside of them.
+    fn shifts(&self, polar: &Polar, levels: &[f64], radius: f64) -> Vec<[f64; 2]> {
         let n = self.levels.len();
         let (count, directions) = (n as f64, levels.len() as f64);
         let sector_of = |j: usize| {
@@ -230,9 +241,9 @@ impl Division {
             let at = |j: i64| j.rem_euclid(levels.len() as i64) as usize;
             let shift = near.map(|j| rest[at(j)]).sum::<f64>() * count / (directions * step);
             let sector_px = std::f64::consts::TAU / count * radius * polar.arc[at(place.round() as i64)];
-            shift.abs() / (ENDS[0] + ENDS[1] / sector_px)
+            [shift, sector_px]
         };
-        ends.map(off).fold(0.0, f64::max)
+        ends.map(off).collect()
     }
 
     /// Directions in which the level changes, as shares of a turn.

@@ -182,12 +182,11 @@ fn nothing_that_looks_like_a_code_is_read_as_one() {
     assert!(legible > 180 && 100 * read >= 97 * legible, "{read} of {legible}");
 }
 
-/// Where levels follow a camera's curve, blurred edges lie aside. Seed 43 draws a concentric ring that is read as a code of 20 bits (639,
-/// picture 55): its radii are the family's, its ground is clear, its arc ends within .4 of what the grid allows.
+/// Where levels follow a camera's curve, blurred edges lie aside.
 #[test]
 fn codes_are_read_under_the_curve_of_cameras() {
-    let (legible, read) = read_of(PICTURES / 2, Curve::Camera, 44);
-    assert!(legible > 90 && 100 * read >= 93 * legible, "{read} of {legible}");
+    let (legible, read) = read_of(PICTURES / 2, Curve::Camera, 43);
+    assert!(legible > 90 && 100 * read >= 97 * legible, "{read} of {legible}");
 }
 
 /// Codes of twelve pixels and more among pictures of everything, and how many are read; none may be wrong.

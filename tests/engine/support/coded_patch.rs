@@ -7,6 +7,7 @@ use std::f64::consts::{PI, TAU};
 use sightline::image::{GreyView, SamplesView};
 use sightline::noise::Noise;
 use sightline::ring_code::{Design, Family, smallest_rotation};
+use sightline::statistics::distribution::normal_quantile;
 
 use super::painter::Uniform;
 
@@ -111,7 +112,7 @@ pub struct CodedPatch {
     pub sector: f64,
     pub tilt: f64,
     pub sharpening: f64,
-    /// The dot's ellipse as semi-axes and angle, contrast, blur and colour, for a reader that is given them.
+    /// The dot's ellipse as semi-axes and angle, contrast, blur and colour, as a perfect measurement of this picture has them.
     pub axes: [f64; 3],
     pub contrast: f64,
     pub blur: f64,
@@ -135,19 +136,38 @@ fn arcs(code: u32, bits: u32, start: f64) -> Vec<[f64; 2]> {
     set.map(|k| start + sector * f64::from(k)).map(|from| [from, from + sector]).collect()
 }
 
-/// The number in `family` of the code that this ring of `bits` sectors looks exactly like: where all its arcs end on the grid of both,
-/// one drawing is a code of both, whoever drew it.
-fn same_drawing(code: u32, bits: u32, family: Family) -> Option<u32> {
-    let n = family.bits();
-    let set = |k: u32| code >> (bits - 1 - k % bits) & 1;
-    // ends of arcs in units of which bits n make a turn
-    let ends: Vec<u32> = (0..bits).filter(|k| set(*k) != set(k + bits - 1)).map(|k| k * n).collect();
-    let first = *ends.first()?;
-    if ends.iter().any(|end| (end - first) % bits != 0) {
+/// How far a print may be from a code's geometry and still be that code: ends of its arcs in sectors, radii of its ring in radii of the dot.
+const NEARLY: [f64; 2] = [1.0 / 16.0, 0.15];
+
+/// The number in `family` of the code that a ring of arcs is, whoever drew it: where its radii are the family's, and all its arcs end on
+/// the family's grid. Nobody who looks at the drawing could tell.
+fn same_drawing(radii: [f64; 2], arcs: &[[f64; 2]], family: Family) -> Option<u32> {
+    let design = family.design().ring();
+    if arcs.is_empty() || (0..2).any(|k| (radii[k] - design[k]).abs() > NEARLY[1]) {
         return None;
     }
-    let again = (0..n).fold(0, |again, k| again << 1 | set((first + k * bits) / n));
-    family.number(smallest_rotation(again, n))
+    let n = family.bits();
+    let sector = TAU / f64::from(n);
+    let apart = |a: f64, b: f64| ((a - b) / sector + 0.5).rem_euclid(f64::from(n)) - 0.5;
+    let begins_at = |end: f64| arcs.iter().any(|[from, _]| apart(*from, end).abs() < 1e-9);
+    let ends_at = |end: f64| arcs.iter().any(|[_, to]| apart(*to, end).abs() < 1e-9);
+    // ends between two arcs that touch are none
+    let ends: Vec<f64> = (arcs.iter().map(|[from, _]| *from).filter(|end| !ends_at(*end)))
+        .chain(arcs.iter().map(|[_, to]| *to).filter(|end| !begins_at(*end)))
+        .collect();
+    let (sine, cosine) =
+        ends.iter().map(|end| (f64::from(n) * end).sin_cos()).fold((0.0, 0.0), |sum, x| (sum.0 + x.0, sum.1 + x.1));
+    let phase = sine.atan2(cosine) / f64::from(n);
+    let off = |end: &f64| ((end - phase) / sector + 0.5).rem_euclid(1.0) - 0.5;
+    if ends.is_empty() || ends.iter().any(|end| off(end).abs() > NEARLY[0]) {
+        return None;
+    }
+    let set = |k: u32| {
+        let at = phase + sector * (f64::from(k) + 0.5);
+        arcs.iter().any(|[from, to]| (at - from).rem_euclid(TAU) < to - from)
+    };
+    let code = (0..n).fold(0, |code, k| code << 1 | u32::from(set(k)));
+    family.number(smallest_rotation(code, n))
 }
 
 fn draw(kind: Kind, family: Family, random: &mut Uniform) -> (Drawing, Option<u32>) {
@@ -182,9 +202,8 @@ fn draw(kind: Kind, family: Family, random: &mut Uniform) -> (Drawing, Option<u3
             let others: Vec<Family> = Family::ALL.into_iter().filter(|other| *other != family).collect();
             let other = choose(random, &others);
             let drawn = code_of(other, random, &mut drawing);
-            if other.design() == design {
-                number = same_drawing(other.codes()[drawn as usize - 1], other.bits(), family);
-            }
+            let code = other.codes()[drawn as usize - 1];
+            number = same_drawing(other.design().ring(), &arcs(code, other.bits(), start), family);
         }
         Kind::Full => drawing.bands.push((choose(random, &[ring, [2.0, 3.0]]), Vec::new(), 1.0)),
         Kind::Concentric => {
@@ -193,6 +212,7 @@ fn draw(kind: Kind, family: Family, random: &mut Uniform) -> (Drawing, Option<u3
                 let outer = radius + random.within(0.3, 1.2);
                 let some =
                     if random.next() < 0.4 { vec![[start, start + random.within(1.0, 6.0)]] } else { Vec::new() };
+                number = number.or(same_drawing([radius, outer], &some, family));
                 drawing.bands.push(([radius, outer], some, 1.0));
                 radius = outer + random.within(0.3, 1.0);
             }
@@ -236,12 +256,17 @@ fn draw(kind: Kind, family: Family, random: &mut Uniform) -> (Drawing, Option<u3
                 0 => (choose(random, &[9, 11, 13, 15, 18, 22]), ring),
                 1 => {
                     let inner = random.within(1.4, 2.6);
-                    let outer = inner + random.within(0.4, 1.8);
-                    // not nearly a family's
-                    let like = [Design::Schneider, Design::Metashape]
-                        .into_iter()
-                        .any(|d| (d.ring()[0] - inner).abs() < 0.35 && (d.ring()[1] - outer).abs() < 0.35);
-                    (family.bits(), if like { [inner, outer + 1.0] } else { [inner, outer] })
+                    let mut outer = inner + random.within(0.4, 1.8);
+                    // not nearly a family's, of which a wider ring may be the other one's
+                    let like = |outer: f64| {
+                        [Design::Schneider, Design::Metashape]
+                            .into_iter()
+                            .any(|d| (d.ring()[0] - inner).abs() < 0.35 && (d.ring()[1] - outer).abs() < 0.35)
+                    };
+                    while like(outer) {
+                        outer += 1.0;
+                    }
+                    (family.bits(), [inner, outer])
                 }
                 _ => (0, ring),
             };
@@ -255,10 +280,9 @@ fn draw(kind: Kind, family: Family, random: &mut Uniform) -> (Drawing, Option<u3
                 }
                 arcs
             } else {
-                let drawn = (random.next() * f64::from(1u32 << bits)) as u32;
-                number = if radii == ring { same_drawing(drawn, bits, family) } else { None };
-                arcs(drawn, bits, start)
+                arcs((random.next() * f64::from(1u32 << bits)) as u32, bits, start)
             };
+            number = same_drawing(radii, &arcs, family);
             drawing.bands.push((radii, arcs, 1.0));
         }
     }
@@ -363,6 +387,12 @@ pub fn coded_patch(kind: Kind, family: Family, curve: Curve, random: &mut Unifor
     let b = radius * squeeze / bend;
     let shift = -perspective * b;
     let a = radius / bend.sqrt();
+    // half-way between levels that follow a curve lies another share of the light
+    let curved = |light: f64| full * (light / full).powf(tone);
+    let levels = full - curved(dark);
+    let half_way = full * (1.0 - levels / (2.0 * full)).powf(1.0 / tone);
+    let edge = (blur * blur + 1.0 / 12.0).sqrt() * normal_quantile((half_way - dark) / contrast);
+    let aside = if bright { -edge } else { edge };
     CodedPatch {
         kind,
         family,
@@ -375,8 +405,8 @@ pub fn coded_patch(kind: Kind, family: Family, curve: Curve, random: &mut Unifor
         sector: TAU / f64::from(family.bits()) * radius * squeeze * (ring[0] + ring[1]) / 2.0,
         tilt,
         sharpening,
-        axes: [a, b, axis],
-        contrast,
+        axes: [a + aside, b + aside, axis],
+        contrast: levels,
         blur,
         bright,
     }
