@@ -1,5 +1,5 @@
-//! Long objects as text in pieces: one after the other they are the whole text, and each is read by itself, so that the page
-//! does something else between two of them.
+//! Long objects as text in pieces, each written and read by itself, so that the page does something else between two of them. Those that a worker cuts
+//! are the whole text one after the other, as it is kept.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
