@@ -71,6 +71,7 @@ mod support {
     pub mod networks;
     pub mod painter;
     pub mod print_shot;
+    pub mod seed_document;
     pub mod tree;
     pub mod trials;
 }

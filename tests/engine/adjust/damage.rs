@@ -2,6 +2,7 @@
 //! number that is none.
 
 use crate::support::networks::{Uniform, Wanted, brown, exact, noisy, opencv};
+use crate::support::seed_document::seed_document;
 use crate::support::tree::{damage, is_finite};
 use serde_json::{Value, json};
 use sightline::adjust::{adjust, apply};
@@ -12,7 +13,7 @@ use sightline::limits;
 use sightline::network::{self, Network, NetworkPoint, Station};
 use sightline::noise::Noise;
 use sightline::plan::{faces_on, targets_on};
-use sightline::project::{Camera, DatumKind, Distance, Form, Interior, Parameter, Project, Role, Sigma};
+use sightline::project::{Camera, DatumKind, Form, Interior, Parameter, Project, Sigma};
 use sightline::sheets::{Field, SheetOptions, target_sheets};
 
 /// Iterations of one of these documents before it counts as endless: every round of a search for gross errors has some.
@@ -106,47 +107,9 @@ fn numbers_too_small_to_compute_with_make_no_infinite_ones() {
 /// A measurement that is said to be exact beside one far outside the photo: a step overflows, and is told by a number all the same.
 #[test]
 fn a_step_that_overflows_is_told_by_a_number() {
-    let station = |k: u32| {
-        let turn = f64::from(k) * 1.3;
-        let position = [900.0 * turn.cos(), 900.0 * turn.sin(), 800.0 + 50.0 * f64::from(k)];
-        Station::aimed(format!("f{k}"), if k % 2 == 1 { "other" } else { "c" }, position, [0.0; 3], turn)
-    };
-    let point = |k: u32| NetworkPoint {
-        id: format!("p{k}"),
-        xyz: [200.0 * (f64::from(k) * 2.4).cos(), 200.0 * (f64::from(k) * 2.4).sin(), 20.0 * f64::from(k * 5 % 7)],
-        ..NetworkPoint::default()
-    };
-    let first = Camera { pixel_pitch: Some([0.005; 2]), ..Camera::new("c", 2000, 1500, Interior::brown(9.0)) };
-    let interior = Interior::Opencv {
-        fx: Some(1800.0),
-        fy: Some(1805.0),
-        cx: 1000.0,
-        cy: 750.0,
-        k1: 0.01,
-        k2: 0.0,
-        p1: 0.0,
-        p2: 0.0,
-        k3: 0.0,
-    };
-    let network = Network {
-        cameras: vec![first, Camera::new("other", 2000, 1500, interior)],
-        stations: (0..5).map(station).collect(),
-        points: (0..12).map(point).collect(),
-        ..Network::default()
-    };
-    let mut project = network::simulate(&network).expect("a sound network");
-    project.cameras[0].free = vec![Parameter::C, Parameter::K1];
+    let mut project = seed_document(1);
     project.cameras[0].width = 5461;
-    project.cameras[0].sigma = [(Parameter::X0, 0.01)].into();
-    project.datum.kind = DatumKind::Free;
-    for point in &mut project.points[..4] {
-        (point.role, point.sigma) = (Role::Control, Some([Some(0.1), Some(0.1), None]));
-        point.diameter = Some(10.0);
-    }
     project.photos[1].sigma_position = Some([Some(1.0), None, Some(1e-9)]);
-    let distance =
-        |from: &str, to: &str| Distance { from: from.into(), to: to.into(), length: 200.0, sigma: 50.0, check: false };
-    project.distances = vec![distance("p5", "p6"), distance("p7", "p8")];
     // Two more are wrong by some thousand pixels.
     for o in &mut project.observations {
         match (o.photo.as_str(), o.point.as_str()) {
