@@ -170,21 +170,37 @@ fn the_thumbnail_that_a_file_carries_is_shown_for_it() {
     };
     damaged[extent.offset as usize..(extent.offset + extent.length) as usize].fill(0);
     assert_eq!(shown(&damaged, 160, false), shown(&file, 160, true));
-    // a rotation in the place of the colours of the one and not of the other
+    // A rotation in the place of the colours, which both have, and then the picture alone.
     let mut turned = file.clone();
     let at = turned.windows(8).position(|bytes| bytes == b"colrnclx").expect("colours");
     turned[at..at + 5].copy_from_slice(b"irot\x01");
-    let turns = {
+    let alone = {
         let parsed = HeifFile::parse(&turned).expect("boxes");
         let id = parsed.referencing_items(parsed.primary_id, b"thmb")[0];
-        let turned = |id| parsed.item_properties(id).expect("properties").any(|p| matches!(p, Property::Rotation(_)));
-        [turned(parsed.primary_id), turned(id)]
+        let mut properties = parsed.item_properties(id).expect("properties");
+        let place = properties.position(|p| matches!(p, Property::Rotation(_))).expect("a rotation");
+        without_property(&turned, u16::try_from(id).expect("a small file"), place)
     };
-    println!("the picture and its thumbnail are turned: {turns:?}");
-    let own = unpack(&turned, Wanted { channel: Channel::Grey, samples: false, max_side: 160 }).expect("a picture");
-    let of_whole = unpack(&turned, Wanted { channel: Channel::Grey, samples: true, max_side: 160 }).expect("a picture");
-    assert_eq!(own.header.info.orientation, of_whole.header.info.orientation);
-    assert_eq!(own.small == of_whole.small, turns[0] != turns[1]);
+    for (file, embedded) in [(&turned, true), (&alone, false)] {
+        let small =
+            |samples| unpack(file, Wanted { channel: Channel::Grey, samples, max_side: 160 }).expect("a picture");
+        let (own, whole) = (small(false), small(true));
+        assert_eq!((own.header.info.orientation, whole.header.info.orientation), (8, 8));
+        assert_eq!(own.small != whole.small, embedded);
+    }
+}
+
+/// The file with one property less of an item: its association is with none (ISO/IEC 14496-12, `ipma`).
+fn without_property(file: &[u8], item: u16, place: usize) -> Vec<u8> {
+    let mut file = file.to_vec();
+    let start = file.windows(4).position(|bytes| bytes == b"ipma").expect("associations") + 4;
+    assert_eq!(file[start..start + 4], [0; 4], "items of two bytes, properties of one");
+    let mut at = start + 8;
+    while file[at..at + 2] != item.to_be_bytes() {
+        at += 3 + usize::from(file[at + 2]);
+    }
+    file[at + 3 + place] = 0;
+    file
 }
 
 #[test]

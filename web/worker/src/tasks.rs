@@ -415,7 +415,7 @@ fn look_into_packed(file: &[u8], format: &str, max_side: u32) -> Result<(Opened,
     Ok((Opened { size, info, small: small.0, digest, sha256 }, small.1))
 }
 
-/// The picture that a file carries of itself, in RGBA. That of a HEIC is packed as the photo is, and the file is read for it: it is small.
+/// The picture that a file carries of itself, in RGBA. That of a HEIC is packed as the photo is, and the file is read for it.
 fn glanced(file: &mut (impl Read + Seek), max_side: u32) -> Option<(Glanced, Vec<u8>)> {
     if let Some(found) = decode::embedded(file, max_side) {
         let small = [found.picture.width, found.picture.height];
@@ -429,13 +429,15 @@ fn glanced(file: &mut (impl Read + Seek), max_side: u32) -> Option<(Glanced, Vec
     if !bytes.windows(THUMBNAIL.len()).any(|kind| kind == THUMBNAIL) {
         return None;
     }
-    file.read_to_end(&mut bytes).ok()?;
+    file.take(LARGEST - HEAD).read_to_end(&mut bytes).ok()?;
     let found = unpack(&bytes, format, Channel::default(), false, max_side).ok()?;
     Some((Glanced { small: found.header.small, orientation: found.header.info.orientation }, found.small))
 }
 
 /// Bytes in which a HEIC says what it has.
 const HEAD: u64 = 1 << 16;
+/// Bytes that are read of one: phones write a few million, and what lies beyond is found damaged.
+const LARGEST: u64 = 1 << 26;
 /// The name there of what refers to a picture as its thumbnail.
 const THUMBNAIL: &[u8] = b"thmb";
 
