@@ -62,9 +62,12 @@ fn assemble_pkg() -> Outcome {
     Ok(())
 }
 
-/// Leaves the page in dist/: index.html with Trunk's assets resolved, the page's module and the workers' with their glue.
+/// Leaves the page in dist/: index.html with Trunk's assets resolved, the page's module and the workers' with their glue. What is served
+/// gets its [`decoders`] afterwards.
 pub fn dist(profile: Profile) -> Outcome {
-    modules(profile, &["sightline-desk", "sightline-worker", "sightline-codecs"])?;
+    let later = (profile == Profile::Release).then_some("sightline-codecs");
+    let packages: Vec<_> = ["sightline-desk", "sightline-worker"].into_iter().chain(later).collect();
+    modules(profile, &packages)?;
     assemble_dist(profile)
 }
 
@@ -80,7 +83,12 @@ fn assemble_dist(profile: Profile) -> Outcome {
             view3d(&folder)?;
             offline::icons(&folder)?;
         }
-        Profile::Serve => changed(&folder)?,
+        Profile::Serve => {
+            let view = files(&root().join("web/view3d"))?;
+            kept::product(&shelf()?, "view3d", &view, &folder, view3d)?;
+            kept::product(&shelf()?, "icons", &[], &folder, offline::icons)?;
+            changed(&folder, &[("sightline-desk", page::MODULE), ("sightline-worker", page::WORKER)])?;
+        }
     }
     page::assemble(&root(), &folder)?;
     offline::seal(&folder)?;
@@ -89,8 +97,16 @@ fn assemble_dist(profile: Profile) -> Outcome {
         report("dist", &folder.join(part));
     }
     report("dist", &folder.join(format!("{}_bg.wasm", page::WORKER)));
-    report("dist", &folder.join(format!("{}_bg.wasm", page::CODECS)));
+    if profile == Profile::Release {
+        report("dist", &folder.join(format!("{}_bg.wasm", page::CODECS)));
+    }
     Ok(())
+}
+
+/// Leaves the decoders of HEIC and RAW photos in the dist/ that is served: the page stands without them.
+pub fn decoders() -> Outcome {
+    modules(Profile::Serve, &["sightline-codecs"])?;
+    changed(&root().join("dist"), &[("sightline_codecs", page::CODECS)])
 }
 
 /// Both, compiled together: what they have in common is built once.
@@ -258,25 +274,21 @@ fn desk(folder: &Path) -> Outcome {
     bind(&parts::cut(&module, folder, page::MODULE)?, folder, page::MODULE, false)
 }
 
-/// What the page is made of while it is worked on: only what has changed is made anew, side by side. Its module is whole.
-fn changed(folder: &Path) -> Outcome {
-    let shelf: PathBuf = format!("{}/{TARGET}/serve/page", target_directory()?).into();
-    // Its npm packages follow from the lock file.
-    let view = files(&root().join("web/view3d"))?;
-    let modules =
-        [("sightline-desk", page::MODULE), ("sightline-worker", page::WORKER), ("sightline_codecs", page::CODECS)];
+/// Where what is served is kept from one time to the next.
+fn shelf() -> Outcome<PathBuf> {
+    Ok(format!("{}/{TARGET}/serve/page", target_directory()?).into())
+}
+
+/// Modules of the page while it is worked on, with their names there: only what has changed is bound anew, side by side. The page's own is
+/// whole.
+fn changed(folder: &Path, modules: &[(&str, &str)]) -> Outcome {
+    let shelf = &shelf()?;
     std::thread::scope(|threads| {
-        let shelf = &shelf;
-        let bound = modules.map(|(module, name)| {
-            threads.spawn(move || {
-                let module = linked(Profile::Serve, module)?;
-                kept::product(shelf, name, std::slice::from_ref(&module), folder, |made| {
-                    bind(&module, made, name, false)
-                })
-            })
-        });
-        kept::product(shelf, "view3d", &view, folder, view3d)?;
-        kept::product(shelf, "icons", &[], folder, offline::icons)?;
+        let bind_one = |(module, name): &(&str, &str)| {
+            let module = linked(Profile::Serve, module)?;
+            kept::product(shelf, name, std::slice::from_ref(&module), folder, |made| bind(&module, made, name, false))
+        };
+        let bound: Vec<_> = modules.iter().map(|one| threads.spawn(move || bind_one(one))).collect();
         bound.into_iter().try_for_each(|thread| thread.join().map_err(|_| "wasm-bindgen panicked")?)
     })
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::Outcome;
 use crate::build::write;
+use crate::process::{cargo, run};
 
 /// Glue of the parts in dist/.
 pub const GLUE: &str = "desk-parts.js";
@@ -21,15 +22,10 @@ const FETCHED: &str = "const fetched = async (name) => {
 /// Cuts a module whose linker kept its relocations: parts that come later go to dist/, the one that is needed first is given, for
 /// wasm-bindgen, whose glue for it will be called `main`.
 pub fn cut(module: &Path, dist: &Path, main: &str) -> Outcome<PathBuf> {
-    let bytes = fs::read(module).map_err(|error| format!("{}: {error}", module.display()))?;
     let first = module.with_extension("first.wasm");
     let (link_name, main_module) = (format!("./{GLUE}"), format!("./{main}.js"));
-    let mut options = wasm_split_cli_support::Options::new(&bytes);
-    options.output_dir = dist;
-    options.main_out_path = &first;
-    options.link_name = &link_name;
-    options.main_module = &main_module;
-    wasm_split_cli_support::transform(options).map_err(|error| format!("wasm_split: {error:#}"))?;
+    let mut cutter = cargo(&["run", "--quiet", "--package", "xtask-cutter", "--"]);
+    run(cutter.args([module, &first, dist]).args([link_name, main_module]))?;
     let glue = dist.join(GLUE);
     let text = fs::read_to_string(&glue).map_err(|error| format!("{GLUE}: {error}"))?;
     let (needed, empty): (Vec<_>, Vec<_>) = later(dist)?.into_iter().partition(|name| text.contains(name));

@@ -4,9 +4,11 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::path::{Component, Path, PathBuf};
+use std::sync::OnceLock;
 
 use crate::Outcome;
 use crate::build::{self, Profile};
+use crate::page::CODECS;
 use crate::process::root;
 
 /// `serve [--port N]`.
@@ -24,7 +26,16 @@ pub fn command(arguments: &[String]) -> Outcome {
         None => (8080..8100).find_map(|port| listen(port).ok()).map_or_else(|| listen(0), Ok)?,
     };
     println!("{} (Ctrl-C stops)", address(&listener)?);
-    answer(listener, &root().join("dist"));
+    let decoders = OnceLock::new();
+    std::thread::scope(|threads| {
+        threads.spawn(|| {
+            if let Err(fault) = build::decoders() {
+                eprintln!("HEIC and RAW photos are not decoded: {fault}");
+            }
+            decoders.set(()).ok();
+        });
+        answer(listener, &root().join("dist"), Some(&decoders));
+    });
     Ok(())
 }
 
@@ -32,7 +43,7 @@ pub fn command(arguments: &[String]) -> Outcome {
 pub fn background(folder: PathBuf) -> Outcome<String> {
     let listener = listen(0)?;
     let address = address(&listener)?;
-    std::thread::spawn(move || answer(listener, &folder));
+    std::thread::spawn(move || answer(listener, &folder, None));
     Ok(address)
 }
 
@@ -45,12 +56,12 @@ fn address(listener: &TcpListener) -> Outcome<String> {
 }
 
 /// Answers until the process ends. Every connection has a thread of its own and gives one answer: a browser opens connections
-/// ahead and leaves them idle, and none may wait for another.
-fn answer(listener: TcpListener, folder: &Path) {
+/// ahead and leaves them idle, and none may wait for another. Who asks for `decoders` that are still being built waits for them.
+fn answer(listener: TcpListener, folder: &Path, decoders: Option<&OnceLock<()>>) {
     std::thread::scope(|threads| {
         for stream in listener.incoming().flatten() {
             // Fails where the browser has gone, which then needs no answer.
-            threads.spawn(move || respond(stream, folder).ok());
+            threads.spawn(move || respond(stream, folder, decoders).ok());
         }
     });
 }
@@ -59,7 +70,7 @@ fn answer(listener: TcpListener, folder: &Path) {
 const LONGEST_HEAD: u64 = 64 << 10;
 
 /// Reads the head of a request, which is all that a GET has, and sends the file it asks for.
-fn respond(stream: TcpStream, folder: &Path) -> std::io::Result<()> {
+fn respond(stream: TcpStream, folder: &Path, decoders: Option<&OnceLock<()>>) -> std::io::Result<()> {
     let mut head = Vec::new();
     let mut reader = BufReader::new(stream.try_clone()?.take(LONGEST_HEAD));
     while !matches!(head.as_slice(), [.., b'\n', b'\r', b'\n'] | [.., b'\n', b'\n']) {
@@ -71,6 +82,11 @@ fn respond(stream: TcpStream, folder: &Path) -> std::io::Result<()> {
     let mut words = head.split_ascii_whitespace();
     let asked = (words.next() == Some("GET")).then(|| words.next()).flatten();
     let mut stream = stream;
+    if let (Some(decoders), Some(address)) = (decoders, asked)
+        && address.trim_start_matches('/').starts_with(CODECS)
+    {
+        decoders.wait();
+    }
     match asked.and_then(|address| file(folder, address)) {
         Some((mut file, kind)) => {
             write_head(&mut stream, "200 OK", kind, file.metadata()?.len())?;
