@@ -9,9 +9,9 @@ use sightline::project::Project;
 use crate::{from_bytes, to_bytes};
 
 /// Bytes after which a piece ends.
-const LONG: usize = 1 << 18;
-/// Elements after which a piece ends that is written when it is asked for: some 200 kB.
-const ROWS_AT_ONCE: usize = 2000;
+const LONG: usize = 1 << 17;
+/// Elements after which a piece ends that is written when it is asked for: some 100 kB.
+const ROWS_AT_ONCE: usize = 1000;
 
 /// What a piece of an object's text has.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -67,6 +67,23 @@ pub enum Col {
     Contrast,
 }
 
+impl Col {
+    /// Whether its values are words.
+    fn has_words(self) -> bool {
+        use Col::{Camera, File, From, Id, Model, Photo, Point, To};
+        matches!(self, Id | File | Camera | Model | Photo | Point | From | To)
+    }
+}
+
+/// Whether a text, in small letters, occurs in words however they are written.
+fn occurs(text: &str, words: &str) -> bool {
+    if !words.is_ascii() {
+        return words.to_lowercase().contains(text);
+    }
+    let mut parts = words.as_bytes().windows(text.len().max(1));
+    text.is_empty() || parts.any(|part| part.eq_ignore_ascii_case(text.as_bytes()))
+}
+
 /// What stands in a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -429,12 +446,13 @@ impl Sheet {
     /// Rows in whose names a text occurs, and that meet a condition.
     pub fn filtered(&self, text: &str, meets: impl Fn(usize) -> bool) -> Vec<u32> {
         let text = text.trim().to_lowercase();
+        // the values of other columns are looked up, row by row, for nothing
+        let columns: Vec<Col> = self.table.columns().iter().copied().filter(|col| col.has_words()).collect();
         let words = |row: usize| {
             text.is_empty()
-                || self.table.columns().iter().any(|col| match self.value(row, *col) {
-                    Value::Words(words) => words.to_lowercase().contains(&text),
-                    _ => false,
-                })
+                || columns
+                    .iter()
+                    .any(|col| matches!(self.value(row, *col), Value::Words(words) if occurs(&text, &words)))
         };
         (0..self.len()).filter(|row| meets(*row) && words(*row)).map(|row| row as u32).collect()
     }
@@ -526,6 +544,27 @@ mod tests {
     }
 
     #[test]
+    fn columns_of_words_are_known_and_searched_whatever_the_case() {
+        use sightline::project::{Camera, Distance, Interior, Photo};
+        let mut d = document();
+        let project = std::sync::Arc::make_mut(&mut d.project);
+        project.cameras = vec![Camera::new("A", 10, 10, Interior::brown(5.0))];
+        project.photos = vec![Photo { id: "P1".into(), file: "Größe.JPG".into(), ..Photo::default() }];
+        project.distances = vec![Distance { from: "10".into(), to: "9".into(), ..Distance::default() }];
+        let all = [Table::Photos, Table::Cameras, Table::Points, Table::Control, Table::Observations, Table::Distances];
+        for table in all {
+            let sheet = Sheet::new(table, &d);
+            for (row, col) in (0..sheet.len()).flat_map(|row| table.columns().iter().map(move |col| (row, *col))) {
+                let is_word = matches!(sheet.value(row, col), Value::Words(_));
+                assert!(is_word == col.has_words(), "{table:?} {col:?}");
+            }
+        }
+        let photos = Sheet::new(Table::Photos, &d);
+        let found = |text: &str| !photos.filtered(text, |_| true).is_empty();
+        assert!(found("jpg") && found("GRÖ") && found("p1") && !found("jpeg") && !found("größer datei"));
+    }
+
+    #[test]
     fn tables_show_sort_and_filter_their_rows() {
         let d = document();
         let sheet = Sheet::new(Table::Observations, &d);
@@ -537,6 +576,7 @@ mod tests {
         sheet.sort(&mut rows, Col::W, true);
         assert_eq!(rows, [1, 2, 0]);
         assert_eq!(sheet.filtered("10", |row| sheet.takes_part(row)), [0, 2]);
+        assert_eq!(sheet.filtered(" 10 ", |_| true), [0, 2]);
         assert_eq!(sheet.value(2, Col::U), Value::Number(6.0, 3));
         assert_eq!((sheet.key(2), sheet.value(1, Col::TakesPart).plain()), (observation_key("2", "10"), "0".into()));
     }

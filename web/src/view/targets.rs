@@ -288,6 +288,7 @@ fn code_note(note: CodeNote) -> &'static str {
         CodeNote::Disturbed => text::code_disturbed(),
         CodeNote::BetweenLevels => text::code_between_levels(),
         CodeNote::OtherFamily => text::code_other_family(),
+        CodeNote::Uncertain => text::code_uncertain(),
         CodeNote::SeveralFamilies => text::code_several_families(),
     }
 }

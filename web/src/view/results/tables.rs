@@ -147,7 +147,7 @@ impl PartialEq for Same {
 }
 
 /// Observations whose rows are made in one task of the page.
-const AT_ONCE: usize = 5000;
+const AT_ONCE: usize = 2000;
 
 fn worst_row(a: &Adjustment, factors: &HashMap<String, [f64; 2]>, o: &AdjustedObservation) -> Row {
     let [fx, fy] = factors.get(&o.photo).copied().unwrap_or([1.0, 1.0]);
