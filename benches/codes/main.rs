@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use sightline::detect::{detect, read_codes};
-use sightline::detection::{Codes, DetectOptions, Polarity, Quality, Target};
+use sightline::detection::{Codes, DetectOptions, Target};
 use sightline::ring_code::Family;
 
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
@@ -161,7 +161,7 @@ fn judge(patch: &CodedPatch) -> (Tally, String) {
     let at_dot = |t: &&Target| (t.u - patch.u).hypot(t.v - patch.v) < 1.5 && t.major > 0.6 * patch.diameter;
     let dot = found.iter().find(at_dot).cloned();
     // the reader alone, where detection does not find the dot
-    let mut given = [dot.clone().unwrap_or_else(|| given(patch))];
+    let mut given = [dot.clone().unwrap_or_else(|| patch.dot())];
     if dot.is_none() {
         read_codes(&view, &mut given, codes);
     }
@@ -186,26 +186,4 @@ fn judge(patch: &CodedPatch) -> (Tally, String) {
         given.code_candidates.len()
     );
     (tally, note)
-}
-
-/// The dot as a perfect measurement would report it.
-fn given(patch: &CodedPatch) -> Target {
-    let [a, b, angle] = patch.axes;
-    Target {
-        id: 0,
-        u: patch.u,
-        v: patch.v,
-        sigma_u: 0.01,
-        sigma_v: 0.01,
-        covariance_uv: 0.0,
-        major: 2.0 * a,
-        minor: 2.0 * b,
-        angle,
-        contrast: patch.contrast,
-        polarity: if patch.bright { Polarity::Bright } else { Polarity::Dark },
-        code: None,
-        code_family: None,
-        code_candidates: Vec::new(),
-        quality: Quality { edge_width: patch.blur, ..Quality::default() },
-    }
 }

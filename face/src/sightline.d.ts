@@ -638,7 +638,7 @@ export interface Quality {
   /** Safety of the code reading, 0 (a coin toss) to 1; null where no ring was seen. */
   code_margin: number | null;
   /** Why a ring was seen but not read. */
-  code_note: "all_set" | "no_code" | "disturbed" | "between_levels" | "other_family" | "several_families" | null;
+  code_note: "all_set" | "no_code" | "disturbed" | "between_levels" | "other_family" | "uncertain" | "several_families" | null;
 }
 
 /** A target of a photo: pixels, radians; major and minor are the ellipse's full axes. */

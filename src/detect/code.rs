@@ -24,7 +24,7 @@ use super::outline::Outline;
 use crate::detection::{CodeNote, Codes, Polarity, Target};
 use crate::image::{Plane, Sample};
 use crate::ring_code::{Design, Family, smallest_rotation};
-use polar::Frame;
+use polar::{Frame, Polar};
 use radial::Radial;
 use sectors::Division;
 
@@ -119,16 +119,18 @@ impl Divisions {
 
 /// Shift of the ring's middle, in radii, above which the perspective of a target matters.
 const SHIFT: f64 = 0.1;
+/// Least side of a camera's picture in pixels: a smaller one is cut out of one.
+const CAMERA: usize = 640;
 
 /// The ring under the perspective that explains it best.
 ///
 /// A plane tilted by t at a distance that a target of semi-axis a px sees under a/f has a boost of a sin t / f along its slope; the
-/// slope is that of the minor axis, and f at least 0.6 picture widths.
+/// slope is that of the minor axis, and f at least 0.6 widths of the whole picture.
 fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, design: Design, size: usize) -> Option<Radial> {
     let outline = outline_of(target);
     let (a, b) = outline.semi_axes();
     let sine = (1.0 - (b / a) * (b / a)).max(0.0).sqrt();
-    let largest = a * sine / (0.6 * size as f64);
+    let largest = a * sine / (0.6 * size.max(CAMERA) as f64);
     let [inner, outer] = design.ring();
     let moves = inner * outer - 1.0;
     if largest * moves < SHIFT {
@@ -163,9 +165,10 @@ fn judge(family: Family, tones: &[Tone]) -> Reading {
     if !limits::HIGH.contains(&high) || low.abs() > limits::LOW {
         return Reading::Plain;
     }
-    let middle = (low + high) / 2.0;
     let n = family.bits() as usize;
-    let margin_of = |k: usize| ((division.levels[k] - middle).abs() / (scale / 2.0)).min(1.0);
+    let lit = division.lit();
+    let above = |k: usize| division.levels[k] - (low + lit[k]) / 2.0;
+    let margin_of = |k: usize| (above(k).abs() / ((lit[k] - low) / 2.0)).min(1.0);
     let margin = (0..n).map(margin_of).fold(1.0, f64::min);
     let [gap, halves, outside] =
         [&radial.gap, &radial.halves, &radial.outside].map(|levels| division.sectors(&radial.polar, levels));
@@ -174,11 +177,12 @@ fn judge(family: Family, tones: &[Tone]) -> Reading {
             || halves[k].abs() > limits::HALVES * scale
             || division.is_set(k) && outside[k] > limits::CLEAR * scale
     };
-    let off = |k: usize| (division.levels[k] - if division.is_set(k) { high } else { low }).abs();
+    let off = |k: usize| (division.levels[k] - if division.is_set(k) { lit[k] } else { low }).abs();
     let unclear = |k: usize| {
         off(k) > (limits::OFF * scale).max(limits::SIGMAS * division.sigmas[k])
             || margin_of(k) < limits::SAFE
-            || (division.levels[k] - middle).abs() < limits::SIGMAS * division.sigmas[k]
+            || above(k).abs() < limits::SIGMAS * division.sigmas[k]
+            || (above(k) > 0.0) != division.is_set(k)
             || disturbed(k)
     };
     let in_doubt: Vec<usize> = (0..n).filter(|k| unclear(*k)).collect();
@@ -209,7 +213,8 @@ fn judge(family: Family, tones: &[Tone]) -> Reading {
     }
     // and its rims are where the design has them
     let mean = |levels: &[f64]| sure.iter().map(|k| levels[*k]).sum::<f64>() / sure.len() as f64 / scale;
-    if radial.off_rims([mean(&gap), mean(&halves), mean(&outside)]) > 1.0 {
+    let off_rims = radial.off_rims([mean(&gap), mean(&halves), mean(&outside)]);
+    if off_rims > 1.0 {
         return Reading::Plain;
     }
     let others = DIVISIONS.into_iter().filter(|bits| *bits != family.bits()).filter_map(|bits| best(tones, bits));
@@ -231,16 +236,29 @@ fn judge(family: Family, tones: &[Tone]) -> Reading {
         let note = if division.bits.count_ones() as usize == n { CodeNote::AllSet } else { CodeNote::NoCode };
         return Reading::NoCode { margin, note };
     }
+    let (off_grid, left) = (radial.off_grid(division), radial.left(division));
+    let shares = [ratio / limits::AS_GOOD, off_grid, left, off_rims, radial.whole_misfit(division) / limits::WHOLE];
     let note = if in_doubt.iter().any(|k| disturbed(*k)) {
         CodeNote::Disturbed
     } else if !in_doubt.is_empty() {
         CodeNote::BetweenLevels
-    } else if ratio > limits::AS_GOOD || radial.off_grid(division) > 1.0 || radial.left(division) > 1.0 {
+    } else if ratio > limits::AS_GOOD || off_grid > 1.0 || left > 1.0 {
         CodeNote::OtherFamily
+    } else if is_by_chance(shares, &radial.polar) {
+        CodeNote::Uncertain
     } else {
         return Reading::Code { number: numbers[0], margin };
     };
     Reading::Doubtful { numbers, margin, note }
+}
+
+/// Whether a ring may be a code by chance: near its limits in several ways at once, of which these are the shares, or too blurred for its
+/// dot's radius. The smaller a ring, the more rings are nearly a code.
+fn is_by_chance(shares: [f64; 5], polar: &Polar) -> bool {
+    let near = shares.iter().map(|share| share * share).sum::<f64>().sqrt();
+    let [smallest, a_pixel, most] = limits::JOINT;
+    let radius = polar.area.sqrt();
+    near > (smallest + a_pixel * radius).min(most) || polar.blur > limits::BLURRED * radius
 }
 
 /// Sign of a target's contrast: inside less outside.

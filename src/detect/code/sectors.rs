@@ -13,7 +13,7 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::polar::{Polar, step};
-use crate::detect::acceptance::code::{ENDS, ENDS_RMS, SAME, STANDS_OUT};
+use crate::detect::acceptance::code::{ENDS, ENDS_RMS, SAME, STANDS_OUT, UNEVEN};
 
 /// Steps of the phase, as shares of a sector: a coarse and a fine search.
 const PHASES: [&[f64]; 2] = [&[-0.16, -0.08, 0.0, 0.08, 0.16], &[-0.04, -0.02, 0.02, 0.04]];
@@ -25,6 +25,8 @@ const NEAR: usize = 3;
 const INNER: f64 = 0.35;
 /// What holds the level of set sectors alike all around, against the weight of one direction.
 const STEADY: f64 = 0.05;
+/// What holds the plane of light even, in sectors.
+const EVEN: f64 = 0.5;
 /// What holds sectors that blur has hidden, against the weight of one that is seen.
 const RIDGE: f64 = 0.01;
 
@@ -191,6 +193,25 @@ impl Division {
         self.bits >> (self.levels.len() - 1 - sector) & 1 == 1
     }
 
+    /// Level of each sector if it were set. Light changes it around the ring: a plane goes through the set ones, as far as there are some on
+    /// all sides.
+    pub fn lit(&self) -> Vec<f64> {
+        let n = self.levels.len();
+        let basis = |k: usize| {
+            let (s, c) = (self.phase + std::f64::consts::TAU * (k as f64 + 0.5) / n as f64).sin_cos();
+            Vector3::new(1.0, c, s)
+        };
+        let mut normal = Matrix3::from_diagonal(&Vector3::new(1e-9, EVEN, EVEN));
+        let mut right = Vector3::zeros();
+        for k in (0..n).filter(|k| self.is_set(*k)) {
+            normal += basis(k) * basis(k).transpose();
+            right += basis(k) * (self.levels[k] - self.high);
+        }
+        let plane = normal.cholesky().map_or_else(Vector3::zeros, |factor| factor.solve(&right));
+        let step = self.high - self.low;
+        (0..n).map(|k| self.high + basis(k).dot(&plane).clamp(-UNEVEN * step, UNEVEN * step)).collect()
+    }
+
     /// Largest distance of an arc's end from the grid, or the rms of all, over what it may be. All ends of a code are where they belong but
     /// for chance; a ring of other sectors that has none far from the grid has many a little off.
     pub fn off_grid(&self, polar: &Polar, levels: &[f64], radius: f64) -> f64 {
@@ -282,6 +303,27 @@ mod tests {
             ends.iter().map(of).sum()
         };
         (0..directions).map(|j| level(12.0 * (j as f64 + 0.5) / directions as f64)).collect()
+    }
+
+    #[test]
+    fn light_is_a_plane_through_the_set_sectors() {
+        let samples = vec![0u8; 200 * 200];
+        let frame = Frame::new(Outline::from_axes(100.0, 100.0, 15.0, 15.0, 0.0), 0.0);
+        let polar = Polar::sample(&Plane::new(200, 200, &samples), &frame, 1.8);
+        let lit = |ends: &[[f64; 2]]| {
+            let mut levels = ring(ends, polar.directions.len());
+            levels.iter_mut().zip(&polar.directions).for_each(|(level, [c, _])| *level *= 1.0 + 0.2 * c);
+            divide(&polar, &levels, 2.5, 12).unwrap().lit()
+        };
+        let around = lit(&[[0.0, 2.0], [3.0, 4.0], [5.0, 7.0], [8.0, 9.0], [10.0, 11.0]]);
+        // sectors of 30 degrees from the direction of the light on
+        for (k, level) in around.iter().enumerate() {
+            let truth = 1.0 + 0.2 * (30f64.to_radians() * (k as f64 + 0.5)).cos();
+            assert!((level - truth).abs() < 0.04, "{k}: {level} {truth}");
+        }
+        // a single arc says little of the other side
+        let arc = lit(&[[0.0, 2.0]]);
+        assert!(arc.iter().all(|level| (level - arc[0]).abs() < 0.1), "{arc:?}");
     }
 
     #[test]

@@ -4,6 +4,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use sightline::detection::{Polarity, Quality, Target};
 use sightline::image::{GreyView, SamplesView};
 use sightline::noise::Noise;
 use sightline::ring_code::{Design, Family, smallest_rotation};
@@ -122,6 +123,28 @@ pub struct CodedPatch {
 impl CodedPatch {
     pub fn view(&self) -> GreyView<'_> {
         GreyView::new(self.size, self.size, SamplesView::U8(&self.samples)).expect("a picture")
+    }
+
+    /// The dot as a perfect measurement would report it.
+    pub fn dot(&self) -> Target {
+        let [a, b, angle] = self.axes;
+        Target {
+            id: 0,
+            u: self.u,
+            v: self.v,
+            sigma_u: 0.01,
+            sigma_v: 0.01,
+            covariance_uv: 0.0,
+            major: 2.0 * a,
+            minor: 2.0 * b,
+            angle,
+            contrast: self.contrast,
+            polarity: if self.bright { Polarity::Bright } else { Polarity::Dark },
+            code: None,
+            code_family: None,
+            code_candidates: Vec::new(),
+            quality: Quality { edge_width: self.blur, ..Quality::default() },
+        }
     }
 }
 
