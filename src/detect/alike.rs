@@ -24,6 +24,8 @@ use crate::image::Sample;
 /// Half the width, in units of the blur, of the band of pixels that are fitted: beyond it the light of neighbours is more than what
 /// is left of the rim's own.
 const BAND: f64 = 2.4;
+/// Part of the blur beyond which the level around is taken.
+const APART: f64 = 0.7;
 /// Most known targets that are measured again.
 const MEASURED: usize = 40;
 /// Corrections in pixels that end the fit.
@@ -106,11 +108,17 @@ impl<T: Sample> Measure<'_, T> {
         }
         let mut outline = alike.within(seen);
         self.has_room(&outline)?;
-        let mut kept = vec![true; super::edges::edge::ray_count(&outline)];
-        let mut around = self.level_around(&outline, alike, &kept)?;
         let sign = if alike.bright { 1.0 } else { -1.0 };
         let (a, b) = outline.semi_axes();
-        if sign * around.contrast < limits::LIGHT * alike.seen(a, b) * alike.contrast[0] / limits::CONTRASTS {
+        let least = limits::LIGHT * alike.seen(a, b) * alike.contrast[0] / limits::CONTRASTS;
+        // most of what stands out has the other polarity, or is no more than a part of a larger shape
+        let at_most = surround::contrast_at_most(&self.plane, &outline, APART * alike.blur[0], alike.bright);
+        if at_most.is_some_and(|contrast| contrast < least) {
+            return Err(Reason::LowContrast);
+        }
+        let mut kept = vec![true; super::edges::edge::ray_count(&outline)];
+        let mut around = self.level_around(&outline, alike, &kept)?;
+        if sign * around.contrast < least {
             return Err(Reason::LowContrast);
         }
         let prior = Prior {
@@ -118,6 +126,7 @@ impl<T: Sample> Measure<'_, T> {
             contrast: [sign * alike.contrast[0], alike.contrast[1]],
             noise: alike.rms,
             largest_rms: limits::HOPELESS * (limits::AS_GOOD * alike.rms + limits::PROFILE * alike.contrast[0]),
+            largest_of_own: [limits::AS_GOOD * alike.rms, limits::PROFILE].map(|part| limits::HOPELESS_OWN * part),
         };
         let mut found: Option<Fit> = None;
         // the second time with the pixels of the outline that the first one has found
@@ -212,7 +221,7 @@ impl<T: Sample> Measure<'_, T> {
     }
 
     fn level_around(&self, outline: &Outline, alike: &Alike, kept: &[bool]) -> Result<surround::Surround, Reason> {
-        surround::measure(&self.plane, outline, 0.7 * alike.blur[0], kept, u32::MAX).ok_or(Reason::AtBorder)
+        surround::measure(&self.plane, outline, APART * alike.blur[0], kept, u32::MAX).ok_or(Reason::AtBorder)
     }
 }
 

@@ -102,6 +102,27 @@ pub(crate) fn measure<T: Sample>(
     })
 }
 
+/// The most that an outline may differ from what lies around it, as one ring of few rays shows it: from the eighth of them that
+/// differs most, if the majority that fixes the plane of [`measure`] is there. None when too few of them lie in the picture.
+pub(crate) fn contrast_at_most<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64, bright: bool) -> Option<f64> {
+    const RAYS: usize = 24;
+    let rims = Rims::of(plane, outline, &[true; RAYS]);
+    let (mut levels, mut count) = ([f32::MAX; RAYS], 0);
+    for four in rims.ring(3.0 * blur + 0.6) {
+        let [_, _, level, one] = four.map(f32x4::to_array);
+        for k in (0..4).filter(|k| one[*k] > 0.0) {
+            levels[count] = if bright { level[k] } else { -level[k] };
+            count += 1;
+        }
+    }
+    if count < RAYS / 2 {
+        return None;
+    }
+    let (_, around, _) = levels[..count].select_nth_unstable_by(count / 8, f32::total_cmp);
+    let inside = median::of_sizes(rims.inside().into_iter(), &mut Vec::new()) - rims.reference;
+    Some(if bright { inside } else { -inside } - f64::from(*around))
+}
+
 /// Rim points and normals of the rays that count, four at a time, and how to read pixels there.
 struct Rims<'a, T> {
     plane: &'a Plane<'a, T>,
@@ -298,4 +319,38 @@ fn robust_plane(spots: &mut Vec<Spot>) -> Option<(Vector3<f64>, f64)> {
         (coefficients, noise) = plane_through(spots)?;
     }
     Some((coefficients, noise))
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    #[test]
+    fn one_ring_shows_no_less_contrast_than_the_whole_surround() {
+        // discs of both polarities and a shape that goes on beyond the outline, on sloping ground with noise
+        for (bright, disc, shown) in
+            [(true, 90.0, true), (false, -70.0, true), (true, -70.0, false), (false, 90.0, false)]
+        {
+            for joined in [false, true] {
+                let samples: Vec<u8> = (0..100 * 100)
+                    .map(|i| {
+                        let (x, y) = (f64::from(i % 100) - 49.5, f64::from(i / 100) - 49.5);
+                        let noise = f64::from((i as u32).wrapping_mul(2_654_435_761) >> 24) / 40.0;
+                        let inside = x.hypot(y) < 12.0 || joined && x > 0.0 && y.abs() < 4.0;
+                        (100.0 + 0.2 * x - 0.1 * y + noise + if inside { disc } else { 0.0 }) as u8
+                    })
+                    .collect();
+                let plane = Plane::new(100, 100, &samples);
+                let outline = Outline::from_axes(50.0, 50.0, 12.0, 12.0, 0.0);
+                let at_most = contrast_at_most(&plane, &outline, 0.7, bright).unwrap();
+                let whole = measure(&plane, &outline, 0.7, &[true; 40], u32::MAX).unwrap().contrast;
+                let whole = if bright { whole } else { -whole };
+                assert!(at_most > whole && at_most < whole + 12.0, "{bright} {disc} {joined}: {at_most} {whole}");
+                assert_eq!(at_most > 0.0, shown);
+            }
+        }
+    }
 }

@@ -6,8 +6,6 @@
 //! Solved here as C z = μ S z with S = L L': L⁻¹ C L⁻ᵀ is symmetric, has exactly one positive eigenvalue, and stays
 //! well defined for points without error.
 
-use nalgebra::{Matrix3, Vector3};
-
 use super::outline::Outline;
 
 /// Ellipse through five or more weighted points (x, y, weight); none when they determine no ellipse.
@@ -113,72 +111,54 @@ fn through(weight: f64, second: [f64; 3], third: [f64; 4], fourth: [f64; 5]) -> 
     let [x4, x3y, xxyy, xy3, y4] = fourth;
     let [x3, xxy, xyy, y3] = third;
     let [xx, xy, yy] = second;
-    let s1 = Matrix3::new(x4, x3y, xxyy, x3y, xxyy, xy3, xxyy, xy3, y4);
-    let s2 = Matrix3::new(x3, xxy, xx, xxy, xyy, xy, xyy, y3, yy);
     let det = xx * yy - xy * xy;
     if det <= 0.0 {
         return None;
     }
-    let inverse = Matrix3::new(yy / det, -xy / det, 0.0, -xy / det, xx / det, 0.0, 0.0, 0.0, 1.0 / weight);
-    // linear part as a function of the quadratic one: -S3^-1 S2' z
-    let back = -(inverse * s2.transpose());
-    let mut reduced = s1 + s2 * back;
-    reduced = (reduced + reduced.transpose()) / 2.0;
-    for i in 0..3 {
-        reduced[(i, i)] += 1e-13 * s1.trace();
-    }
-    let inverse = inverse_root(&reduced)?;
-    let constraint = Matrix3::new(0.0, 0.0, 2.0, 0.0, -1.0, 0.0, 2.0, 0.0, 0.0);
-    let z = inverse.transpose() * leading_eigenvector(inverse * constraint * inverse.transpose())?;
-    if 4.0 * z.x * z.z - z.y * z.y <= 0.0 {
-        return None;
-    }
-    from_conic(z, back * z)
-}
-
-/// L⁻¹ of S = L L', both lower triangular; none where S is not positive definite.
-fn inverse_root(s: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+    // columns of S2 and rows of the linear part as a function of the quadratic one, -S3^-1 S2'
+    let mixed = [[x3, xxy, xyy], [xxy, xyy, y3], second];
+    let back: [[f64; 3]; 3] = [
+        std::array::from_fn(|j| (xy * mixed[1][j] - yy * mixed[0][j]) / det),
+        std::array::from_fn(|j| (xy * mixed[0][j] - xx * mixed[1][j]) / det),
+        std::array::from_fn(|j| -mixed[2][j] / weight),
+    ];
+    let reduced = |i: usize, j: usize, own: f64| {
+        own + mixed[0][i] * back[0][j] + mixed[1][i] * back[1][j] + mixed[2][i] * back[2][j]
+    };
+    let damping = 1e-13 * (x4 + xxyy + y4);
+    let s11 = reduced(0, 0, x4) + damping;
+    let [s21, s22] = [reduced(1, 0, x3y), reduced(1, 1, xxyy) + damping];
+    let [s31, s32, s33] = [reduced(2, 0, xxyy), reduced(2, 1, xy3), reduced(2, 2, y4) + damping];
+    // L^-1
     let positive = |square: f64| (square > 0.0).then(|| square.sqrt());
-    let l11 = positive(s[(0, 0)])?;
-    let (l21, l31) = (s[(1, 0)] / l11, s[(2, 0)] / l11);
-    let l22 = positive(s[(1, 1)] - l21 * l21)?;
-    let l32 = (s[(2, 1)] - l31 * l21) / l22;
-    let l33 = positive(s[(2, 2)] - l31 * l31 - l32 * l32)?;
-    let (i11, i22, i33) = (1.0 / l11, 1.0 / l22, 1.0 / l33);
-    let i21 = -l21 * i11 * i22;
-    let i32 = -l32 * i22 * i33;
+    let i11 = 1.0 / positive(s11)?;
+    let (l21, l31) = (s21 * i11, s31 * i11);
+    let i22 = 1.0 / positive(s22 - l21 * l21)?;
+    let l32 = (s32 - l31 * l21) * i22;
+    let i33 = 1.0 / positive(s33 - l31 * l31 - l32 * l32)?;
+    let (i21, i32) = (-l21 * i11 * i22, -l32 * i22 * i33);
     let i31 = -(l31 * i11 + l32 * i21) * i33;
-    Some(Matrix3::new(i11, 0.0, 0.0, i21, i22, 0.0, i31, i32, i33))
-}
-
-/// Ellipse of a x² + b x y + c y² + d x + e y + f = 0 with (a, b, c) and (d, e, f).
-fn from_conic(quadratic: Vector3<f64>, linear: Vector3<f64>) -> Option<Outline> {
-    let [a, b, c] = [quadratic.x, quadratic.y, quadratic.z];
-    let [d, e, f] = [linear.x, linear.y, linear.z];
-    let det = 4.0 * a * c - b * b;
-    let (u, v) = ((b * e - 2.0 * c * d) / det, (b * d - 2.0 * a * e) / det);
-    // x' Q x = h about the centre, and A = sqrt(h) Q^(-1/2)
-    let h = -(f + (d * u + e * v) / 2.0);
-    let (q11, q12, q22) = (a / h, b / (2.0 * h), c / h);
-    let q_det = q11 * q22 - q12 * q12;
-    if !(q_det > 0.0 && q11 + q22 > 0.0) {
+    // of the symmetric L^-1 C L^-T two places are zero, and the second one of its diagonal is negative
+    let (m13, m22) = (2.0 * i11 * i33, -i22 * i22);
+    let (m23, m33) = (2.0 * i21 * i33 - i22 * i32, 4.0 * i31 * i33 - i32 * i32);
+    let value = positive_eigenvalue(m13, m22, m23, m33)?;
+    let [y1, y2] = [m13 / value, m23 / (value - m22)];
+    let z = [i11 * y1 + i21 * y2 + i31, i22 * y2 + i32, i33];
+    if 4.0 * z[0] * z[2] - z[1] * z[1] <= 0.0 {
         return None;
     }
-    // the inverse of Q is A A'
-    Some(Outline::of_matrix(u, v, q22 / q_det, -q12 / q_det, q11 / q_det))
+    from_conic(z, back.map(|row| row[0] * z[0] + row[1] * z[1] + row[2] * z[2]))
 }
 
-/// Eigenvector of the one positive eigenvalue of a symmetric matrix.
+/// The one positive eigenvalue of the symmetric matrix (0, 0, m13; 0, m22, m23; m13, m23, m33) with a negative m22.
 ///
-/// From above all roots of the characteristic polynomial, which are real, Newton's steps fall to the largest. Rows of
-/// M - λ I are normal to the eigenvector: it is the longest of their cross products.
-fn leading_eigenvector(m: Matrix3<f64>) -> Option<Vector3<f64>> {
-    let trace = m.trace();
-    let minors = m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(0, 1)] + m[(0, 0)] * m[(2, 2)] - m[(0, 2)] * m[(0, 2)]
-        + m[(1, 1)] * m[(2, 2)]
-        - m[(1, 2)] * m[(1, 2)];
-    let det = m.determinant();
-    let mut value = m.norm();
+/// From above all roots of the characteristic polynomial, which are real, Newton's steps fall to the largest. It solves
+/// λ - m33 = m13² / λ + m23² / (λ - m22): with λ below the second fraction as well, the root of a quadratic lies above it.
+fn positive_eigenvalue(m13: f64, m22: f64, m23: f64, m33: f64) -> Option<f64> {
+    let (square, trace) = (m13 * m13, m22 + m33);
+    let minors = m22 * m33 - m23 * m23 - square;
+    let det = -m22 * square;
+    let mut value = 0.5 * (m33 + (m33 * m33 + 4.0 * (square + m23 * m23)).sqrt());
     if !value.is_finite() {
         return None;
     }
@@ -191,11 +171,22 @@ fn leading_eigenvector(m: Matrix3<f64>) -> Option<Vector3<f64>> {
             break;
         }
     }
-    let shifted = m - Matrix3::from_diagonal_element(value);
-    let rows = [0, 1, 2].map(|i| shifted.row(i).transpose());
-    let normals = [rows[0].cross(&rows[1]), rows[0].cross(&rows[2]), rows[1].cross(&rows[2])];
-    let longest = normals.into_iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
-    (value > 0.0 && longest.norm_squared() > 0.0).then(|| longest.normalize())
+    (value > 0.0).then_some(value)
+}
+
+/// Ellipse of a x² + b x y + c y² + d x + e y + f = 0 with (a, b, c) and (d, e, f).
+fn from_conic([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> Option<Outline> {
+    let det = 4.0 * a * c - b * b;
+    let (u, v) = ((b * e - 2.0 * c * d) / det, (b * d - 2.0 * a * e) / det);
+    // x' Q x = h about the centre, and A = sqrt(h) Q^(-1/2)
+    let h = -(f + (d * u + e * v) / 2.0);
+    let (q11, q12, q22) = (a / h, b / (2.0 * h), c / h);
+    let q_det = q11 * q22 - q12 * q12;
+    if !(q_det > 0.0 && q11 + q22 > 0.0) {
+        return None;
+    }
+    // the inverse of Q is A A'
+    Some(Outline::of_matrix(u, v, q22 / q_det, -q12 / q_det, q11 / q_det))
 }
 
 #[cfg(test)]

@@ -83,9 +83,10 @@ impl Profile {
                     continue;
                 }
                 // the pixel's own distance, rather than a sample between pixels
-                let (x, y) = ((rim.x + d * nx).floor() + 0.5, (rim.y + d * ny).floor() + 0.5);
+                let pixel = |place: f64| f64::from(place as u32) + 0.5;
+                let (x, y) = (pixel(rim.x + d * nx), pixel(rim.y + d * ny));
                 let own = d + (x - rim.x - d * nx) * nx + (y - rim.y - d * ny) * ny;
-                let bin = ((own + REACH) * FINE).round();
+                let bin = (own + REACH) * FINE + 0.5;
                 if !(0.0..BINS as f64).contains(&bin) {
                     continue;
                 }
@@ -113,15 +114,12 @@ impl Profile {
         let edge = |d: f64, sigma: f64| 0.5 - 0.5 * erf(d / sigma * std::f64::consts::FRAC_1_SQRT_2);
         let (mut best, mut plain) = ((f64::INFINITY, None), f64::INFINITY);
         for sigma in (0..30).map(|i| 0.35 * 1.085f64.powi(i)) {
+            let sharp: Vec<f64> = points.iter().map(|[d, _]| edge(*d, sigma)).collect();
             for radius in (0..16).map(|i| 0.5 + 0.1 * f64::from(i)) {
                 let wide = sigma.hypot(radius);
-                let row = |d: f64| {
-                    let sharp = edge(d, sigma);
-                    Vector3::new(1.0, sharp, sharp - edge(d, wide))
-                };
                 let (mut normal, mut right, mut square) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
-                for [d, level] in &points {
-                    let row = row(*d);
+                for ([d, level], sharp) in points.iter().zip(&sharp) {
+                    let row = Vector3::new(1.0, *sharp, sharp - edge(*d, wide));
                     normal += row * row.transpose();
                     right += row * *level;
                     square += level * level;

@@ -46,14 +46,23 @@ pub(crate) struct Prior {
     pub blur: [f64; 2],
     pub contrast: [f64; 2],
     pub noise: f64,
-    /// Rms of the residuals from which the fit is given up: that which its first correction promises, at the best.
+    /// Rms of the residuals from which the fit is given up: that which its corrections promise, at the best.
     pub largest_rms: f64,
+    /// The same for a contrast of its own: a constant, and a part of the contrast that they promise.
+    pub largest_of_own: [f64; 2],
 }
 
 impl Prior {
     /// Weights of both, in units of a pixel's.
     fn weights(&self) -> [f64; 2] {
         [self.blur[1], self.contrast[1]].map(|sigma| (self.noise / sigma).powi(2))
+    }
+
+    /// Whether a fit is given up that promises this rms and this contrast.
+    pub fn is_hopeless(&self, rms: f64, contrast: f64) -> bool {
+        let [constant, part] = self.largest_of_own;
+        let shown = (contrast * self.contrast[0].signum()).clamp(0.0, self.contrast[0].abs());
+        rms > self.largest_rms || rms > constant + part * shown
     }
 
     pub fn add_normal(&self, normal: &mut Normal) {
@@ -445,4 +454,32 @@ fn products<const A: usize, const B: usize>(a: [&[f32]; A], b: [&[f32]; B]) -> [
         }
     }
     totals
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    #[test]
+    fn what_promises_residuals_too_large_for_its_contrast_is_hopeless() {
+        for sign in [1.0, -1.0] {
+            let contrast = [sign * 50.0, 5.0];
+            let prior = Prior { blur: [1.0, 0.1], contrast, noise: 1.0, largest_rms: 8.0, largest_of_own: [4.0, 0.1] };
+            for (rms, contrast, hopeless) in [
+                (7.9, 50.0, false),
+                (8.1, 50.0, true),
+                // more contrast than that of the others excuses no more
+                (8.1, 90.0, true),
+                (5.9, 20.0, false),
+                (6.1, 20.0, true),
+                (4.1, -50.0, true),
+                (3.9, -50.0, false),
+            ] {
+                assert_eq!(prior.is_hopeless(rms, sign * contrast), hopeless, "{rms} {contrast} {sign}");
+            }
+        }
+    }
 }

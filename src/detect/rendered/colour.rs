@@ -5,6 +5,8 @@
 //! targets of the picture, of residuals less their mean profile across the rim: what sharpening leaves there all around moves no
 //! centre. A fit of p unknowns takes about p / n of the variance of n residuals off every product of neighbours.
 
+use wide::f32x4;
+
 use super::band::{Band, Normal, UNKNOWNS};
 use super::{DERIVATIVES, Field};
 use crate::detect::ellipse::outline::Outline;
@@ -13,6 +15,8 @@ use crate::detect::ellipse::outline::Outline;
 const REACH: i32 = 5;
 /// Half of the neighbours: the others are the same, seen from there.
 const NEIGHBOURS: usize = 41;
+/// Neighbours whose products are summed at a time.
+const TOGETHER: usize = 4;
 /// Bins of the profile, two a pixel.
 const BINS: usize = 64;
 
@@ -112,8 +116,10 @@ impl Band {
     ) -> Colour {
         let columns = self.columns();
         let scale = |i: usize| if i < 2 * DERIVATIVES { contrast } else { 1.0 };
+        let factors: [[f64; UNKNOWNS]; 2] =
+            std::array::from_fn(|which| std::array::from_fn(|j| cofactors[(which, j)] * scale(j)));
         let moved = |which: usize, k: usize| -> f64 {
-            (0..UNKNOWNS).map(|j| cofactors[(which, j)] * scale(j) * f64::from(columns[j][k])).sum()
+            factors[which].iter().zip(columns).map(|(factor, column)| factor * f64::from(column[k])).sum()
         };
         let near = Outline { u: outline.u - origin[0], v: outline.v - origin[1], ..*outline };
         let bin = |k: usize| {
@@ -123,8 +129,9 @@ impl Band {
         let residuals = self.residuals();
         let mut profile = [[0.0; 2]; BINS];
         let count: usize = self.spans.iter().map(|span| span.2).sum();
+        let bins: Vec<usize> = (0..count).map(bin).collect();
         for k in (0..count).filter(|k| self.kept[*k] > 0.0) {
-            let sum = &mut profile[bin(k)];
+            let sum = &mut profile[bins[k]];
             *sum = [sum[0] + f64::from(residuals[k]), sum[1] + 1.0];
         }
         let mut grid = vec![[0f32; 4]; field.width * field.height];
@@ -132,23 +139,34 @@ impl Band {
         for &(row, column, length) in &self.spans {
             for pixel in &mut grid[row * field.width + column..][..length] {
                 if self.kept[k] > 0.0 {
-                    let [sum, n] = profile[bin(k)];
+                    let [sum, n] = profile[bins[k]];
                     *pixel = [moved(0, k) as f32, moved(1, k) as f32, residuals[k] - (sum / n) as f32, 1.0];
                 }
                 k += 1;
             }
         }
         let mut colour = Colour { moved: [0.0; NEIGHBOURS], residuals: [0.0; NEIGHBOURS], pairs: [0.0; NEIGHBOURS] };
-        for (i, (dx, dy)) in OFFSETS.into_iter().enumerate() {
-            let shift = (dy * field.width as i32 + dx) as usize;
-            let (mut z, mut r, mut n) = (0.0, 0.0, 0.0);
-            // the field's margin is wider than the reach, so that no pair goes around its end
-            for (a, b) in grid.iter().zip(&grid[shift..]) {
-                z += a[0] * b[0] + a[1] * b[1];
-                r += a[2] * b[2];
-                n += a[3] * b[3];
+        // only what lies in a span counts, which of a large field is little; several neighbours at once do not wait for each other
+        for first in (0..NEIGHBOURS).step_by(TOGETHER) {
+            let shifts: [usize; TOGETHER] = std::array::from_fn(|i| {
+                let (dx, dy) = OFFSETS[(first + i).min(NEIGHBOURS - 1)];
+                (dy * field.width as i32 + dx) as usize
+            });
+            let mut sums = [f32x4::ZERO; TOGETHER];
+            for &(row, column, length) in &self.spans {
+                let from = row * field.width + column;
+                // the field's margin is wider than the reach, so that no pair goes around its end
+                let [a, b, c, d] = shifts.map(|shift| grid.get(from + shift..).unwrap_or_default());
+                for ((((pixel, a), b), c), d) in grid[from..from + length].iter().zip(a).zip(b).zip(c).zip(d) {
+                    for (sum, neighbour) in sums.iter_mut().zip([a, b, c, d]) {
+                        *sum += f32x4::new(*pixel) * f32x4::new(*neighbour);
+                    }
+                }
             }
-            (colour.moved[i], colour.residuals[i], colour.pairs[i]) = (f64::from(z), f64::from(r), f64::from(n));
+            for (i, sum) in sums.into_iter().enumerate().take_while(|(i, _)| first + i < NEIGHBOURS) {
+                let [u, v, r, n] = sum.to_array().map(f64::from);
+                (colour.moved[first + i], colour.residuals[first + i], colour.pairs[first + i]) = (u + v, r, n);
+            }
         }
         colour
     }

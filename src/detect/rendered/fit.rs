@@ -141,16 +141,16 @@ pub(crate) fn fit<T: Sample>(
             disturbed = count > 0 && region.whole;
             dropped += count;
         }
+        let right = work.right(&state, &flats);
         if render_all || anew {
             anew = false;
             normal = work.normal(&state, &flats);
-        }
-        let right = work.right(&state, &flats);
-        if round == 0
-            && let Some(prior) = &region.prior
-            && work.band.promised_rms(&solve(&normal, &right)?, &right) > prior.largest_rms
-        {
-            return None;
+            if let Some(prior) = &region.prior {
+                let promised = solve(&normal, &right)?;
+                if prior.is_hopeless(work.band.promised_rms(&promised, &right), state.contrast + promised[6]) {
+                    return None;
+                }
+            }
         }
         let (size, used) = state.step(&normal, &right)?;
         normal = used;

@@ -3,6 +3,8 @@
 //! What lies in front of a target spoils one piece of the border. So the ends of the runs are taken in their order around the
 //! blob, an ellipse is laid through every window of them, and the one that most of the border follows counts.
 
+use wide::f32x4;
+
 use super::blob::Limits;
 use super::component::Chord;
 use crate::detect::acceptance::partial::{FOLLOWING, GOOD, HOPELESS, RUNS, SMALLEST, STEPS, WINDOW};
@@ -19,7 +21,7 @@ const WINDOWS: usize = 8;
 pub(crate) fn most(chain: &[Chord], limits: &Limits) -> Option<Outline> {
     let [first, .., last] = chain else { return None };
     let least = SMALLEST;
-    let widest = chain.iter().map(|chord| chord.x1 - chord.x0).fold(0.0, f32::max);
+    let [_, widest] = range(chain.iter().map(|chord| chord.x1 - chord.x0));
     let shortest = BLOB_SMALL * least;
     if chain.len() < RUNS || f64::from(last.y - first.y) < shortest || f64::from(widest) < shortest {
         return None;
@@ -83,13 +85,10 @@ impl Ends {
             (*x, *y) = end;
             count += 1;
         }
-        let middle = [&x, &y].map(|values| {
-            let range = values[..count].iter().fold((f32::MAX, f32::MIN), |(low, high), x| (low.min(*x), high.max(*x)));
-            f64::from(range.0 + range.1) / 2.0
-        });
-        let size =
-            |values: &[f32], middle: f64| values.iter().map(|x| (f64::from(*x) - middle).abs()).fold(1.0, f64::max);
-        let scale = size(&x[..count], middle[0]).max(size(&y[..count], middle[1]));
+        let ranges = [&x, &y].map(|values| range(values[..count].iter().copied()));
+        let middle = ranges.map(|[low, high]| f64::from(low + high) / 2.0);
+        let beyond = |i: usize| (f64::from(ranges[i][1]) - middle[i]).max(middle[i] - f64::from(ranges[i][0]));
+        let scale = beyond(0).max(beyond(1)).max(1.0);
         for (values, middle) in [(&mut x, middle[0]), (&mut y, middle[1])] {
             values[..count].iter_mut().for_each(|value| *value = ((f64::from(*value) - middle) / scale) as f32);
         }
@@ -136,16 +135,18 @@ impl Ends {
     fn most_within(&self, outline: &Outline, limit: f32) -> Option<f32> {
         let outline = self.own(outline);
         let scale = 1.0 / (outline.p * outline.q - outline.r * outline.r);
-        let [u, v, p, q, r] =
-            [outline.u, outline.v, scale * outline.p, scale * outline.q, scale * outline.r].map(|x| x as f32);
+        let [u, v, p, q, r] = [outline.u, outline.v, scale * outline.p, scale * outline.q, scale * outline.r]
+            .map(|x| f32x4::splat(x as f32));
         let mut distances = [0f32; ENDS];
+        let [x, y] = [&self.x, &self.y].map(|values| values.as_chunks::<4>().0);
         // Sampson's distance, as [`Outline::distance`]
-        for ((distance, x), y) in distances.iter_mut().zip(&self.x).zip(&self.y) {
-            let (x, y) = (x - u, y - v);
+        for ((distance, x), y) in distances.as_chunks_mut::<4>().0.iter_mut().zip(x).zip(y) {
+            let (x, y) = (f32x4::new(*x) - u, f32x4::new(*y) - v);
             let (c, s) = (q * x - r * y, p * y - r * x);
             let (gx, gy) = (q * c - r * s, p * s - r * c);
             let square = c * c + s * s;
-            *distance = (square - square.sqrt()).abs() / (gx * gx + gy * gy).sqrt().max(1e-12);
+            let slope = (gx * gx + gy * gy).sqrt().fast_max(f32x4::splat(1e-12));
+            *distance = ((square - square.sqrt()).abs() / slope).to_array();
         }
         let distances = &mut distances[..self.count];
         let rank = ((FOLLOWING * self.count as f64) as usize).min(self.count - 1);
@@ -156,6 +157,11 @@ impl Ends {
         let (_, distance, _) = distances.select_nth_unstable_by(rank, f32::total_cmp);
         Some(*distance * self.scale as f32)
     }
+}
+
+/// Least and largest value. The language's own are calls in a browser, for what is no number.
+fn range(values: impl Iterator<Item = f32>) -> [f32; 2] {
+    values.fold([f32::MAX, f32::MIN], |[low, high], x| [if x < low { x } else { low }, if x > high { x } else { high }])
 }
 
 fn is_possible(outline: &Outline, limits: &Limits, least: f64) -> bool {
