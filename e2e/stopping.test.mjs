@@ -13,6 +13,29 @@ const PATIENT = `
 }
 `;
 
+/** Before the page's own scripts: how long it breathes between two pieces of a long object, from an answer of many pieces on too, and how often workers were asked. */
+const SLOW = `
+{
+  const post = MessagePort.prototype.postMessage;
+  MessagePort.prototype.postMessage = function (...all) {
+    if (self.breath) setTimeout(() => post.apply(this, all), self.breath);
+    else post.apply(this, all);
+  };
+  self.asked = 0;
+  const ask = Worker.prototype.postMessage;
+  Worker.prototype.postMessage = function (...all) {
+    if (all[0]?.body) self.asked += 1;
+    return ask.apply(this, all);
+  };
+  const { set } = Object.getOwnPropertyDescriptor(Worker.prototype, 'onmessage');
+  const listen = (handler) => (event) => {
+    if (event.data.bytes?.length > 3) self.breath = self.breathOfAnswers ?? self.breath;
+    handler(event);
+  };
+  Object.defineProperty(Worker.prototype, 'onmessage', { set(handler) { set.call(this, handler && listen(handler)); } });
+}
+`;
+
 /** The page with workers that begin nothing between \`hold\` and \`release\`. */
 async function openHeld() {
   const opened = await open({ width: 1366, height: 768, cores: 4, serviceWorkers: 'block' });
@@ -167,6 +190,58 @@ test('plans and experiments can be stopped', { timeout: 600_000 }, async () => {
     assert.deepEqual(errors, []);
   } finally {
     release();
+    await close();
+  }
+});
+
+test('an adjustment is stopped while its project is written for the worker, and while its result is read', { timeout: 300_000 }, async () => {
+  const { page, context, errors, close } = await open({ width: 1366, height: 768, serviceWorkers: 'block' });
+  const slowly = (breath, breathOfAnswers) => page.evaluate(([own, answers]) => Object.assign(self, { breath: own, breathOfAnswers: answers }), [breath, breathOfAnswers]);
+  try {
+    await context.addInitScript(SLOW);
+    await page.reload();
+    await sample(page);
+    await idle(page);
+    await go(page, 'results');
+    const sigma0 = await figure(page, 'sigma0');
+    await go(page, 'adjust');
+    const unmodelled = page.locator('input[name="unmodelled"]');
+    const before = await unmodelled.inputValue();
+    const choose = async (typed) => {
+      await unmodelled.fill(typed);
+      await unmodelled.press('Enter');
+      await idle(page);
+    };
+    await choose('0.3');
+
+    await slowly(1000);
+    const asked = await page.evaluate(() => self.asked);
+    await page.click('.action .button');
+    await cancel(page, 'Adjusting');
+    assert.match(await notice(page), /Cancelled. The last result is kept/);
+    await slowly(0);
+    await page.waitForTimeout(2500);
+    assert.equal(await page.evaluate(() => self.asked), asked, 'a project that nobody waits for goes to no worker');
+
+    await slowly(0, 1000);
+    await page.click('.action .button');
+    await page.waitForFunction(() => self.breath === 1000, undefined, { timeout: 60_000 });
+    await cancel(page, 'Adjusting');
+    assert.match(await notice(page), /Cancelled. The last result is kept/);
+    await page.waitForTimeout(2500);
+    await choose(before);
+    await go(page, 'results');
+    assert.equal(await figure(page, 'sigma0'), sigma0);
+
+    await slowly(0, 0);
+    await go(page, 'adjust');
+    await choose('0.3');
+    await page.click('.action .button');
+    await idle(page);
+    await go(page, 'results');
+    assert.notEqual(await figure(page, 'sigma0'), sigma0);
+    assert.deepEqual(errors, []);
+  } finally {
     await close();
   }
 });
