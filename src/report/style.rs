@@ -51,7 +51,7 @@ fn quoted(text: &str) -> String {
     safe
 }
 
-const FONT: &str = "-apple-system, \"Segoe UI\", Roboto, \"Noto Sans\", \"Apple SD Gothic Neo\", \"Malgun Gothic\", \"Noto Sans KR\", \"Noto Sans CJK KR\", sans-serif";
+const FONT: &str = "-apple-system, \"Segoe UI\", Roboto, \"Noto Sans\", \"Apple SD Gothic Neo\", \"Malgun Gothic\", \"Noto Sans KR\", \"Noto Sans CJK KR\", \"Liberation Sans\", \"DejaVu Sans\", sans-serif";
 
 /// Style of what stands on the pages. Every rule is below `.report`, or a plot's.
 pub const STYLE: &str = concat!(include_str!("style.css"), include_str!("plots.css"));
