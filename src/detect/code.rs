@@ -244,7 +244,7 @@ fn judge(family: Family, tones: &[Tone]) -> Reading {
         CodeNote::BetweenLevels
     } else if ratio > limits::AS_GOOD || off_grid > 1.0 || left > 1.0 {
         CodeNote::OtherFamily
-    } else if is_by_chance(shares, &radial.polar) {
+    } else if is_by_chance(shares, division.arcs(), &radial.polar) {
         CodeNote::Uncertain
     } else {
         return Reading::Code { number: numbers[0], margin };
@@ -253,11 +253,13 @@ fn judge(family: Family, tones: &[Tone]) -> Reading {
 }
 
 /// Whether a ring may be a code by chance: near its limits in several ways at once, of which these are the shares, or too blurred for its
-/// dot's radius. The smaller a ring, the more rings are nearly a code.
-fn is_by_chance(shares: [f64; 5], polar: &Polar) -> bool {
+/// dot's radius. The smaller a ring, the more rings are nearly a code; and of a single arc one end settles the phase, the other one is on the
+/// grid of some family by chance: any broken ring is that.
+fn is_by_chance(shares: [f64; 5], arcs: usize, polar: &Polar) -> bool {
     let near = shares.iter().map(|share| share * share).sum::<f64>().sqrt();
     let [smallest, a_pixel, most] = limits::JOINT;
     let radius = polar.area.sqrt();
+    let most = if arcs == 1 { limits::SINGLE } else { most };
     near > (smallest + a_pixel * radius).min(most) || polar.blur > limits::BLURRED * radius
 }
 

@@ -193,6 +193,12 @@ impl Division {
         self.bits >> (self.levels.len() - 1 - sector) & 1 == 1
     }
 
+    /// Number of arcs of set sectors.
+    pub fn arcs(&self) -> usize {
+        let n = self.levels.len();
+        (0..n).filter(|k| self.is_set(*k) && !self.is_set((k + n - 1) % n)).count()
+    }
+
     /// Level of each sector if it were set. Light changes it around the ring: a plane goes through the set ones, as far as there are some on
     /// all sides.
     pub fn lit(&self) -> Vec<f64> {

@@ -231,7 +231,8 @@ fn rings_that_are_nearly_codes_are_doubtful_at_most() {
         (Kind::Concentric, Family::Metashape12, 11474083189701965259),
         (Kind::Strange, Family::Ring14, 2565136454342209203),
     ];
-    const CAMERA: [(Kind, Family, u64); 5] = [
+    const CAMERA: [(Kind, Family, u64); 6] = [
+        (Kind::Concentric, Family::Metashape20, 18049128213558945621),
         (Kind::Strange, Family::Metashape16, 15643001540633015558),
         (Kind::Other, Family::Metashape12, 10277069655115475054),
         (Kind::Strange, Family::Metashape16, 15136048804100443503),
