@@ -93,8 +93,9 @@ fn main() {
             by_family.entry(family).or_default().add(&tally);
         }
         let unread = tally.large[0] > 0 && kind == Kind::Code && tally.large[3] == 0;
-        if (tally.wrong > 0 || unread) && shown < 60 {
-            shown += 1;
+        // however many are not read: every wrong one is told
+        if tally.wrong > 0 || unread && shown < 60 {
+            shown += usize::from(tally.wrong == 0);
             println!(
                 "{} {kind:?} {family:?} state {before}: {note}; dot {:.1} px, tilt {:.0}, sector {:.2} px, blur {:.2}, contrast {:.0}, sharpened {:.2}",
                 if tally.wrong > 0 { "WRONG" } else { "unread" },

@@ -563,6 +563,7 @@ fn metashape_codes_are_read_as_in_grey() {
         };
         let (in_grey, _) = judge(&detect(&grey.view().expect("a view"), &options).expect("targets"));
         let in_raw = detect_shot(&shot, &options).expect("targets");
+        let mut asked = 0;
         let clicked = in_raw.targets.iter().filter(|target| target.code.is_some()).filter(|target| {
             let click = measure_in_shot(&shot, target.u, target.v, &options).expect("a place");
             // a click sees one ring alone: what the others have settled in the search stays a question
@@ -570,6 +571,7 @@ fn metashape_codes_are_read_as_in_grey() {
                 click.quality.code_note == Some(CodeNote::Uncertain)
                     && click.code_candidates.iter().any(|candidate| Some(candidate.number) == target.code)
             };
+            asked += usize::from(click.as_ref().is_some_and(&asks));
             click.is_some_and(|click| click.code == target.code || asks(&click))
         });
         let clicked = clicked.count();
@@ -579,6 +581,7 @@ fn metashape_codes_are_read_as_in_grey() {
         assert_eq!(wrong, [], "{codes:?}");
         // nothing beside a dot is a code, and a click reads what the search did
         assert_eq!((read, clicked), (all, all), "{codes:?}");
+        assert!(10 * asked <= all, "{codes:?}: {asked} of {all} clicks only ask");
         totals[0] += read;
         totals[1] += in_grey;
     }
