@@ -17,6 +17,7 @@ mod colours;
 mod covered;
 mod edges;
 mod ellipse;
+mod lump;
 mod measure;
 mod median;
 mod normal;
@@ -373,7 +374,9 @@ fn pass<T: Sample>(
             Err(Covered::No) => {}
         }
     }
-    if soft && let Some(alike) = alike::of(&mut measure, known, &census.targets) {
+    if let Some(alike) = alike::of(&mut measure, known, &census.targets)
+        && (soft || alike.swallows())
+    {
         let not = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
         let near = |no: &NoBlob| {
             ALIKE_SMALL * options.min_diameter < no.diameter && no.diameter < ALIKE_LARGE * options.max_diameter

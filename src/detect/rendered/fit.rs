@@ -27,6 +27,9 @@ const SLOW: f64 = 0.35;
 const STUCK: f64 = 0.8;
 const HALTING: f64 = 0.7;
 const LEAST_SHARE: f64 = 0.2;
+/// Rounds at most: as a rule; of a fit with known blur and contrast, whose disc its blur has nearly swallowed; and of one that is
+/// clipped, which has a longer way to its contrast.
+const ROUNDS: [u32; 3] = [12, 24, 40];
 /// Least blur, and least radius in units of blur and pixel, for which derivatives are sketched: there the standard error of a
 /// centre comes out within about one percent.
 const SHARPEST: f64 = 0.4;
@@ -61,6 +64,8 @@ pub(crate) struct Workspace {
     origin: [f64; 2],
     /// Whether neighbouring pixels may share their noise.
     pub coloured: bool,
+    /// Whether the last fit was given up for what its corrections promised.
+    pub hopeless: bool,
 }
 
 /// Outline, blur and contrast of a fit of a sketched ellipse ([`Band::sketch`]) to all pixels, which only needs to be good
@@ -116,6 +121,7 @@ pub(crate) fn fit<T: Sample>(
     converged: f64,
     work: &mut Workspace,
 ) -> Option<Fit> {
+    work.hopeless = false;
     let (mut state, flats) = work.begin(plane, region, blur)?;
     let mut normal = Normal::zeros();
     let (mut render_all, mut near, mut disturbed, mut dropped) = (true, true, true, 0);
@@ -147,7 +153,9 @@ pub(crate) fn fit<T: Sample>(
             normal = work.normal(&state, &flats);
             if let Some(prior) = &region.prior {
                 let promised = solve(&normal, &right)?;
-                if prior.is_hopeless(work.band.promised_rms(&promised, &right), state.contrast + promised[6]) {
+                work.hopeless =
+                    prior.is_hopeless(work.band.promised_rms(&promised, &right), state.contrast + promised[6]);
+                if work.hopeless {
                     return None;
                 }
             }
@@ -178,7 +186,7 @@ pub(crate) fn fit<T: Sample>(
     if dropped > 0 && mean * variance > covariance[0] + covariance[2] {
         covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
     }
-    let Workspace { band, field, origin, coloured } = work;
+    let Workspace { band, field, origin, coloured, .. } = work;
     let noise = region.surround.noise.powi(2).max(1.0 / 12.0);
     let beyond = variance > limits::UNEXPLAINED * noise;
     let mut colour =
@@ -307,9 +315,11 @@ impl State {
         (self.blur <= BLUR.0 && correction < 0.0) || (self.blur >= BLUR.1 && correction > 0.0)
     }
 
-    /// None when there were rounds enough; what is clipped has a longer way to its contrast.
+    /// None when there were rounds enough.
     fn may_go_on(&self, round: u32) -> Option<()> {
-        (round < if self.contrast.abs() > self.shown { 40 } else { 12 }).then_some(())
+        let [usual, swallowed, clipped] = ROUNDS;
+        let rounds = if self.contrast.abs() > self.shown { clipped } else { usual };
+        (round < if self.prior.is_some() { rounds.max(swallowed) } else { rounds }).then_some(())
     }
 
     /// Solves and corrects the state; the size of the correction of outline and blur, in pixels, and the normal matrix used.

@@ -112,7 +112,7 @@ fn cameras_drawn_at_random_are_told_by_their_sigmas_and_show_nothing_false() {
         tally.add(&camera, &camera_model::score(&detected(&picture, &DetectOptions::default()), &spots));
     }
     let all = tally.all();
-    assert!(all.others <= 6 && all.hits as f64 > 0.93 * all.targets as f64, "{tally}");
+    assert!(all.others <= 6 && all.hits as f64 > 0.97 * all.targets as f64, "{tally}");
     assert!((0.7..1.5).contains(&Tally::chi(&all)), "{tally}");
 }
 
