@@ -172,10 +172,13 @@ fn judge(family: Family, tones: &[Tone]) -> Reading {
     let margin = (0..n).map(margin_of).fold(1.0, f64::min);
     let [gap, halves, outside] =
         [&radial.gap, &radial.halves, &radial.outside].map(|levels| division.sectors(&radial.polar, levels));
+    // something grey in front of a sector, beyond the ring too, hides whether it is set
+    let veil = limits::VEIL[0] + limits::VEIL[1] * radial.polar.blur / radial.sector(n);
+    let veiled = |k: usize| (division.levels[k] - low).min(gap[k].max(outside[k])) > veil * scale;
     let disturbed = |k: usize| {
         gap[k].abs() > limits::CLEAR * scale
             || halves[k].abs() > limits::HALVES * scale
-            || division.is_set(k) && outside[k] > limits::CLEAR * scale
+            || if division.is_set(k) { outside[k] > limits::CLEAR * scale } else { veiled(k) }
     };
     let off = |k: usize| (division.levels[k] - if division.is_set(k) { lit[k] } else { low }).abs();
     let unclear = |k: usize| {

@@ -125,6 +125,11 @@ impl Radial {
         Some(Self::separate(polar, ring, off))
     }
 
+    /// Width of one of `n` sectors in the middle of the ring, in pixels.
+    pub fn sector(&self, n: usize) -> f64 {
+        std::f64::consts::TAU / n as f64 * self.middle * self.polar.area.sqrt()
+    }
+
     fn separate(polar: Polar, [inner, outer]: [f64; 2], ground: Vec<f64>) -> Self {
         let middle = (inner + outer) / 2.0;
         let bands = [[1.0, inner], [inner, middle], [middle, outer], [outer, outer + GROUND]];
