@@ -72,6 +72,7 @@ const ORDERS: [Order; 3] = [
             "code",
             "measure",
             "covered",
+            "lump",
             "alike",
             "click",
             "whole",
