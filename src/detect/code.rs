@@ -2,14 +2,9 @@
 //!
 //! A ring is read as a picture of a model: dot, gap, n equal sectors of one of two levels, and clear ground outside, all
 //! blurred as the dot's own rim is. [`polar`] samples it, [`radial`] separates gap, ring and outside in each direction,
-//! [`sectors`] divides the ring into sectors; here it is decided what that is.
-//!
-//! A ring is a code when every sector is clearly one of two levels and the same at its inner and its outer half, when the
-//! gap is clear, and the ground outside beside each set sector, when its rims are where the design has them, when sectors end
-//! on the grid of n and not better on that of another family, and when the family has the code. Where a few sectors only leave a doubt, the codes that remain are its
-//! candidates. A margin is a level's distance from half-way, 1 when it is as clear as dot and background; the code's
-//! margin is that of its worst sector.
+//! [`sectors`] divides the ring into sectors, [`judge`](mod@judge) decides what that is.
 
+mod judge;
 mod light;
 mod parts;
 mod polar;
@@ -17,16 +12,13 @@ mod radial;
 mod sectors;
 mod vote;
 
-use std::cell::OnceCell;
-
-use super::acceptance::code as limits;
 use super::outline::Outline;
 use crate::detection::{CodeNote, Codes, Polarity, Target};
 use crate::image::{Plane, Sample};
-use crate::ring_code::{Design, Family, smallest_rotation};
-use polar::{Frame, Polar};
+use crate::ring_code::{Design, Family};
+use judge::{Divisions, Tone, judge};
+use polar::Frame;
 use radial::Radial;
-use sectors::Division;
 
 pub(super) use parts::{drop_parts, settle_grounds};
 pub(super) use vote::{read_all, read_in};
@@ -100,23 +92,6 @@ fn read_tones(families: &[Family], rings: impl Fn(Design) -> Vec<Radial>) -> Vec
     readings
 }
 
-/// A ring under one tone curve, and its divisions.
-type Tone = (Radial, Divisions);
-
-/// Numbers of sectors that families have, and others that may be mistaken for them.
-const DIVISIONS: [u32; 8] = [12, 14, 16, 20, 13, 15, 18, 22];
-
-/// Divisions of a ring into each of these numbers, made when they are needed.
-#[derive(Default)]
-struct Divisions([OnceCell<Option<Division>>; 8]);
-
-impl Divisions {
-    fn of(&self, radial: &Radial, bits: u32) -> Option<&Division> {
-        let at = DIVISIONS.iter().position(|n| *n == bits)?;
-        self.0[at].get_or_init(|| radial.divide(bits)).as_ref()
-    }
-}
-
 /// Shift of the ring's middle, in radii, above which the perspective of a target matters.
 const SHIFT: f64 = 0.1;
 /// Least side of a camera's picture in pixels: a smaller one is cut out of one.
@@ -148,122 +123,6 @@ fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, design: 
         best = around.fold(best, better);
     }
     Some(best.1)
-}
-
-/// The division into so many sectors under the tone curve that explains the whole picture best. The sectors alone would not tell: what a
-/// wrong curve adds to their width is taken off their neighbours, and it shows in gap, halves and outside.
-fn best(tones: &[Tone], bits: u32) -> Option<(&Radial, &Division)> {
-    let under = tones.iter().filter_map(|(radial, divisions)| Some((radial, divisions.of(radial, bits)?)));
-    under.min_by(|a, b| a.0.whole_misfit(a.1).total_cmp(&b.0.whole_misfit(b.1)))
-}
-
-/// What a ring is as a code of a family, given its divisions into the sectors of every family of its design.
-fn judge(family: Family, tones: &[Tone]) -> Reading {
-    let Some((radial, division)) = best(tones, family.bits()) else { return Reading::Plain };
-    let (low, high) = (division.low, division.high);
-    let scale = high - low;
-    if !limits::HIGH.contains(&high) || low.abs() > limits::LOW {
-        return Reading::Plain;
-    }
-    let n = family.bits() as usize;
-    let lit = division.lit();
-    let above = |k: usize| division.levels[k] - (low + lit[k]) / 2.0;
-    let margin_of = |k: usize| (above(k).abs() / ((lit[k] - low) / 2.0)).min(1.0);
-    let margin = (0..n).map(margin_of).fold(1.0, f64::min);
-    let [gap, halves, outside] =
-        [&radial.gap, &radial.halves, &radial.outside].map(|levels| division.sectors(&radial.polar, levels));
-    // something grey in front of a sector, beyond the ring too, hides whether it is set
-    let veil = limits::VEIL[0] + limits::VEIL[1] * radial.polar.blur / radial.sector(n);
-    let veiled = |k: usize| (division.levels[k] - low).min(gap[k].max(outside[k])) > veil * scale;
-    let disturbed = |k: usize| {
-        gap[k].abs() > limits::CLEAR * scale
-            || halves[k].abs() > limits::HALVES * scale
-            || if division.is_set(k) { outside[k] > limits::CLEAR * scale } else { veiled(k) }
-    };
-    let off = |k: usize| (division.levels[k] - if division.is_set(k) { lit[k] } else { low }).abs();
-    let unclear = |k: usize| {
-        off(k) > (limits::OFF * scale).max(limits::SIGMAS * division.sigmas[k])
-            || margin_of(k) < limits::SAFE
-            || above(k).abs() < limits::SIGMAS * division.sigmas[k]
-            || (above(k) > 0.0) != division.is_set(k)
-            || disturbed(k)
-    };
-    let in_doubt: Vec<usize> = (0..n).filter(|k| unclear(*k)).collect();
-    if in_doubt.len() > limits::DOUBTFUL || division.misfit > limits::MISFIT {
-        return Reading::Plain;
-    }
-    let set: Vec<usize> = (0..n).filter(|k| division.is_set(*k)).collect();
-    let mean = |levels: &[f64]| set.iter().map(|k| levels[*k]).sum::<f64>() / set.len().max(1) as f64 / scale;
-    if mean(&gap).abs() > limits::MEAN_CLEAR
-        || mean(&outside).abs() > limits::MEAN_CLEAR
-        || mean(&halves).abs() > limits::MEAN_HALVES
-    {
-        return Reading::Plain;
-    }
-    // the ground beside set sectors is that beside the others, or a ring of another width stands there
-    let grounds = division.sectors(&radial.polar, &radial.ground);
-    let beside = |is_set: bool| {
-        let of = || (0..n).filter(|k| division.is_set(*k) == is_set).map(|k| grounds[k]);
-        of().sum::<f64>() / of().count().max(1) as f64
-    };
-    if (beside(true) - beside(false)).abs() > limits::GROUNDS {
-        return Reading::Plain;
-    }
-    // a ring shows in sectors that are beyond doubt
-    let sure: Vec<usize> = set.iter().copied().filter(|k| !in_doubt.contains(k)).collect();
-    if sure.len() < limits::SURE {
-        return Reading::Plain;
-    }
-    // and its rims are where the design has them
-    let mean = |levels: &[f64]| sure.iter().map(|k| levels[*k]).sum::<f64>() / sure.len() as f64 / scale;
-    let off_rims = radial.off_rims([mean(&gap), mean(&halves), mean(&outside)]);
-    if off_rims > 1.0 {
-        return Reading::Plain;
-    }
-    let others = DIVISIONS.into_iter().filter(|bits| *bits != family.bits()).filter_map(|bits| best(tones, bits));
-    let others = others.filter(|(_, other)| !other.same_arcs(division)).map(|(_, other)| other.misfit);
-    let ratio = (division.misfit / others.fold(f64::INFINITY, f64::min)).powi(2);
-    if ratio > limits::BETTER {
-        return Reading::Plain;
-    }
-    let number = |bits: u32| family.number(smallest_rotation(bits, family.bits()));
-    let mut numbers: Vec<u32> = (0..1u32 << in_doubt.len())
-        .filter_map(|choice| {
-            let flips = in_doubt.iter().enumerate().filter(|(i, _)| choice >> i & 1 == 1);
-            number(flips.fold(division.bits, |bits, (_, k)| bits ^ 1 << (n - 1 - k)))
-        })
-        .collect();
-    numbers.sort_unstable();
-    numbers.dedup();
-    if numbers.is_empty() {
-        let note = if division.bits.count_ones() as usize == n { CodeNote::AllSet } else { CodeNote::NoCode };
-        return Reading::NoCode { margin, note };
-    }
-    let (off_grid, left) = (radial.off_grid(division), radial.left(division));
-    let shares = [ratio / limits::AS_GOOD, off_grid, left, off_rims, radial.whole_misfit(division) / limits::WHOLE];
-    let note = if in_doubt.iter().any(|k| disturbed(*k)) {
-        CodeNote::Disturbed
-    } else if !in_doubt.is_empty() {
-        CodeNote::BetweenLevels
-    } else if ratio > limits::AS_GOOD || off_grid > 1.0 || left > 1.0 {
-        CodeNote::OtherFamily
-    } else if is_by_chance(shares, division.arcs(), &radial.polar) {
-        CodeNote::Uncertain
-    } else {
-        return Reading::Code { number: numbers[0], margin };
-    };
-    Reading::Doubtful { numbers, margin, note }
-}
-
-/// Whether a ring may be a code by chance: near its limits in several ways at once, of which these are the shares, or too blurred for its
-/// dot's radius. The smaller a ring, the more rings are nearly a code; and of a single arc one end settles the phase, the other one is on the
-/// grid of some family by chance: any broken ring is that.
-fn is_by_chance(shares: [f64; 5], arcs: usize, polar: &Polar) -> bool {
-    let near = shares.iter().map(|share| share * share).sum::<f64>().sqrt();
-    let [smallest, a_pixel, most] = limits::JOINT;
-    let radius = polar.area.sqrt();
-    let most = if arcs == 1 { limits::SINGLE } else { most };
-    near > (smallest + a_pixel * radius).min(most) || polar.blur > limits::BLURRED * radius
 }
 
 /// Sign of a target's contrast: inside less outside.
