@@ -9,7 +9,6 @@
 use std::cell::OnceCell;
 
 use super::Reading;
-use super::polar::Polar;
 use super::radial::Radial;
 use super::sectors::Division;
 use crate::detect::acceptance::code as limits;
@@ -187,7 +186,7 @@ pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
         CodeNote::BetweenLevels
     } else if ratio > limits::AS_GOOD || off_grid > 1.0 || left > 1.0 {
         CodeNote::OtherFamily
-    } else if is_by_chance(shares, division.arcs(), &radial.polar) {
+    } else if is_by_chance(shares, division.arcs(), radial) {
         CodeNote::Uncertain
     } else {
         return Reading::Code { number: numbers[0], margin };
@@ -197,11 +196,13 @@ pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
 
 /// Whether a ring may be a code by chance: near its limits in several ways at once, of which these are the shares, or too blurred for its
 /// dot's radius. The smaller a ring, the more rings are nearly a code; and of a single arc one end settles the phase, the other one is on the
-/// grid of some family by chance: any broken ring is that.
-fn is_by_chance(shares: [f64; 5], arcs: usize, polar: &Polar) -> bool {
+/// grid of some family by chance: any broken ring is that, and one of several around each other most of all.
+fn is_by_chance(shares: [f64; 5], arcs: usize, Radial { polar, ringed, .. }: &Radial) -> bool {
     let near = shares.iter().map(|share| share * share).sum::<f64>().sqrt();
     let [smallest, a_pixel, most] = limits::JOINT;
     let radius = polar.area.sqrt();
     let most = if arcs == 1 { limits::SINGLE } else { most };
-    near > (smallest + a_pixel * radius).min(most) || polar.blur > limits::BLURRED * radius
+    arcs == 1 && *ringed > limits::RINGED
+        || near > (smallest + a_pixel * radius).min(most)
+        || polar.blur > limits::BLURRED * radius
 }

@@ -26,6 +26,8 @@ const GAP: [f64; 3] = [1.4, 1.5, 1.6];
 /// Where the first sample lies, and how far outside of the ring the ground must be clear.
 const START: f64 = 1.2;
 const GROUND: f64 = 0.42;
+/// Radii beyond a ring where another one is looked for.
+const BEYOND: [f64; 4] = [0.55, 0.75, 0.95, 1.15];
 /// Holds bands that blur has hidden, against the weight of one that is seen.
 const RIDGE: f64 = 0.02;
 /// Directions of the first look.
@@ -49,6 +51,8 @@ pub(super) struct Radial {
     bare: f64,
     /// Share of the ring in what is sampled.
     share: f64,
+    /// Share of directions in which something of the dot's colour stands beyond the ring's ground.
+    pub ringed: f64,
 }
 
 /// Level of the dot less that of the gap around it, where both are free of the rim.
@@ -101,6 +105,19 @@ pub(super) fn may_have_ring<T: Sample>(plane: &Plane<T>, target: &Target) -> boo
     set as usize * limits::LOOKED >= LOOKS
 }
 
+/// Share of directions in which something of the dot's colour stands a ring's ground beyond its outer radius.
+fn ringed<T: Sample>(plane: &Plane<T>, target: &Target, frame: &Frame, outer: f64) -> f64 {
+    let dot = inside(plane, frame);
+    let limit = (1.0 - limits::SET) * target.contrast.min(f64::from(T::MAX));
+    let like_dot = |direction: [f64; 2], radius: f64| {
+        let [x, y] = frame.place(outer + radius, direction);
+        plane.holds(x, y, 0.0) && sign(target) * (dot - f64::from(plane.sample(x as f32, y as f32))) < limit
+    };
+    let directions = (0..LOOKS).map(|k| (std::f64::consts::TAU * k as f64 / LOOKS as f64).sin_cos());
+    let seen = directions.filter(|(s, c)| BEYOND.into_iter().any(|radius| like_dot([*c, *s], radius))).count();
+    seen as f64 / LOOKS as f64
+}
+
 impl Radial {
     /// Of a target with this design; none where the ring leaves the picture or the dot has no contrast.
     pub fn of<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, frame: &Frame, design: Design) -> Option<Self> {
@@ -122,7 +139,7 @@ impl Radial {
         }
         polar.normalise(background, contrast);
         off.iter_mut().for_each(|level| *level /= contrast);
-        Some(Self::separate(polar, ring, off))
+        Some(Self { ringed: ringed(plane, target, frame, ring[1]), ..Self::separate(polar, ring, off) })
     }
 
     /// Width of one of `n` sectors in the middle of the ring, in pixels.
@@ -176,7 +193,20 @@ impl Radial {
             + mean_square(&outside) * GROUND;
         let bare = (misfit * misfit + taken / (outer + GROUND - START)).sqrt();
         let share = (outer - inner) / (outer + GROUND - START);
-        Self { polar, design: [inner, outer], middle, ring, gap, halves, outside, ground, misfit, bare, share }
+        Self {
+            polar,
+            design: [inner, outer],
+            middle,
+            ring,
+            gap,
+            halves,
+            outside,
+            ground,
+            misfit,
+            bare,
+            share,
+            ringed: 0.0,
+        }
     }
 
     /// Largest distance of an arc's end from the grid of a division, over what it may be.
