@@ -108,12 +108,14 @@ fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, design: 
     let largest = a * sine / (0.6 * size.max(CAMERA) as f64);
     let [inner, outer] = design.ring();
     let moves = inner * outer - 1.0;
-    if largest * moves < SHIFT {
-        return Radial::of(plane, target, blur, &Frame::new(outline, 0.0), design);
-    }
-    let steps = (largest * moves / SHIFT).ceil().min(4.0);
     let of =
         |size: f64| Radial::of(plane, target, blur, &Frame::new(outline, size), design).map(|radial| (size, radial));
+    let looked_around =
+        |(size, radial): (f64, Radial)| radial.with_neighbours(plane, target, &Frame::new(outline, size));
+    if largest * moves < SHIFT {
+        return of(0.0).map(looked_around);
+    }
+    let steps = (largest * moves / SHIFT).ceil().min(4.0);
     let better = |a: (f64, Radial), b: (f64, Radial)| if b.1.misfit < a.1.misfit { b } else { a };
     let all = (-(steps as i32)..=steps as i32).map(|k| largest * f64::from(k) / steps);
     let mut best = all.filter_map(of).reduce(better)?;
@@ -122,7 +124,7 @@ fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, design: 
         let around = [best.0 - step, best.0 + step].into_iter().filter_map(of);
         best = around.fold(best, better);
     }
-    Some(best.1)
+    Some(looked_around(best))
 }
 
 /// Sign of a target's contrast: inside less outside.

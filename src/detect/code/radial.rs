@@ -26,11 +26,13 @@ const GAP: [f64; 3] = [1.4, 1.5, 1.6];
 /// Where the first sample lies, and how far outside of the ring the ground must be clear.
 const START: f64 = 1.2;
 const GROUND: f64 = 0.42;
-/// Radii beyond a ring where another one is looked for.
-const BEYOND: [f64; 4] = [0.55, 0.75, 0.95, 1.15];
+/// Radii beyond a ring where another one is looked for, close enough together for a thin one.
+const BEYOND: [f64; 11] = [0.55, 0.75, 0.95, 1.15, 1.35, 1.55, 1.75, 1.95, 2.15, 2.35, 2.55];
 /// Holds bands that blur has hidden, against the weight of one that is seen.
 const RIDGE: f64 = 0.02;
-/// Directions of the first look.
+/// Radii of the first look, where every family's ring is.
+const LOOKED_AT: [f64; 2] = [2.5, 2.9];
+/// Directions of a look.
 const LOOKS: usize = 60;
 
 /// What lies around a dot, direction by direction.
@@ -51,7 +53,7 @@ pub(super) struct Radial {
     bare: f64,
     /// Share of the ring in what is sampled.
     share: f64,
-    /// Share of directions in which something of the dot's colour stands beyond the ring's ground.
+    /// Share of directions in which something of the dot's colour stands beyond the ring's ground, where that was looked at.
     pub ringed: f64,
 }
 
@@ -89,33 +91,20 @@ fn median<T: Sample>(plane: &Plane<T>, frame: &Frame, radii: [f64; 3]) -> f64 {
 
 /// Whether anything of the dot's colour stands where a ring would be.
 pub(super) fn may_have_ring<T: Sample>(plane: &Plane<T>, target: &Target) -> bool {
-    let frame = Frame::new(outline_of(target), 0.0);
-    let dot = inside(plane, &frame);
-    let limit = (1.0 - limits::SET) * target.contrast.min(f64::from(T::MAX));
-    let sign = sign(target);
-    let mut set = 0;
-    for k in 0..LOOKS {
-        let (s, c) = (std::f64::consts::TAU * k as f64 / LOOKS as f64).sin_cos();
-        let like_dot = |radius: f64| {
-            let [x, y] = frame.place(radius, [c, s]);
-            plane.holds(x, y, 0.0) && sign * (dot - f64::from(plane.sample(x as f32, y as f32))) < limit
-        };
-        set += u32::from([2.5, 2.9].into_iter().any(like_dot));
-    }
-    set as usize * limits::LOOKED >= LOOKS
+    let seen = like_dot(plane, target, &Frame::new(outline_of(target), 0.0), &LOOKED_AT);
+    seen * limits::LOOKED >= LOOKS
 }
 
-/// Share of directions in which something of the dot's colour stands a ring's ground beyond its outer radius.
-fn ringed<T: Sample>(plane: &Plane<T>, target: &Target, frame: &Frame, outer: f64) -> f64 {
+/// Number of the [`LOOKS`] directions in which something of the dot's colour stands at one of these radii.
+fn like_dot<T: Sample>(plane: &Plane<T>, target: &Target, frame: &Frame, radii: &[f64]) -> usize {
     let dot = inside(plane, frame);
     let limit = (1.0 - limits::SET) * target.contrast.min(f64::from(T::MAX));
-    let like_dot = |direction: [f64; 2], radius: f64| {
-        let [x, y] = frame.place(outer + radius, direction);
+    let is_like = |direction: [f64; 2], radius: f64| {
+        let [x, y] = frame.place(radius, direction);
         plane.holds(x, y, 0.0) && sign(target) * (dot - f64::from(plane.sample(x as f32, y as f32))) < limit
     };
     let directions = (0..LOOKS).map(|k| (std::f64::consts::TAU * k as f64 / LOOKS as f64).sin_cos());
-    let seen = directions.filter(|(s, c)| BEYOND.into_iter().any(|radius| like_dot([*c, *s], radius))).count();
-    seen as f64 / LOOKS as f64
+    directions.filter(|(s, c)| radii.iter().any(|radius| is_like([*c, *s], *radius))).count()
 }
 
 impl Radial {
@@ -139,7 +128,13 @@ impl Radial {
         }
         polar.normalise(background, contrast);
         off.iter_mut().for_each(|level| *level /= contrast);
-        Some(Self { ringed: ringed(plane, target, frame, ring[1]), ..Self::separate(polar, ring, off) })
+        Some(Self::separate(polar, ring, off))
+    }
+
+    /// The same with what stands around the ring in this frame.
+    pub fn with_neighbours<T: Sample>(self, plane: &Plane<T>, target: &Target, frame: &Frame) -> Self {
+        let radii = BEYOND.map(|beyond| self.design[1] + beyond);
+        Self { ringed: like_dot(plane, target, frame, &radii) as f64 / LOOKS as f64, ..self }
     }
 
     /// Width of one of `n` sectors in the middle of the ring, in pixels.
