@@ -204,7 +204,7 @@ pub enum CodeNote {
     BetweenLevels,
     /// The sectors may be those of another family.
     OtherFamily,
-    /// Nothing speaks against it alone, but much is near its limit: so small a ring may be one by chance.
+    /// Nothing speaks against it alone, but much is near its limit, or it is small, blurred or a single arc: it may be one by chance.
     Uncertain,
     /// The ring is a code of several families.
     SeveralFamilies,

@@ -230,7 +230,7 @@ declare! { desk {
     code_disturbed: "something lies beside the ring or on it";
     code_between_levels: "a sector lies between light and dark";
     code_other_family: "its sectors may be those of another family";
-    code_uncertain: "its ring is too small or too blurred to be sure";
+    code_uncertain: "its ring may look like a code by chance: it is small, blurred or a single arc";
     code_several_families: "it is a code of several families";
     picture_sharpened(percent, radius): "sharpened by {percent} % (radius {radius} px)";
     picture_overexposed(percent): "{percent} % over-exposed";
