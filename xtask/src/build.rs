@@ -77,8 +77,8 @@ fn assemble_dist(profile: Profile) -> Outcome {
     match profile {
         Profile::Release => {
             links_no_engine()?;
-            desk(&folder)?;
-            bindings(profile, "sightline-worker", &folder, page::WORKER, false)?;
+            first(&parts::PAGE, "sightline-desk", &folder)?;
+            first(&parts::WORKER, "sightline-worker", &folder)?;
             bindings(profile, "sightline_codecs", &folder, page::CODECS, false)?;
             view3d(&folder)?;
             offline::icons(&folder)?;
@@ -92,11 +92,12 @@ fn assemble_dist(profile: Profile) -> Outcome {
     }
     page::assemble(&root(), &folder)?;
     offline::seal(&folder)?;
-    report("dist", &folder.join(format!("{}_bg.wasm", page::MODULE)));
-    for part in parts::later(&folder)? {
-        report("dist", &folder.join(part));
+    for cut in [parts::PAGE, parts::WORKER] {
+        report("dist", &folder.join(format!("{}_bg.wasm", cut.module)));
+        for part in cut.later(&folder)? {
+            report("dist", &folder.join(part));
+        }
     }
-    report("dist", &folder.join(format!("{}_bg.wasm", page::WORKER)));
     if profile == Profile::Release {
         report("dist", &folder.join(format!("{}_bg.wasm", page::CODECS)));
     }
@@ -268,10 +269,9 @@ fn view3d(dist: &Path) -> Outcome {
     run(program("npx", &arguments).current_dir(folder).stdout(std::io::stderr()))
 }
 
-/// The page's module as it is handed out, in parts.
-fn desk(folder: &Path) -> Outcome {
-    let module = linked(Profile::Release, "sightline-desk")?;
-    bind(&parts::cut(&module, folder, page::MODULE)?, folder, page::MODULE, false)
+/// A module as it is handed out: its parts, of which the first is bound.
+fn first(parts: &parts::Parts, module: &str, folder: &Path) -> Outcome {
+    bind(&parts.cut(&linked(Profile::Release, module)?, folder)?, folder, parts.module, false)
 }
 
 /// Where what is served is kept from one time to the next.
@@ -307,7 +307,7 @@ fn bind(wasm: &Path, folder: &Path, name: &str, typescript: bool) -> Outcome {
     let mut bindgen = Bindgen::new();
     bindgen.input_path(wasm).out_name(name).typescript(typescript).web(true).map_err(fault)?;
     // The parts share the table of functions, which the linker made.
-    bindgen.keep_lld_exports(name == page::MODULE);
+    bindgen.keep_lld_exports([page::MODULE, page::WORKER].contains(&name));
     // Names are not kept, so none needs to be made readable.
     bindgen.demangle(false).remove_name_section(true).remove_producers_section(true);
     bindgen.generate(folder).map_err(fault)

@@ -81,8 +81,8 @@ fn place(root: &Path, dist: &Path, asset: &Asset) -> Outcome<String> {
         "rust" => Ok(format!(
             "<link rel=\"modulepreload\" href=\"{MODULE}.js\">{}\
              <link rel=\"preload\" href=\"{MODULE}_bg.wasm\" as=\"fetch\" type=\"application/wasm\" crossorigin>",
-            if dist.join(parts::GLUE).exists() {
-                format!("<link rel=\"modulepreload\" href=\"{}\">", parts::GLUE)
+            if dist.join(parts::PAGE.glue).exists() {
+                format!("<link rel=\"modulepreload\" href=\"{}\">", parts::PAGE.glue)
             } else {
                 String::new()
             }

@@ -10,7 +10,7 @@ use sha2::{Digest, Sha256};
 use crate::Outcome;
 use crate::build::write;
 use crate::page::{CODECS, MODULE, VIEW3D, WORKER};
-use crate::parts;
+use crate::parts::{self, Parts};
 
 /// Name of the file in dist/.
 pub const NAME: &str = "sightline.html";
@@ -44,6 +44,11 @@ pub fn write_to(dist: &Path) -> Outcome {
         let bytes = fs::read(dist.join(name)).map_err(|error| format!("{name}: {error}"))?;
         Ok::<_, String>(BASE64_STANDARD.encode(bytes))
     };
+    // While the page is worked on, its modules are whole.
+    let glue_of = |module: &Parts| {
+        let glue = text(&format!("{}.js", module.module))?;
+        if dist.join(module.glue).exists() { with_parts(module, &glue, &text(module.glue)?) } else { inlined(&glue) }
+    };
     let page = text("index.html")?;
     let worker = {
         let start = text("worker.js")?;
@@ -64,12 +69,14 @@ pub fn write_to(dist: &Path) -> Outcome {
              return {{ default: () => __wbg_init({{ module_or_path: module() }}), unpack, trapped }};\n}};"
         );
         let start = start.replace(&import, "__wbg_init").replace(&codecs, "decoders()");
-        format!("{decoders}\n{}\n{start}", inlined(&text(&format!("{WORKER}.js"))?)?)
+        let own = |name: String| {
+            Ok(format!("'{name}': () => Uint8Array.from(atob('{}'), (c) => c.charCodeAt(0)),\n", coded(&name)?))
+        };
+        let own = parts::WORKER.later(dist)?.into_iter().map(own).collect::<Outcome<Vec<String>>>()?.concat();
+        format!("self.sightlineBytes = {{\n{own}}};\n{decoders}\n{}\n{start}", glue_of(&parts::WORKER)?)
     };
     let style = styles(&page)?.iter().map(|name| text(name)).collect::<Outcome<Vec<_>>>()?.concat();
-    let glue = text(&format!("{MODULE}.js"))?;
-    // While the page is worked on, its module is whole.
-    let desk = if dist.join(parts::GLUE).exists() { with_parts(&glue, &text(parts::GLUE)?)? } else { inlined(&glue)? };
+    let desk = glue_of(&parts::PAGE)?;
     let script = format!("{OPENING}{desk}\nawait __wbg_init({{ module_or_path: bytes('desk') }});\n");
     if script.contains("</script") || style.contains("</style") {
         return Err("a part of the page ends the element that it would be in".into());
@@ -85,7 +92,7 @@ pub fn write_to(dist: &Path) -> Outcome {
         let bytes = coded(&name)?;
         Ok(format!("<script type=\"text/plain\" data-part id=\"{name}\">{bytes}</script>\n"))
     };
-    let later = parts::later(dist)?.into_iter().map(part).collect::<Outcome<Vec<String>>>()?.concat();
+    let later = parts::PAGE.later(dist)?.into_iter().map(part).collect::<Outcome<Vec<String>>>()?.concat();
     let html = [
         "<!doctype html>\n<html lang=\"en\" data-theme=\"light\">\n<head>\n<meta charset=\"utf-8\">\n".into(),
         format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n"),
@@ -121,19 +128,19 @@ fn styles(page: &str) -> Outcome<Vec<String>> {
     if names.is_empty() { Err("index.html names no style sheet".into()) } else { Ok(names) }
 }
 
-/// The glue of the page's module with that of its parts, which refer to each other.
-fn with_parts(glue: &str, parts: &str) -> Outcome<String> {
-    let from = format!(" from \"./{}\"", parts::GLUE);
+/// The glue of a module's first part with that of the others, which refer to each other.
+fn with_parts(module: &Parts, glue: &str, parts: &str) -> Outcome<String> {
+    let from = format!(" from \"./{}\"", module.glue);
     let names =
         |line: &str| Some(line.strip_prefix("import * as ")?.trim_end_matches(';').strip_suffix(&from)?.to_owned());
     let names: Vec<String> = glue.lines().filter_map(names).collect();
     if names.is_empty() {
-        return Err(format!("the glue of the page's module does not import that of its parts{from}"));
+        return Err(format!("the glue of {} does not import that of its parts{from}", module.module));
     }
     let own = |line: &&str| !line.starts_with("import ") || !line.trim_end_matches(';').ends_with(&from);
     let desk = inlined(&glue.lines().filter(own).map(|line| format!("{line}\n")).collect::<String>())?;
     // It is part of the same script as what it imports.
-    let import = format!("import {{ initSync }} from \"./{MODULE}.js\";");
+    let import = format!("import {{ initSync }} from \"./{}.js\";", module.module);
     if !parts.contains(&import) {
         return Err(format!("the glue of the parts does not import what starts the module by {import}"));
     }
@@ -171,10 +178,10 @@ mod tests {
     fn glue_of_parts_is_there_before_that_of_the_module() {
         let glue = "import * as import1 from \"./desk-parts.js\"\nexport function initSync() {}\n";
         let parts = "import { initSync } from \"./desk.js\";\nexport const a = initSync();\nconst b = 1;\nexport const c = b;\n";
-        let all = with_parts(glue, parts).expect("glue");
+        let all = with_parts(&parts::PAGE, glue, parts).expect("glue");
         assert!(!all.contains("import ") && !all.contains("export "), "{all}");
         assert!(all.contains("return { a, c };") && all.contains("const import1 = sightlineParts;"), "{all}");
-        assert!(with_parts("", parts).is_err() && with_parts(glue, "").is_err());
+        assert!(with_parts(&parts::PAGE, "", parts).is_err() && with_parts(&parts::PAGE, glue, "").is_err());
     }
 
     #[test]

@@ -80,61 +80,96 @@ pub trait Service<T: Task> {
     fn serve(&self, task: T, files: Vec<Given>, progress: Progress<T::Progress>) -> Served<T::Answer>;
 }
 
-/// The tasks with their types, the request that carries any of them, and its way to the task's own service.
+/// The tasks with their types, by the part of the workers' module that does them; the request that carries any of them; and the way of
+/// each to its own service.
 macro_rules! tasks {
-    ($($(#[$doc:meta])* $task:ident $fields:tt => $progress:ty, $answer:ty;)*) => {
+    ($(
+        $(#[$about:meta])*
+        $part:ident { $($(#[$doc:meta])* $task:ident $fields:tt => $progress:ty, $answer:ty;)* }
+    )*) => {
         $(
-            $(#[$doc])*
-            #[derive(Clone, Debug, Serialize, Deserialize)]
-            pub struct $task $fields
+            $(
+                $(#[$doc])*
+                #[derive(Clone, Debug, Serialize, Deserialize)]
+                pub struct $task $fields
 
-            impl Task for $task {
-                type Progress = $progress;
-                type Answer = $answer;
+                impl Task for $task {
+                    type Progress = $progress;
+                    type Answer = $answer;
+                }
+
+                impl From<$task> for Request {
+                    fn from(task: $task) -> Self {
+                        Self::$part($part::$task(Box::new(task)))
+                    }
+                }
+            )*
+
+            $(#[$about])*
+            #[derive(Clone, Debug, Serialize, Deserialize)]
+            #[expect(missing_docs, reason = "each is the task of its name")]
+            pub enum $part {
+                $($task(Box<$task>),)*
             }
 
-            impl From<$task> for Request {
-                fn from(task: $task) -> Self {
-                    Self::$task(Box::new(task))
+            impl $part {
+                /// By which a worker knows whose request it is before it is read.
+                pub const NAME: &str = stringify!($part);
+
+                /// Has the task done; `say` gets each word on it, written, with the bytes that belong to it.
+                pub fn serve<S>(self, by: &S, files: Vec<Given>, say: Say)
+                where
+                    $(S: Service<$task>,)*
+                {
+                    match self {
+                        $(Self::$task(task) => serve(by, *task, files, say),)*
+                    }
                 }
             }
         )*
 
         /// Any task.
-        #[derive(Clone, Debug, Serialize, Deserialize)]
-        #[expect(missing_docs, reason = "each is the task of its name")]
+        #[derive(Clone, Debug)]
+        #[expect(missing_docs, reason = "each is a part of the tasks")]
         pub enum Request {
-            $($task(Box<$task>),)*
+            $($part($part),)*
         }
 
         impl Request {
-            /// Has the task done; `say` gets each word on it, written, with the bytes that belong to it.
-            pub fn serve<S>(self, by: &S, files: Vec<Given>, say: Say)
-            where
-                $(S: Service<$task>,)*
-            {
+            /// The name of its part, and the request as bytes.
+            pub fn written(&self) -> (&'static str, Vec<u8>) {
                 match self {
-                    $(Self::$task(task) => serve(by, *task, files, say),)*
+                    $(Self::$part(request) => ($part::NAME, to_bytes(request)),)*
                 }
-            }
-
-            /// Whether its files are read in pieces: they may be too large to be held, or little of them is wanted.
-            pub fn streams(&self) -> bool {
-                matches!(self, Self::Pack(_) | Self::Unpack(_) | Self::Glance(_))
-            }
-
-            /// Whether the bytes of its answer are pictures of tiles ([`Pyramid`]): the worker makes of them what a canvas draws, for
-            /// that holds up whoever does it.
-            pub fn draws(&self) -> bool {
-                matches!(self, Self::ShowPhoto(_))
-            }
-
-            /// Says that a file of the task could not be read.
-            pub fn unreadable(&self, detail: String) -> Vec<u8> {
-                to_bytes(&Said::<Nothing, Nothing>::Unreadable(detail))
             }
         }
     };
+}
+
+impl Request {
+    /// Whether its files are read in pieces: they may be too large to be held, or little of them is wanted.
+    pub fn streams(&self) -> bool {
+        matches!(self, Self::Photos(Photos::Glance(_)) | Self::Networks(Networks::Pack(_) | Networks::Unpack(_)))
+    }
+
+    /// Whether it takes what no other photo takes: it works on a document, or makes a whole photo ready for the screen.
+    pub fn is_apart(&self) -> bool {
+        let document = matches!(self, Self::Networks(Networks::Pack(_) | Networks::Unpack(_) | Networks::Adjust(_)));
+        document || matches!(self, Self::Photos(Photos::ShowPhoto(_)))
+    }
+}
+
+impl Photos {
+    /// Whether the bytes of its answer are pictures of tiles ([`Pyramid`]): the worker makes of them what a canvas draws, for
+    /// that holds up whoever does it.
+    pub fn draws(&self) -> bool {
+        matches!(self, Self::ShowPhoto(_))
+    }
+}
+
+/// The word that a file of a task could not be read.
+pub fn unreadable(detail: String) -> Vec<u8> {
+    to_bytes(&Said::<Nothing, Nothing>::Unreadable(detail))
 }
 
 fn serve<T: Task>(by: &impl Service<T>, task: T, files: Vec<Given>, say: Say) {
@@ -175,117 +210,124 @@ pub fn from_text<M: DeserializeOwned>(text: &str) -> std::result::Result<M, Stri
 }
 
 tasks! {
-    /// Find the picture that a photo's file carries of itself, without reading the file; its bytes come along.
-    Glance { /** Longest side of the small picture. */ pub max_side: u32 } => Nothing, Option<Glanced>;
-    /// Look into a photo: size, EXIF, a small picture, whose bytes come along.
-    Open { /** Longest side of the small picture. */ pub max_side: u32 } => Nothing, Opened;
-    /// Decode a photo for the screen; the bytes of its tiles come along, level by level.
-    ShowPhoto {} => Nothing, Pyramid;
-    /// The samples of a rectangle of a photo as they are stored.
-    ShowValues {
-        /** Of the file. */ pub digest: u64,
-        /** Left, top, columns and rows in pixels. */ pub place: [u32; 4],
-    } => Nothing, Values;
-    /// Find the targets of a photo.
-    Detect { /** How. */ pub options: DetectOptions } => Nothing, Detection;
-    /// Measure the targets of a photo in every colour.
-    MeasureColours { /** How. */ pub options: DetectOptions } => Nothing, ColoursApart;
-    /// What a camera adds to its parameters for red and blue, from photos of it whose colours were measured apart.
-    DifferColours { /** Whose. */ pub camera: Camera, /** Of its photos. */ pub measured: Vec<PhotoColours> } => Nothing, BTreeMap<LensColour, ColourDifferences>;
-    /// Measure at one place of a photo; by the file's digest a worker knows the photos that it decoded last.
-    Measure {
-        /** Of the file. */ pub digest: u64,
-        /** Pixels to the right. */ pub u: f64,
-        /** Pixels down. */ pub v: f64,
-        /** How. */ pub options: DetectOptions,
-    } => Nothing, Option<Target>;
-    /// Orient what is not oriented and adjust; progress per iteration. The project's text is given as files, in pieces; those of what is oriented and
-    /// of the adjustment come along in pieces.
-    Adjust { /** The project, a file each. */ pub project: Vec<Piece>, /** How. */ pub options: AdjustOptions } => Adjusting, Adjusted;
-    /// Measure the features of a project at the values that an adjustment with these options gave it.
-    MeasureFeatures { /** With the adjusted values. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Measured;
-    /// Name uncoded targets by the geometry of the photos, which are oriented and adjusted first where they are not.
-    Match {
-        /** Of the photos. */ pub project: Project,
-        /** Of each photo. */ pub targets: Vec<PhotoTargets>,
-    } => Vec<Note>, Matching;
-    /// Find where the photos of a project stand, as far as its measurements tell.
-    Situate { /** Measurements and what is known. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Situated;
-    /// Predict where a point should be in every oriented photo.
-    Predict {
-        /** Cameras, oriented photos, the point and its observations. */ pub project: Project,
-        /** Standard errors of the photos. */ pub adjustment: Option<Adjustment>,
-        /** Which. */ pub point: String,
-        /** Of the prediction. */ pub options: PredictOptions,
-    } => Nothing, Prediction;
-    /// Cut a part out of a photo, for the screen; its bytes come along.
-    ShowPart {
-        /** Of the file. */ pub digest: u64,
-        /** First column. */ pub left: u32,
-        /** First row. */ pub top: u32,
-        /** Columns and rows. */ pub side: u32,
-    } => Nothing, Shown;
-    /// Write a project file with the photos that come along: what stands before, between and after them comes back.
-    Pack { /** All but photos. */ pub content: Content, /** Of the photos. */ pub names: Vec<String> } => Nothing, ();
-    /// Read a project file; the bytes of photos that were packed come along.
-    Unpack {} => Nothing, Unpacked;
-    /// Write a foreign format; the files' bytes come along, in the order of their names.
-    Export {
-        /** Its name. */ pub format: String,
-        /** What. */ pub project: Project,
-        /** Of the project, where there is one. */ pub adjustment: Option<Adjustment>,
-    } => Nothing, Vec<String>;
-    /// Make the report of a project.
-    MakeReport {
-        /** Adjusted, with what its report says. */ pub project: Project,
-        /** Its result. */ pub adjustment: Adjustment,
-    } => Nothing, ReportMade;
-    /// Draw the plots of a result.
-    MakePlots {
-        /** Adjusted, with the language of its report. */ pub project: Project,
-        /** Its result. */ pub adjustment: Adjustment,
-        /** What the result before was made from, and that result, where there was one. */ pub before: Option<(Project, Adjustment)>,
-    } => Nothing, Vec<Plot>;
-    /// Set a result beside the one before.
-    CompareResults {
-        /** What the earlier result was made from. */ pub before: Project,
-        /** The earlier result. */ pub earlier: Adjustment,
-        /** What the later one was made from. */ pub after: Project,
-        /** The later result. */ pub later: Adjustment,
-    } => Nothing, Comparison;
-    /// Run one of the papers' experiments; progress in steps done of all.
-    RunExperiment {
-        /** Which. */ pub name: String,
-        /** Its inputs. */ pub options: ExperimentOptions,
-    } => (usize, usize), Experiment;
-    /// Write an experiment's tables: the file of this name, or all of them in an archive.
-    ExportExperiment {
-        /** What was run. */ pub experiment: Experiment,
-        /** One file. */ pub only: Option<String>,
-    } => Nothing, ();
-    /// A plan to begin with.
-    BeginPlan { /** Of what. */ pub of: PlanOf } => Nothing, Plan;
-    /// Predict what a plan gives, and the other plans beside it.
-    PredictPlan { /** The plan. */ pub plan: Plan } => Nothing, Vec<PlanPrediction>;
-    /// The best places for the next photo; progress in places tried of all.
-    SuggestPhoto { /** Of the plan. */ pub plan: Plan, /** The best by what. */ pub criterion: Criterion } => (usize, usize), Vec<Suggested>;
-    /// Make a plan that reaches what is wanted.
-    MakePlan { /** What is wanted of what. */ pub plan: Plan, /** How. */ pub options: MakeOptions } => (usize, usize), Made;
-    /// Draw sheets of targets to print.
-    DrawSheets { /** What. */ pub options: SheetOptions, /** The sheet that is shown, from 0. */ pub sheet: usize } => Nothing, Drawn;
-    /// Write sheets: as a PDF, one as SVG, or the lists that go with them; the files' bytes come along.
-    WriteSheets {
-        /** What. */ pub options: SheetOptions,
-        /** As a PDF. */ pub pdf: bool,
-        /** This sheet as SVG. */ pub svg: Option<usize>,
-    } => Nothing, Vec<String>;
-    /// The sample project, without its photos.
-    Sample {} => Nothing, Project;
-    /// Render a photo of the sample project and find its targets; its file and its small picture come along.
-    SamplePhoto {
-        /** Of the file. */ pub name: String,
-        /** Longest side of the small picture. */ pub max_side: u32,
-    } => Nothing, SamplePhotoMade;
+    /// What is done with a photo.
+    Photos {
+        /// Find the picture that a photo's file carries of itself, without reading the file; its bytes come along.
+        Glance { /** Longest side of the small picture. */ pub max_side: u32 } => Nothing, Option<Glanced>;
+        /// Look into a photo: size, EXIF, a small picture, whose bytes come along.
+        Open { /** Longest side of the small picture. */ pub max_side: u32 } => Nothing, Opened;
+        /// Decode a photo for the screen; the bytes of its tiles come along, level by level.
+        ShowPhoto {} => Nothing, Pyramid;
+        /// The samples of a rectangle of a photo as they are stored.
+        ShowValues {
+            /** Of the file. */ pub digest: u64,
+            /** Left, top, columns and rows in pixels. */ pub place: [u32; 4],
+        } => Nothing, Values;
+        /// Find the targets of a photo.
+        Detect { /** How. */ pub options: DetectOptions } => Nothing, Detection;
+        /// Measure the targets of a photo in every colour.
+        MeasureColours { /** How. */ pub options: DetectOptions } => Nothing, ColoursApart;
+        /// Measure at one place of a photo; by the file's digest a worker knows the photos that it decoded last.
+        Measure {
+            /** Of the file. */ pub digest: u64,
+            /** Pixels to the right. */ pub u: f64,
+            /** Pixels down. */ pub v: f64,
+            /** How. */ pub options: DetectOptions,
+        } => Nothing, Option<Target>;
+        /// Cut a part out of a photo, for the screen; its bytes come along.
+        ShowPart {
+            /** Of the file. */ pub digest: u64,
+            /** First column. */ pub left: u32,
+            /** First row. */ pub top: u32,
+            /** Columns and rows. */ pub side: u32,
+        } => Nothing, Shown;
+    }
+
+    /// What is done with what photos gave, and all else: few of a session, and of most of the engine.
+    Networks {
+        /// What a camera adds to its parameters for red and blue, from photos of it whose colours were measured apart.
+        DifferColours { /** Whose. */ pub camera: Camera, /** Of its photos. */ pub measured: Vec<PhotoColours> } => Nothing, BTreeMap<LensColour, ColourDifferences>;
+        /// Orient what is not oriented and adjust; progress per iteration. The project's text is given as files, in pieces; those of what is oriented and
+        /// of the adjustment come along in pieces.
+        Adjust { /** The project, a file each. */ pub project: Vec<Piece>, /** How. */ pub options: AdjustOptions } => Adjusting, Adjusted;
+        /// Measure the features of a project at the values that an adjustment with these options gave it.
+        MeasureFeatures { /** With the adjusted values. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Measured;
+        /// Name uncoded targets by the geometry of the photos, which are oriented and adjusted first where they are not.
+        Match {
+            /** Of the photos. */ pub project: Project,
+            /** Of each photo. */ pub targets: Vec<PhotoTargets>,
+        } => Vec<Note>, Matching;
+        /// Find where the photos of a project stand, as far as its measurements tell.
+        Situate { /** Measurements and what is known. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Situated;
+        /// Predict where a point should be in every oriented photo.
+        Predict {
+            /** Cameras, oriented photos, the point and its observations. */ pub project: Project,
+            /** Standard errors of the photos. */ pub adjustment: Option<Adjustment>,
+            /** Which. */ pub point: String,
+            /** Of the prediction. */ pub options: PredictOptions,
+        } => Nothing, Prediction;
+        /// Write a project file with the photos that come along: what stands before, between and after them comes back.
+        Pack { /** All but photos. */ pub content: Content, /** Of the photos. */ pub names: Vec<String> } => Nothing, ();
+        /// Read a project file; the bytes of photos that were packed come along.
+        Unpack {} => Nothing, Unpacked;
+        /// Write a foreign format; the files' bytes come along, in the order of their names.
+        Export {
+            /** Its name. */ pub format: String,
+            /** What. */ pub project: Project,
+            /** Of the project, where there is one. */ pub adjustment: Option<Adjustment>,
+        } => Nothing, Vec<String>;
+        /// Make the report of a project.
+        MakeReport {
+            /** Adjusted, with what its report says. */ pub project: Project,
+            /** Its result. */ pub adjustment: Adjustment,
+        } => Nothing, ReportMade;
+        /// Draw the plots of a result.
+        MakePlots {
+            /** Adjusted, with the language of its report. */ pub project: Project,
+            /** Its result. */ pub adjustment: Adjustment,
+            /** What the result before was made from, and that result, where there was one. */ pub before: Option<(Project, Adjustment)>,
+        } => Nothing, Vec<Plot>;
+        /// Set a result beside the one before.
+        CompareResults {
+            /** What the earlier result was made from. */ pub before: Project,
+            /** The earlier result. */ pub earlier: Adjustment,
+            /** What the later one was made from. */ pub after: Project,
+            /** The later result. */ pub later: Adjustment,
+        } => Nothing, Comparison;
+        /// Run one of the papers' experiments; progress in steps done of all.
+        RunExperiment {
+            /** Which. */ pub name: String,
+            /** Its inputs. */ pub options: ExperimentOptions,
+        } => (usize, usize), Experiment;
+        /// Write an experiment's tables: the file of this name, or all of them in an archive.
+        ExportExperiment {
+            /** What was run. */ pub experiment: Experiment,
+            /** One file. */ pub only: Option<String>,
+        } => Nothing, ();
+        /// A plan to begin with.
+        BeginPlan { /** Of what. */ pub of: PlanOf } => Nothing, Plan;
+        /// Predict what a plan gives, and the other plans beside it.
+        PredictPlan { /** The plan. */ pub plan: Plan } => Nothing, Vec<PlanPrediction>;
+        /// The best places for the next photo; progress in places tried of all.
+        SuggestPhoto { /** Of the plan. */ pub plan: Plan, /** The best by what. */ pub criterion: Criterion } => (usize, usize), Vec<Suggested>;
+        /// Make a plan that reaches what is wanted.
+        MakePlan { /** What is wanted of what. */ pub plan: Plan, /** How. */ pub options: MakeOptions } => (usize, usize), Made;
+        /// Draw sheets of targets to print.
+        DrawSheets { /** What. */ pub options: SheetOptions, /** The sheet that is shown, from 0. */ pub sheet: usize } => Nothing, Drawn;
+        /// Write sheets: as a PDF, one as SVG, or the lists that go with them; the files' bytes come along.
+        WriteSheets {
+            /** What. */ pub options: SheetOptions,
+            /** As a PDF. */ pub pdf: bool,
+            /** This sheet as SVG. */ pub svg: Option<usize>,
+        } => Nothing, Vec<String>;
+        /// The sample project, without its photos.
+        Sample {} => Nothing, Project;
+        /// Render a photo of the sample project and find its targets; its file and its small picture come along.
+        SamplePhoto {
+            /** Of the file. */ pub name: String,
+            /** Longest side of the small picture. */ pub max_side: u32,
+        } => Nothing, SamplePhotoMade;
+    }
 }
 
 /// A photo that is not read yet.
@@ -484,14 +526,15 @@ mod tests {
     fn requests_come_back_as_they_went() {
         let request =
             Request::from(Measure { digest: u64::MAX, u: 0.1 + 0.2, v: 1.0 / 3.0, options: DetectOptions::default() });
-        let back = from_text::<Request>(&to_text(&request)).expect("a request");
-        let Request::Measure(task) = back else { panic!("another task") };
+        let (part, bytes) = request.written();
+        assert_eq!(part, Photos::NAME);
+        let Photos::Measure(task) = from_bytes::<Photos>(&bytes).expect("a request") else { panic!("another task") };
         assert_eq!((task.digest, task.u, task.v), (u64::MAX, 0.1 + 0.2, 1.0 / 3.0));
     }
 
     #[test]
     fn that_a_file_is_unreadable_is_understood_by_every_task() {
-        let said = Request::from(ShowPhoto {}).unreadable("gone".into());
+        let said = unreadable("gone".into());
         assert!(matches!(from_bytes::<SaidTo<ShowPhoto>>(&said), Ok(Said::Unreadable(detail)) if detail == "gone"));
         assert!(matches!(from_bytes::<SaidTo<Adjust>>(&said), Ok(Said::Unreadable(_))));
     }

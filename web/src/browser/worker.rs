@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use js_sys::{Array, Object, Promise, Reflect, Uint8Array, WebAssembly};
-use sightline_protocol::{Request, to_bytes};
+use sightline_protocol::Request;
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, future_to_promise, spawn_local};
 use web_sys::{ErrorEvent, MessageEvent, Response, WorkerOptions, WorkerType};
@@ -91,8 +91,11 @@ impl Worker {
     /// Sends a request with the files it works on; the worker reads them itself.
     pub fn post(&self, request: &Request, files: &[Blob]) -> Result<(), String> {
         let message = Object::new();
-        let body = Uint8Array::from(&to_bytes(request)[..]);
+        let (part, body) = request.written();
+        let body = Uint8Array::from(&body[..]);
+        set(&message, "part", &part.into());
         set(&message, "body", &body);
+        set(&message, "streams", &request.streams().into());
         set(&message, "files", &files.iter().map(Blob::as_js).collect::<Array>());
         self.inner.post_message_with_transfer(&message, &Array::of1(&body.buffer())).map_err(|e| describe(&e))
     }

@@ -78,10 +78,9 @@ struct Slot {
 }
 
 impl Job {
-    /// Whether it takes what no other photo takes: it works on a document, or makes a whole photo ready for the screen.
+    /// Whether it takes what no other photo takes.
     fn is_apart(&self) -> bool {
-        let document = matches!(self.request, Request::Pack(_) | Request::Unpack(_) | Request::Adjust(_));
-        self.files.is_empty() || document || matches!(self.request, Request::ShowPhoto(_))
+        self.files.is_empty() || self.request.is_apart()
     }
 }
 

@@ -6,9 +6,10 @@ use std::io::{self, Read, Seek, SeekFrom};
 use js_sys::{Array, Function, Object, Promise, Reflect, Uint8Array, Uint8ClampedArray, Uint16Array};
 use sightline::decode;
 use sightline::image::Samples;
-use sightline_protocol::{Given, Request, Said, SaidTo, ShowPhoto, Stream, from_bytes};
+use sightline_protocol::{Given, Networks, Photos, Said, SaidTo, ShowPhoto, Stream, from_bytes, unreadable};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::JsFuture;
+use wasm_split_helpers::SplitLoaderError;
 use web_sys::{
     Blob, DedicatedWorkerGlobalScope, FileReaderSync, ImageBitmap, ImageData, MessageEvent, ReadableStreamByobReader,
 };
@@ -31,19 +32,31 @@ pub fn serve_requests() {
 async fn serve(message: &JsValue) {
     let field = |name: &str| Reflect::get(message, &name.into()).unwrap_or_default();
     let body = field("body").dyn_into::<Uint8Array>().map(|body| body.to_vec()).unwrap_or_default();
-    let request = match from_bytes::<Request>(&body) {
-        Ok(request) => request,
-        Err(detail) => return crashed(&detail),
-    };
     let mut files = Vec::new();
     for file in Array::from(&field("files")).iter() {
-        let given = if request.streams() { stream(&file) } else { read(&file).await.map(Given::Whole) };
+        let streams = field("streams").is_truthy();
+        let given = if streams { stream(&file) } else { read(&file).await.map(Given::Whole) };
         match given {
             Ok(given) => files.push(given),
-            Err(detail) => return say(request.unreadable(detail), Vec::new()),
+            Err(detail) => return say(unreadable(detail), Vec::new()),
         }
     }
-    let glances = matches!(request, Request::Glance(_));
+    let served = match field("part").as_string().as_deref() {
+        Some(Photos::NAME) => serve_photos(&body, files).await,
+        Some(Networks::NAME) => match serve_networks(body, files).await {
+            Ok(served) => served,
+            Err(_) => Err("a part of the engine could not be loaded".into()),
+        },
+        part => Err(format!("{part:?} is no part of the engine")),
+    };
+    if let Err(detail) = served {
+        crashed(&detail);
+    }
+}
+
+async fn serve_photos(body: &[u8], mut files: Vec<Given>) -> Result<(), String> {
+    let request = from_bytes::<Photos>(body)?;
+    let glances = matches!(request, Photos::Glance(_));
     let packed = |file: &mut Given| match file {
         Given::Whole(bytes) => decode::packed(bytes).is_some(),
         Given::Stream(stream) => glances && is_heic(stream),
@@ -52,7 +65,8 @@ async fn serve(message: &JsValue) {
         load_codecs().await;
     }
     if !request.draws() {
-        return request.serve(&Engine, files, &mut say);
+        request.serve(&Engine, files, &mut say);
+        return Ok(());
     }
     let mut words = Vec::new();
     request.serve(&Engine, files, &mut |body, bytes| words.push((body, bytes)));
@@ -70,6 +84,24 @@ async fn serve(message: &JsValue) {
             _ => say(body, bytes),
         }
     }
+    Ok(())
+}
+
+/// In a part of the module that the first such task loads, where the module is handed out; it fails where that part does not come.
+#[cfg(in_parts)]
+#[wasm_split_helpers::wasm_split(networks, fallible)]
+fn serve_networks(body: Vec<u8>, files: Vec<Given>) -> Result<Result<(), String>, SplitLoaderError> {
+    Ok(serve_networks_here(&body, files))
+}
+
+#[cfg(not(in_parts))]
+async fn serve_networks(body: Vec<u8>, files: Vec<Given>) -> Result<Result<(), String>, SplitLoaderError> {
+    Ok(serve_networks_here(&body, files))
+}
+
+fn serve_networks_here(body: &[u8], files: Vec<Given>) -> Result<(), String> {
+    from_bytes::<Networks>(body)?.serve(&Engine, files, &mut say);
+    Ok(())
 }
 
 /// Whether what it carries of itself is packed as the photo is.
