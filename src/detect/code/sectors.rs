@@ -10,13 +10,16 @@
 //! neighbours' blur, together with its standard error; narrow sectors of a tilted ring could not be told apart otherwise. The phase
 //! starts at that of the n-th harmonic of the edges, Σ |dy|² exp(i n t), and is refined where the binary model misfits least.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix3, Vector3};
 
 use super::polar::{Polar, step};
-use crate::detect::acceptance::code::{ENDS, ENDS_RMS, SAME, STANDS_OUT, UNEVEN};
+use crate::detect::acceptance::code::{ENDS, ENDS_RMS, MISFIT, SAME, STANDS_OUT, UNEVEN};
 
 /// Steps of the phase, as shares of a sector: a coarse and a fine search.
 const PHASES: [&[f64]; 2] = [&[-0.16, -0.08, 0.0, 0.08, 0.16], &[-0.04, -0.02, 0.02, 0.04]];
+
+/// Misfit, over what a code may have, from which a coarse phase is not refined.
+const HOPELESS: f64 = 2.0;
 
 /// Sectors whose blur reaches a direction, on either side and with its own.
 const NEAR: usize = 3;
@@ -54,19 +57,23 @@ pub(super) struct Division {
 pub(super) fn divide(polar: &Polar, levels: &[f64], radius: f64, n: u32) -> Option<Division> {
     let sector = std::f64::consts::TAU / f64::from(n);
     let mut phase = first_phase(polar, levels, n);
-    let mut best: Option<Division> = None;
+    let mut best: Option<Tried> = None;
     for steps in PHASES {
+        // what is so far from a ring of sectors does not become one by a fine step
+        if best.as_ref().is_some_and(|best| best.misfit > HOPELESS * MISFIT) {
+            break;
+        }
         let around = phase;
         for share in steps {
-            let tried = around + share * sector;
-            let Some(division) = at_phase(polar, levels, radius, n, tried) else { continue };
-            if best.as_ref().is_none_or(|best| division.misfit < best.misfit) {
-                best = Some(division);
-                phase = tried;
+            let phase_tried = around + share * sector;
+            let Some(tried) = at_phase(polar, levels, radius, n, phase_tried) else { continue };
+            if best.as_ref().is_none_or(|best| tried.misfit < best.misfit) {
+                best = Some(tried);
+                phase = phase_tried;
             }
         }
     }
-    best
+    best.map(|best| best.finish(polar, levels))
 }
 
 /// Phase of the n-th harmonic of the edges.
@@ -85,27 +92,30 @@ fn first_phase(polar: &Polar, levels: &[f64], n: u32) -> f64 {
     sums[1].atan2(sums[0]) / f64::from(n)
 }
 
-fn at_phase(polar: &Polar, levels: &[f64], radius: f64, n: u32, phase: f64) -> Option<Division> {
+/// A division of which only the misfit was wanted so far.
+struct Tried {
+    found: DVector<f64>,
+    bits: u32,
+    low: f64,
+    high: f64,
+    misfit: f64,
+    phase: f64,
+    shares: Vec<Shares>,
+    factor: Cholesky<f64, Dyn>,
+}
+
+fn at_phase(polar: &Polar, levels: &[f64], radius: f64, n: u32, phase: f64) -> Option<Tried> {
     let count = n as usize;
     let shares = shares(polar, radius, n, phase);
     let weights = &polar.arc;
-    let mut normal = DMatrix::<f64>::zeros(count, count);
-    let mut right = DVector::<f64>::zeros(count);
-    for ((row, level), weight) in shares.iter().zip(levels).zip(weights) {
-        for (k, share) in row.of(count) {
-            right[k] += weight * share * level;
-            for (l, other) in row.of(count) {
-                normal[(k, l)] += weight * share * other;
-            }
-        }
-    }
+    let (mut normal, mut right) = normal_equations(&shares, levels, weights, count);
     let ridge = RIDGE * weights.iter().sum::<f64>() / f64::from(n);
     for k in 0..count {
         normal[(k, k)] += ridge;
         right[k] += 0.5 * ridge;
     }
-    let inverse: DMatrix<f64> = normal.cholesky()?.inverse();
-    let found: DVector<f64> = &inverse * right;
+    let factor = normal.cholesky()?;
+    let found = factor.solve(&right);
     let top = found.max();
     let half = top / 2.0;
     let mean = |set: bool| {
@@ -119,17 +129,59 @@ fn at_phase(polar: &Polar, levels: &[f64], radius: f64, n: u32, phase: f64) -> O
     let middle = (low + high) / 2.0;
     let bits = found.iter().fold(0u32, |bits, x| bits << 1 | u32::from(*x > middle));
     let binary = DVector::from_iterator(count, found.iter().map(|x| if *x > middle { high } else { low }));
-    let rest = |model: &DVector<f64>| {
-        let explained = |row: &Shares| row.of(count).map(|(k, share)| share * model[k]).sum::<f64>();
-        levels.iter().zip(&shares).zip(weights).map(|((y, row), w)| w * (y - explained(row)).powi(2)).sum::<f64>()
-            / weights.iter().sum::<f64>()
-    };
-    let misfit = rest(&binary).sqrt() / (high - low);
-    // what the free levels leave is noise, of so many independent places
-    let mean_weight = weights.iter().sum::<f64>() / weights.len() as f64;
-    let variance = rest(&found) * mean_weight * levels.len() as f64 / (levels.len() as f64 - f64::from(n)).max(1.0);
-    let sigmas: Vec<f64> = (0..count).map(|k| (variance * inverse[(k, k)]).sqrt()).collect();
-    Some(Division { levels: found.iter().copied().collect(), sigmas, bits, low, high, misfit, phase, shares, inverse })
+    let misfit = rest(&binary, &shares, levels, weights).sqrt() / (high - low);
+    Some(Tried { found, bits, low, high, misfit, phase, shares, factor })
+}
+
+/// Weighted products of the shares with each other and with the levels.
+fn normal_equations(shares: &[Shares], levels: &[f64], weights: &[f64], count: usize) -> (DMatrix<f64>, DVector<f64>) {
+    let mut normal = DMatrix::<f64>::zeros(count, count);
+    let mut right = DVector::<f64>::zeros(count);
+    // one direction after the other sees the same sectors: their products are summed before they are put where they belong
+    let mut from = 0;
+    for rows in shares.chunk_by(|a, b| a.first == b.first) {
+        let mut products = [[0.0; 2 * NEAR]; 2 * NEAR];
+        let mut with_levels = [0.0; 2 * NEAR];
+        for ((row, level), weight) in rows.iter().zip(&levels[from..]).zip(&weights[from..]) {
+            for k in 0..2 * NEAR {
+                let share = weight * row.shares[k];
+                with_levels[k] += share * level;
+                for l in 0..2 * NEAR {
+                    products[k][l] += share * row.shares[l];
+                }
+            }
+        }
+        let sector = |k: usize| (rows[0].first + k) % count;
+        for k in 0..2 * NEAR {
+            right[sector(k)] += with_levels[k];
+            for l in 0..2 * NEAR {
+                normal[(sector(k), sector(l))] += products[k][l];
+            }
+        }
+        from += rows.len();
+    }
+    (normal, right)
+}
+
+/// Weighted mean square of what these levels of the sectors leave.
+fn rest(model: &DVector<f64>, shares: &[Shares], levels: &[f64], weights: &[f64]) -> f64 {
+    let explained = |row: &Shares| row.of(model.len()).map(|(k, share)| share * model[k]).sum::<f64>();
+    let squares = levels.iter().zip(shares).zip(weights).map(|((y, row), w)| w * (y - explained(row)).powi(2));
+    squares.sum::<f64>() / weights.iter().sum::<f64>()
+}
+
+impl Tried {
+    fn finish(self, polar: &Polar, levels: &[f64]) -> Division {
+        let Self { found, bits, low, high, misfit, phase, shares, factor } = self;
+        let (count, weights) = (found.len(), &polar.arc);
+        let inverse = factor.inverse();
+        // what the free levels leave is noise, of so many independent places
+        let mean_weight = weights.iter().sum::<f64>() / weights.len() as f64;
+        let places = levels.len() as f64;
+        let variance = rest(&found, &shares, levels, weights) * mean_weight * places / (places - count as f64).max(1.0);
+        let sigmas = (0..count).map(|k| (variance * inverse[(k, k)]).sqrt()).collect();
+        Division { levels: found.iter().copied().collect(), sigmas, bits, low, high, misfit, phase, shares, inverse }
+    }
 }
 
 /// How much of each sector reaches a direction: of the sectors from `first` on.
