@@ -387,6 +387,8 @@ pub(crate) mod code {
         /// Levels of set and unset sectors.
         HIGH: std::ops::Range<f64> = 0.6..1.5, Judged "print, light and blur of thin rings in `codes`";
         LOW: f64 = 0.25, Judged "as above";
+        /// Share of the least level of set sectors that some direction of a ring shows, whatever blur leaves.
+        FAINT: f64 = 0.4, Derived "a lone sector shows as much of its level where it is 1.05 blurs wide";
         /// Most by which light changes the level of set sectors, as a share of the step between the levels.
         UNEVEN: f64 = 0.35, Judged "light that changes by a ninth from one radius to the next, at the ring's three";
         /// Most that may stand in the gap and outside of a set sector, and by which the halves of a sector may differ.

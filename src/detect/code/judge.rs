@@ -146,6 +146,9 @@ fn rivalry(family: Family, division: &Division, tones: &[Tone]) -> f64 {
 
 /// What a ring is as a code of a family, given its divisions into the sectors of every family of its design.
 pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
+    if tones.iter().all(|(radial, _)| radial.is_faint()) {
+        return Reading::Plain;
+    }
     let Some((radial, division)) = best(tones, family.bits()) else { return Reading::Plain };
     if !limits::HIGH.contains(&division.high) || division.low.abs() > limits::LOW {
         return Reading::Plain;

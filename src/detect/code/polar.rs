@@ -150,6 +150,17 @@ impl Polar {
         let scale = self.across[direction] / self.blur;
         step((radius - from) * scale) - step((radius - to) * scale)
     }
+
+    /// The shares of what lies within the first of these radii, and between each and the next.
+    #[inline]
+    pub fn bands<const N: usize>(&self, radius: f64, rims: [f64; N], direction: usize) -> [f64; N] {
+        let scale = self.across[direction] / self.blur;
+        let mut before = 1.0;
+        rims.map(|rim| {
+            let beyond = step((radius - rim) * scale);
+            std::mem::replace(&mut before, beyond) - beyond
+        })
+    }
 }
 
 /// Φ, from a table: to 2 in 10 000.

@@ -119,8 +119,9 @@ impl Radial {
         let dot = inside(plane, frame);
         let mut contrast = sign(target) * target.contrast;
         let (mut background, mut off) = ([0.0; 3], Vec::new());
+        let shares = shares(&polar, ring);
         for _ in 0..2 {
-            (background, off) = ground(&polar, contrast, ring)?;
+            (background, off) = ground(&polar, contrast, ring, &shares)?;
             contrast = (dot - background[0]) / seen_inside(&polar);
         }
         if !(contrast * sign(target) > limits::CONTRAST) {
@@ -137,6 +138,11 @@ impl Radial {
         Self { ringed: like_dot(plane, target, frame, &radii) as f64 / LOOKS as f64, ..self }
     }
 
+    /// Whether the ring is too faint in every direction for sectors of it to be set: where it is narrow against its blur, they show less.
+    pub fn is_faint(&self) -> bool {
+        self.ring.iter().all(|level| *level < limits::FAINT * limits::HIGH.start)
+    }
+
     /// Width of one of `n` sectors in the middle of the ring, in pixels.
     pub fn sector(&self, n: usize) -> f64 {
         std::f64::consts::TAU / n as f64 * self.middle * self.polar.area.sqrt()
@@ -144,7 +150,7 @@ impl Radial {
 
     fn separate(polar: Polar, [inner, outer]: [f64; 2], ground: Vec<f64>) -> Self {
         let middle = (inner + outer) / 2.0;
-        let bands = [[1.0, inner], [inner, middle], [middle, outer], [outer, outer + GROUND]];
+        let rims = [1.0, inner, middle, outer, outer + GROUND];
         let samples = between([START, outer + GROUND]);
         let count = polar.directions.len();
         let [mut ring, mut gap, mut halves, mut outside] = [(); 4].map(|()| Vec::with_capacity(count));
@@ -155,9 +161,8 @@ impl Radial {
             let mut right = Vector4::<f64>::zeros();
             let row = polar.row(j);
             let model = |k: usize| {
-                let r = radius(k);
-                let [gap, first, second, outside] = bands.map(|band| polar.band(r, band, j));
-                (Vector4::new(gap, first + second, (first - second) / 2.0, outside), polar.dot(r, j))
+                let [dot, gap, first, second, outside] = polar.bands(radius(k), rims, j);
+                (Vector4::new(gap, first + second, (first - second) / 2.0, outside), dot)
             };
             seen.clear();
             seen.extend(samples.clone().filter(|k| !row[*k].is_nan()).map(|k| {
@@ -249,11 +254,18 @@ fn seen_inside(polar: &Polar) -> f64 {
     (sum / (INSIDE.len() * count) as f64).max(0.5)
 }
 
+/// Shares of ring and dot in the samples up to the ring's ground, direction by direction.
+fn shares(polar: &Polar, ring: [f64; 2]) -> Vec<[f64; 2]> {
+    let samples = between([START, ring[1] + GROUND]);
+    let of = |j: usize| samples.clone().map(move |k| [polar.band(radius(k), ring, j), polar.dot(radius(k), j)]);
+    (0..polar.directions.len()).flat_map(of).collect()
+}
+
 /// Background at the dot's centre and its slope along x and y of the target's plane, in levels a radius.
 ///
 /// Each direction gives the level that a dot of this contrast and a ring of any level leave; the plane goes through those that
 /// agree.
-fn ground(polar: &Polar, contrast: f64, ring: [f64; 2]) -> Option<([f64; 3], Vec<f64>)> {
+fn ground(polar: &Polar, contrast: f64, ring: [f64; 2], shares: &[[f64; 2]]) -> Option<([f64; 3], Vec<f64>)> {
     let samples = between([START, ring[1] + GROUND]);
     let middle = (START + ring[1] + GROUND) / 2.0;
     let count = polar.directions.len();
@@ -261,14 +273,15 @@ fn ground(polar: &Polar, contrast: f64, ring: [f64; 2]) -> Option<([f64; 3], Vec
         .map(|j| {
             let mut normal = Matrix2::<f64>::zeros();
             let mut right = Vector2::<f64>::zeros();
-            for k in samples.clone() {
-                let level = f64::from(polar.row(j)[k]);
+            let shares = &shares[j * samples.len()..][..samples.len()];
+            for (level, [band, dot]) in polar.row(j)[samples.clone()].iter().zip(shares) {
+                let level = f64::from(*level);
                 if level.is_nan() {
                     continue;
                 }
-                let basis = Vector2::new(1.0, polar.band(radius(k), ring, j));
+                let basis = Vector2::new(1.0, *band);
                 normal += basis * basis.transpose();
-                right += basis * (level - contrast * polar.dot(radius(k), j));
+                right += basis * (level - contrast * dot);
             }
             normal.cholesky().map_or(f64::NAN, |factor| factor.solve(&right)[0])
         })

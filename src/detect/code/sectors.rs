@@ -58,7 +58,7 @@ pub(super) fn divide(polar: &Polar, levels: &[f64], radius: f64, n: u32) -> Opti
     let sector = std::f64::consts::TAU / f64::from(n);
     let mut phase = first_phase(polar, levels, n);
     let mut best: Option<Tried> = None;
-    for steps in PHASES {
+    'phases: for steps in PHASES {
         // what is so far from a ring of sectors does not become one by a fine step
         if best.as_ref().is_some_and(|best| best.misfit > HOPELESS * MISFIT) {
             break;
@@ -68,8 +68,13 @@ pub(super) fn divide(polar: &Polar, levels: &[f64], radius: f64, n: u32) -> Opti
             let phase_tried = around + share * sector;
             let Some(tried) = at_phase(polar, levels, radius, n, phase_tried) else { continue };
             if best.as_ref().is_none_or(|best| tried.misfit < best.misfit) {
+                // where all are set no sector begins or ends
+                let is_full = tried.bits == (1 << n) - 1;
                 best = Some(tried);
                 phase = phase_tried;
+                if is_full {
+                    break 'phases;
+                }
             }
         }
     }
