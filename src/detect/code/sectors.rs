@@ -390,6 +390,31 @@ mod tests {
     }
 
     #[test]
+    fn products_summed_by_sector_are_those_of_the_definition() {
+        let samples = vec![0u8; 200 * 200];
+        let frame = Frame::new(Outline::from_axes(100.0, 100.0, 15.0, 9.0, 0.4), 0.0);
+        let polar = Polar::sample(&Plane::new(200, 200, &samples), &frame, 1.8);
+        let levels = ring(&[[1.0, 3.0], [5.0, 6.3], [8.0, 11.0]], polar.directions.len());
+        for (n, phase) in [(12, 0.0), (14, 0.2), (16, -0.1), (20, 3.0)] {
+            let count = n as usize;
+            let shares = shares(&polar, 2.5, n, phase);
+            let (normal, right) = normal_equations(&shares, &levels, &polar.arc, count);
+            let all = |row: &Shares| {
+                let mut all = DVector::<f64>::zeros(count);
+                row.of(count).for_each(|(k, share)| all[k] += share);
+                all
+            };
+            let (mut plain, mut plain_right) = (DMatrix::<f64>::zeros(count, count), DVector::<f64>::zeros(count));
+            for ((row, level), weight) in shares.iter().zip(&levels).zip(&polar.arc) {
+                plain += *weight * all(row) * all(row).transpose();
+                plain_right += *weight * *level * all(row);
+            }
+            assert!((normal - &plain).amax() < 1e-12 * plain.amax(), "{n}");
+            assert!((right - &plain_right).amax() < 1e-12 * plain_right.amax(), "{n}");
+        }
+    }
+
+    #[test]
     fn ends_off_the_grid_are_told_and_those_on_it_are_not() {
         let samples = vec![0u8; 200 * 200];
         let frame = Frame::new(Outline::from_axes(100.0, 100.0, 15.0, 15.0, 0.0), 0.0);
