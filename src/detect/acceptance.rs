@@ -137,6 +137,8 @@ pub(crate) mod partial {
         WINDOW: f64 = 0.5, Judged "what is covered or joined on one side leaves more of the border in one piece";
         /// Least share of the ends that follows the ellipse.
         FOLLOWING: f64 = 0.55, Judged "a cover of a fifth of the diameter on one side hides all ends but these";
+        /// Least share of an ellipse's width and of its height that the blob reaches over.
+        SPANNED: f64 = 0.6, Derived "a cover of a fifth of the diameter leaves 0.8, less room for the ends that are looked at";
         /// Distance in which ends follow an ellipse: pixels, and share of its semi-minor axis; and that of the worst window's.
         GOOD: [f64; 2] = [0.3, 0.03], Judged "as the ends of a whole blob, less room for its shape";
         HOPELESS: f64 = 3.0, Judged "of windows with a piece of the cover one is nearer";

@@ -81,7 +81,13 @@ impl<T: Sample> Measure<'_, T> {
     /// The sector without which the edges scatter least, as shares of the parameter, and the ellipse through the others.
     fn sector(&mut self, start: &Outline, bright: bool) -> Option<([f64; 2], EllipseFit)> {
         let b = start.semi_axes().1;
-        self.search(start, bright, (0.25 * b).clamp(2.0, 10.0), edge::ray_count(start), SHARP);
+        // which sector it is shows in a few rays
+        let count = edge::ray_count(start).min(32);
+        self.search(start, bright, (0.25 * b).clamp(2.0, 10.0), count, SHARP);
+        let missing = self.edges.strength.iter().filter(|strength| **strength <= 0.0).count();
+        if missing as f64 > (SECTORS[SECTORS.len() - 1] + OTHERS) * count as f64 {
+            return None;
+        }
         let strengths = self.edges.strength.clone();
         let mut best: Option<(f64, [f64; 2], EllipseFit)> = None;
         for (share, from) in sectors::promising(&self.edges, start, &SECTORS) {

@@ -2,56 +2,74 @@
 //!
 //! Near the start the distances d of the edges are linear in the corrections x of (u, v, p, q, r): d = J x + e. For every sector
 //! the normal equations are those of all edges less its own, N x = r, and e'e = d'd - r'x tells how well the others agree. That
-//! takes one factorisation of a 5 x 5 matrix a sector; only the best few are worth a robust fit.
-
-use nalgebra::{SMatrix, SVector};
+//! takes one factorisation of a 5 x 5 matrix a sector; only the best few are worth a robust fit. Where more rays than may
+//! miss outside of a sector have no edge at all, it needs none.
 
 use super::edge::Edges;
-use crate::detect::acceptance::covered::EVEN;
+use crate::detect::acceptance::covered::{EVEN, OTHERS};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::median;
 
 /// Places of each size of a sector, around the outline.
 const PLACES: usize = 16;
 
-/// Normal equations: matrix, right-hand side, sum of squares, number.
+/// Unknowns, and the entries of the lower triangle of their normal matrix with the right-hand side and the sum of squares below.
+const UNKNOWNS: usize = 5;
+const ENTRIES: usize = (UNKNOWNS + 1) * (UNKNOWNS + 2) / 2;
+
+/// Normal equations, bordered by their right-hand side and the sum of squares: sums of products of (J, d), row by row.
 #[derive(Clone, Copy)]
 struct Normal {
-    matrix: SMatrix<f64, 5, 5>,
-    right: SVector<f64, 5>,
-    squares: f64,
+    sums: [f64; ENTRIES],
+    /// Edges in the sums, and rays without an edge.
     count: usize,
+    missing: usize,
 }
 
 impl Normal {
     fn none() -> Self {
-        Self { matrix: SMatrix::zeros(), right: SVector::zeros(), squares: 0.0, count: 0 }
+        Self { sums: [0.0; ENTRIES], count: 0, missing: 0 }
     }
 
-    fn add(&mut self, moves: &[f64; 5], distance: f64) {
-        for i in 0..5 {
-            for j in 0..=i {
-                self.matrix[(i, j)] += moves[i] * moves[j];
+    fn add(&mut self, [m0, m1, m2, m3, m4]: [f64; UNKNOWNS], distance: f64) {
+        let terms = [m0, m1, m2, m3, m4, distance];
+        let mut sums = self.sums.iter_mut();
+        for i in 0..=UNKNOWNS {
+            for (sum, term) in sums.by_ref().take(i + 1).zip(terms) {
+                *sum += terms[i] * term;
             }
-            self.right[i] += moves[i] * distance;
         }
-        self.squares += distance * distance;
         self.count += 1;
     }
 
     fn without(&self, other: &Self) -> Self {
         Self {
-            matrix: self.matrix - other.matrix,
-            right: self.right - other.right,
-            squares: self.squares - other.squares,
+            sums: std::array::from_fn(|i| self.sums[i] - other.sums[i]),
             count: self.count - other.count,
+            missing: self.missing - other.missing,
         }
     }
 
-    /// Root mean square of what is left after the adjustment.
+    /// Root mean square of what is left after the adjustment: the last pivot of the bordered matrix is e'e.
     fn rms(&self) -> Option<f64> {
-        let solved = self.matrix.cholesky()?.solve(&self.right);
-        Some(((self.squares - self.right.dot(&solved)).max(0.0) / (self.count - 5) as f64).sqrt())
+        let row = |i: usize| i * (i + 1) / 2;
+        let mut factor = self.sums;
+        for i in 0..=UNKNOWNS {
+            for j in 0..i {
+                let known: f64 = (0..j).map(|k| factor[row(i) + k] * factor[row(j) + k]).sum();
+                factor[row(i) + j] = (factor[row(i) + j] - known) * factor[row(j) + j];
+            }
+            let known: f64 = (0..i).map(|k| factor[row(i) + k].powi(2)).sum();
+            let pivot = factor[row(i) + i] - known;
+            if i == UNKNOWNS {
+                return Some((pivot.max(0.0) / (self.count - UNKNOWNS) as f64).sqrt());
+            }
+            if !(pivot > 0.0) {
+                return None;
+            }
+            factor[row(i) + i] = 1.0 / pivot.sqrt();
+        }
+        None
     }
 }
 
@@ -73,10 +91,10 @@ pub(crate) fn promising(edges: &Edges, outline: &Outline, shares: &[f64]) -> Vec
     let mut running = vec![Normal::none()];
     for ray in rays.iter().chain(&rays) {
         let mut next = running[running.len() - 1];
-        if let Some((moves, distance)) = ray
-            && distance.abs() <= limit
-        {
-            next.add(moves, *distance);
+        match ray {
+            Some((moves, distance)) if distance.abs() <= limit => next.add(*moves, *distance),
+            Some(_) => {}
+            None => next.missing += 1,
         }
         running.push(next);
     }
@@ -86,10 +104,39 @@ pub(crate) fn promising(edges: &Edges, outline: &Outline, shares: &[f64]) -> Vec
         let scatter = |place: usize| {
             let from = place as f64 / PLACES as f64;
             let rest = all.without(&running[ray(from + share)].without(&running[ray(from)]));
-            (rest.count >= 8.max(count / 3)).then(|| rest.rms()).flatten().map(|rms| (rms.hypot(EVEN), from))
+            let enough = rest.count >= 8.max(count / 3) && rest.missing as f64 <= OTHERS * count as f64;
+            enough.then(|| rest.rms()).flatten().map(|rms| (rms.hypot(EVEN), from))
         };
         let best = (0..PLACES).filter_map(scatter).min_by(|a, b| a.0.total_cmp(&b.0));
         best.map(|(_, from)| (*share, from))
     };
     shares.iter().filter_map(best_of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    #[test]
+    fn what_a_sector_leaves_is_that_of_an_adjustment_without_it() {
+        let wave = |k: usize| (1.7 * k as f64 + 0.3 * (k * k) as f64).sin();
+        let row = |k: usize| (std::array::from_fn(|i| wave(6 * k + i)), 0.3 * wave(6 * k + 5));
+        let rows: Vec<([f64; UNKNOWNS], f64)> = (0..40).map(row).collect();
+        let sums = |rows: &[([f64; UNKNOWNS], f64)]| {
+            let mut sums = Normal::none();
+            rows.iter().for_each(|(moves, distance)| sums.add(*moves, *distance));
+            sums
+        };
+        let found = sums(&rows).without(&sums(&rows[5..17])).rms().expect("a solution");
+        let rest: Vec<_> = rows[..5].iter().chain(&rows[17..]).collect();
+        let moves = DMatrix::from_fn(rest.len(), UNKNOWNS, |i, j| rest[i].0[j]);
+        let distances = DVector::from_fn(rest.len(), |i, _| rest[i].1);
+        let solved = moves.clone().svd(true, true).solve(&distances, 1e-12).expect("a solution");
+        let left = (moves * solved - distances).norm() / ((rest.len() - UNKNOWNS) as f64).sqrt();
+        assert!((found - left).abs() < 1e-9, "{found} {left}");
+    }
 }

@@ -166,8 +166,8 @@ fn positive_eigenvalue(m13: f64, m22: f64, m23: f64, m33: f64) -> Option<f64> {
         let polynomial = ((value - trace) * value + minors) * value - det;
         let step = polynomial / ((3.0 * value - 2.0 * trace) * value + minors);
         value -= step;
-        // a step that rises is rounding: the root is reached
-        if !(step > 1e-15 * value.abs()) {
+        // what is left after a small step is its square; a step that rises is rounding
+        if !(step > 1e-9 * value.abs()) {
             break;
         }
     }

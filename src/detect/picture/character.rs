@@ -27,18 +27,19 @@ impl Character {
     pub fn of<T: Sample>(plane: &Plane<T>, levels: &Levels) -> Self {
         let step = (plane.height / ROWS).max(1);
         let rows = || (step / 2..plane.height).step_by(step).map(|y| plane.row(y));
-        let (mut dark, mut bright, mut all) = (0u64, 0u64, 0u64);
+        let (mut dark, mut bright, mut all) = (0, 0, 0);
+        let saturation = levels.saturation.ceil() as u32;
         // of each column to the next
-        let mut differences = vec![0f64; plane.width.saturating_sub(1)];
+        let mut differences = vec![0f32; plane.width.saturating_sub(1)];
+        let most = (4.0 * levels.noise + 4.0) as f32;
         let mut undershoots = [Vec::new(), Vec::new()];
         for row in rows() {
-            for sample in row {
-                all += 1;
-                dark += u64::from(sample.level() == 0);
-                bright += u64::from(f64::from(sample.level()) >= levels.saturation);
-            }
-            for (pair, sum) in row.windows(2).zip(&mut differences) {
-                *sum += f64::from(pair[0].level().abs_diff(pair[1].level())).min(4.0 * levels.noise + 4.0);
+            all += row.len();
+            dark += row.iter().filter(|sample| sample.level() == 0).count();
+            bright += row.iter().filter(|sample| sample.level() >= saturation).count();
+            for ((left, right), sum) in row.iter().zip(row.iter().skip(1)).zip(&mut differences) {
+                let difference = left.level().abs_diff(right.level()) as f32;
+                *sum += if difference < most { difference } else { most };
             }
             undershoots_of(row, levels, &mut undershoots);
         }
@@ -51,11 +52,11 @@ impl Character {
         };
         let [dark_side, bright_side] = undershoots;
         let undershoot = median(dark_side).max(median(bright_side)).max(median(both));
-        let share = |count: u64| if levels.stairs { 0.0 } else { count as f64 / all.max(1) as f64 };
+        let share = |count: usize| if levels.stairs { 0.0 } else { count as f64 / all.max(1) as f64 };
         Self {
             undershoot,
             clipped: [share(dark), share(bright)],
-            blocks: blocks(&differences),
+            blocks: blocks(&differences.iter().map(|sum| f64::from(*sum)).collect::<Vec<_>>()),
             noise: levels.noise / levels.range.max(1.0),
         }
     }

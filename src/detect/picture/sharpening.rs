@@ -77,7 +77,8 @@ impl Profile {
         }
         for rim in &rims {
             let [nx, ny] = rim.normal;
-            for k in 0..BINS {
+            // two to a pixel: more are the same pixels again
+            for k in (0..BINS).step_by(FINE as usize / 2) {
                 let d = k as f64 / FINE - REACH;
                 if d < -inner {
                     continue;
@@ -104,7 +105,7 @@ impl Profile {
     }
 
     fn fit(&self) -> Option<Sharpening> {
-        let whole = |sum: &&(usize, [f64; 3])| sum.1[0] >= 8.0 && sum.1[2] < 0.1 * sum.1[0];
+        let whole = |sum: &&(usize, [f64; 3])| sum.1[0] >= 4.0 && sum.1[2] < 0.1 * sum.1[0];
         let sums: Vec<(usize, [f64; 3])> = self.sums.iter().copied().enumerate().collect();
         let points: Vec<[f64; 2]> =
             sums.iter().filter(whole).map(|(k, sum)| [*k as f64 / FINE - REACH, sum[1] / sum[0]]).collect();

@@ -7,14 +7,14 @@ use wide::f32x4;
 
 use super::blob::Limits;
 use super::component::Chord;
-use crate::detect::acceptance::partial::{FOLLOWING, GOOD, HOPELESS, RUNS, SMALLEST, STEPS, WINDOW};
+use crate::detect::acceptance::partial::{FOLLOWING, GOOD, HOPELESS, RUNS, SMALLEST, SPANNED, STEPS, WINDOW};
 use crate::detect::acceptance::size::{BLOB_LARGE, BLOB_SMALL};
 use crate::detect::ellipse::conic::Sums;
 use crate::detect::ellipse::outline::Outline;
 
 /// Ends that are looked at: of a large blob every so manieth.
 const ENDS: usize = 48;
-/// Windows that are tried.
+/// Windows that are tried, of few ends as many as differ by two.
 const WINDOWS: usize = 8;
 
 /// The ellipse that most of a chain's ends follow; none where there is no such one, or the blob is too small to tell.
@@ -34,13 +34,17 @@ pub(crate) fn most(chain: &[Chord], limits: &Limits) -> Option<Outline> {
     let running = ends.running();
     let total = running[ends.count];
     let mut best: Option<(Outline, f32)> = None;
-    for k in 0..WINDOWS {
-        let (from, to) = (k * ends.count / WINDOWS, k * ends.count / WINDOWS + window);
+    let windows = WINDOWS.min(ends.count / 2);
+    for k in 0..windows {
+        let (from, to) = (k * ends.count / windows, k * ends.count / windows + window);
         let sums = match to.checked_sub(ends.count) {
             None | Some(0) => running[to].since(&running[from]),
             Some(beyond) => total.since(&running[from].since(&running[beyond])),
         };
-        let Some(outline) = sums.ellipse().map(|outline| ends.placed(&outline)) else { continue };
+        let Some(outline) = sums.ellipse().filter(|outline| ends.span(outline)).map(|outline| ends.placed(&outline))
+        else {
+            continue;
+        };
         if !is_possible(&outline, limits, least) {
             continue;
         }
@@ -72,6 +76,8 @@ struct Ends {
     count: usize,
     middle: [f64; 2],
     scale: f64,
+    /// Half the width and height of the blob, in these units.
+    half: [f64; 2],
 }
 
 impl Ends {
@@ -87,12 +93,14 @@ impl Ends {
         }
         let ranges = [&x, &y].map(|values| range(values[..count].iter().copied()));
         let middle = ranges.map(|[low, high]| f64::from(low + high) / 2.0);
-        let beyond = |i: usize| (f64::from(ranges[i][1]) - middle[i]).max(middle[i] - f64::from(ranges[i][0]));
-        let scale = beyond(0).max(beyond(1)).max(1.0);
+        let half = ranges.map(|[low, high]| f64::from(high - low) / 2.0);
+        let scale = half[0].max(half[1]).max(1.0);
         for (values, middle) in [(&mut x, middle[0]), (&mut y, middle[1])] {
             values[..count].iter_mut().for_each(|value| *value = ((f64::from(*value) - middle) / scale) as f32);
         }
-        Self { x, y, count, middle, scale }
+        // the rows next to the first and the last may be the blob's as well
+        let half = [half[0], half[1] + limits.step as f64].map(|half| half / scale);
+        Self { x, y, count, middle, scale, half }
     }
 
     fn places(&self) -> impl Iterator<Item = [f64; 2]> {
@@ -107,6 +115,12 @@ impl Ends {
             running[k + 1].add(x, y, 1.0);
         }
         running
+    }
+
+    /// Whether they reach over enough of the width and height of an ellipse of these units.
+    fn span(&self, outline: &Outline) -> bool {
+        let (half_u, half_v) = outline.half_box();
+        self.half[0] >= SPANNED * half_u && self.half[1] >= SPANNED * half_v
     }
 
     /// An ellipse of these units in the picture.
@@ -216,6 +230,14 @@ mod tests {
         });
         let found = most(&joined, &LIMITS).expect("an ellipse");
         assert!((found.u - truth.u).hypot(found.v - truth.v) < 0.5, "{found:?}");
+    }
+
+    #[test]
+    fn what_is_a_small_part_of_an_ellipse_shows_none() {
+        let truth = Outline::from_axes(100.3, 80.2, 40.0, 40.0, 0.0);
+        let cap = |lowest: f64| chain(|y| truth.chord(y).filter(|_| y < lowest));
+        assert!(most(&cap(100.0), &LIMITS).is_some());
+        assert!(most(&cap(60.0), &LIMITS).is_none());
     }
 
     #[test]
