@@ -35,13 +35,24 @@ pub(in crate::detect) fn of<T: Sample>(
     let outline = outline_of(target).grown(if target.polarity == Polarity::Bright { -aside } else { aside });
     let Part { left, top, width, height, samples } =
         Part::of(plane, target.u, target.v, (WINDOW.0 * target.major) as usize + WINDOW.1);
-    let samples = samples.iter().map(|sample| (WHITE * light(f64::from(sample.level()))).round() as u16).collect();
+    let samples = in_light(&samples, |level| (WHITE * light(f64::from(level))).round() as u16);
     let part = Part { left, top, width, height, samples };
     let (a, b, angle) = outline.axes();
     let (u, v) = (target.u - left as f64, target.v - top as f64);
     let mut target = Target { u, v, major: 2.0 * a, minor: 2.0 * b, angle, ..target.clone() };
     target.contrast = contrast(&part.plane(), &target);
     Some((part, target))
+}
+
+/// Samples through a curve, of which a table is made where that is less work.
+fn in_light<T: Sample>(samples: &[T], curve: impl Fn(u32) -> u16) -> Vec<u16> {
+    let levels = || samples.iter().map(|sample| sample.level());
+    let (first, last) = levels().fold((u32::MAX, 0), |(first, last), level| (first.min(level), last.max(level)));
+    if (last.saturating_sub(first) as usize) < samples.len() {
+        let table: Vec<u16> = (first..=last).map(curve).collect();
+        return levels().map(|level| table[(level - first) as usize]).collect();
+    }
+    levels().map(curve).collect()
 }
 
 /// The same where a camera's curve may have bent the levels; none where the target is too large for a difference.
