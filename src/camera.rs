@@ -94,18 +94,21 @@ pub fn pixel_from_camera_point(camera: &Camera, p: Vector3<f64>) -> Option<[f64;
 }
 
 /// Newton's iteration for `f(x) = target` in two dimensions with step halving, from `start`; `f` gives value and
-/// derivative. None unless the residual vanishes where the derivative keeps its orientation.
+/// derivative. The place and the derivative there; none unless the residual vanishes where the derivative keeps its
+/// orientation.
 fn invert(
     target: [f64; 2],
     start: [f64; 2],
     scale: f64,
     f: impl Fn([f64; 2]) -> ([f64; 2], [[f64; 2]; 2]),
-) -> Option<[f64; 2]> {
+) -> Option<([f64; 2], [[f64; 2]; 2])> {
     let misclosure = |value: [f64; 2]| [target[0] - value[0], target[1] - value[1]];
+    // every observation is inverted in every iteration of an adjustment, and `hypot` is many times slower
+    let length_of = |e: [f64; 2]| (e[0] * e[0] + e[1] * e[1]).sqrt();
     let mut x = start;
     let (value, mut derivative) = f(x);
     let mut e = misclosure(value);
-    let mut length = e[0].hypot(e[1]);
+    let mut length = length_of(e);
     for _ in 0..40 {
         let [[a, b], [c, d]] = derivative;
         let determinant = a * d - b * c;
@@ -113,7 +116,7 @@ fn invert(
             return None;
         }
         if length <= 4e-16 * (scale + x[0].abs() + x[1].abs()) {
-            return Some(x);
+            return Some((x, derivative));
         }
         let step = [(d * e[0] - b * e[1]) / determinant, (a * e[1] - c * e[0]) / determinant];
         let mut part = 1.0;
@@ -121,7 +124,7 @@ fn invert(
             let trial = [x[0] + part * step[0], x[1] + part * step[1]];
             let (value, next) = f(trial);
             let next_e = misclosure(value);
-            let next_length = next_e[0].hypot(next_e[1]);
+            let next_length = length_of(next_e);
             let keeps_orientation = next[0][0] * next[1][1] - next[0][1] * next[1][0] > 1e-9;
             if next_length < length && keeps_orientation {
                 (x, e, length, derivative) = (trial, next_e, next_length, next);
@@ -130,11 +133,11 @@ fn invert(
             part *= 0.5;
             if part < 1e-4 {
                 // No better point: at the rounding limit, or none exists.
-                return (length <= 1e-12 * (scale + target[0].abs() + target[1].abs())).then_some(x);
+                return (length <= 1e-12 * (scale + target[0].abs() + target[1].abs())).then_some((x, derivative));
             }
         }
     }
-    (length <= 1e-12 * (scale + target[0].abs() + target[1].abs())).then_some(x)
+    (length <= 1e-12 * (scale + target[0].abs() + target[1].abs())).then_some((x, derivative))
 }
 
 #[cfg(test)]

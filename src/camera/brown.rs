@@ -71,7 +71,7 @@ impl Brown {
             return None;
         }
         let ideal = [-self.c * px / pz, -self.c * py / pz];
-        let [x, y] = invert(ideal, ideal, self.c.abs(), |x| self.corrected(x))?;
+        let ([x, y], _) = invert(ideal, ideal, self.c.abs(), |x| self.corrected(x))?;
         Some([x + self.x0, y + self.y0])
     }
 
@@ -106,20 +106,22 @@ impl Brown {
         let inverse = 1.0 / pz;
         let (nx, ny) = (-px * inverse, -py * inverse);
         let ideal = [self.c * nx, self.c * ny];
-        let place = invert(ideal, start, self.c.abs(), |x| self.corrected(x));
-        let ([cx, cy], d) = self.corrected(place.unwrap_or(start));
+        let inverted = invert(ideal, start, self.c.abs(), |x| self.corrected(x));
+        let (place, d) = inverted.unwrap_or_else(|| (start, self.corrected(start).1));
         let determinant = d[0][0] * d[1][1] - d[0][1] * d[1][0];
         if determinant.is_nan() || determinant.abs() < 1e-9 {
             return None;
         }
         let f = [[d[1][1] / determinant, -d[0][1] / determinant], [-d[1][0] / determinant, d[0][0] / determinant]];
         let from_ideal = |e: [f64; 2]| [f[0][0] * e[0] + f[0][1] * e[1], f[1][0] * e[0] + f[1][1] * e[1]];
-        let residual = match place {
-            Some([x, y]) => [x - start[0], y - start[1]],
-            None => from_ideal([ideal[0] - cx, ideal[1] - cy]),
+        let residual = if inverted.is_some() {
+            [place[0] - start[0], place[1] - start[1]]
+        } else {
+            let [cx, cy] = self.corrected(start).0;
+            from_ideal([ideal[0] - cx, ideal[1] - cy])
         };
         // x̄ + v = g⁻¹(ideal), x̄ = x - x0: by x0 the residual changes by 1, by the other parameters through g⁻¹.
-        let at_corrected = self.by_parameter(place.unwrap_or(start), [nx, ny], [[0.0; 2]; 2]);
+        let at_corrected = self.by_parameter(place, [nx, ny], [[0.0; 2]; 2]);
         let mut by_parameter = [[0.0; PARAMETERS]; 2];
         for k in 0..PARAMETERS {
             let [ex, ey] = from_ideal([at_corrected[0][k], at_corrected[1][k]]);

@@ -58,7 +58,7 @@ impl Opencv {
     /// Direction (x, y) of a pixel, the ray being (x, y, -1); none beyond the model's fold.
     pub fn ideal(&self, [u, v]: [f64; 2]) -> Option<[f64; 2]> {
         let image = [(u - self.cx) / self.fx, (v - self.cy) / self.fy];
-        let [a, b] = invert(image, image, 1.0, |x| self.distorted(x))
+        let ([a, b], _) = invert(image, image, 1.0, |x| self.distorted(x))
             .or_else(|| invert(image, [0.0, 0.0], 1.0, |x| self.distorted(x)))?;
         Some([a, -b])
     }
