@@ -138,7 +138,7 @@ pub(crate) mod partial {
         /// Least share of the ends that follows the ellipse.
         FOLLOWING: f64 = 0.55, Judged "a cover of a fifth of the diameter on one side hides all ends but these";
         /// Least share of an ellipse's width and of its height that the blob reaches over.
-        SPANNED: f64 = 0.6, Derived "a cover of a fifth of the diameter leaves 0.8, less room for the ends that are looked at";
+        SPANNED: f64 = 0.35, Derived "a cable of a fifth of the diameter across the middle leaves halves of 0.4, less room for their ends";
         /// Distance in which ends follow an ellipse: pixels, and share of its semi-minor axis; and that of the worst window's.
         GOOD: [f64; 2] = [0.3, 0.03], Judged "as the ends of a whole blob, less room for its shape";
         HOPELESS: f64 = 3.0, Judged "of windows with a piece of the cover one is nearer";
