@@ -13,7 +13,7 @@ use super::acceptance::{
     size::{EDGES_LARGE, FIT_SMALL},
 };
 use super::code::outline_of;
-use super::edges::surround;
+use super::edges::surround::{self, Glance};
 use super::ellipse::outline::Outline;
 use super::lump::{self, Lump};
 use super::measure::Measure;
@@ -146,9 +146,15 @@ impl<T: Sample> Measure<'_, T> {
         let (a, b) = outline.semi_axes();
         let least = limits::LIGHT * alike.seen(a, b) * alike.contrast[0] / limits::CONTRASTS;
         // most of what stands out has the other polarity, or is no more than a part of a larger shape
-        let at_most = surround::contrast_at_most(&self.plane, &outline, APART * alike.blur[0], alike.bright);
-        if at_most.is_some_and(|contrast| contrast < least) {
-            return Err(Reason::LowContrast);
+        if let Some(Glance { contrast, joined }) =
+            surround::glance(&self.plane, &outline, APART * alike.blur[0], alike.bright)
+        {
+            if contrast < least {
+                return Err(Reason::LowContrast);
+            }
+            if joined.iter().zip(limits::JOINED).any(|(joined, most)| *joined > most) {
+                return Err(Reason::Touching);
+            }
         }
         let mut kept = vec![true; super::edges::edge::ray_count(&outline)];
         let mut around = self.level_around(&outline, alike, &kept)?;

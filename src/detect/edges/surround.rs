@@ -102,9 +102,18 @@ pub(crate) fn measure<T: Sample>(
     })
 }
 
-/// The most that an outline may differ from what lies around it, as one ring of few rays shows it: from the eighth of them that
-/// differs most, if the majority that fixes the plane of [`measure`] is there. None when too few of them lie in the picture.
-pub(crate) fn contrast_at_most<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64, bright: bool) -> Option<f64> {
+/// What one ring of few rays shows of an outline.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Glance {
+    /// The most that it may differ from what lies around it: from the eighth of the rays that differs most, if the majority that fixes
+    /// the plane of [`measure`] is there.
+    pub contrast: f64,
+    /// Share of that contrast that a quarter of the rays still show around it, and an eighth of them.
+    pub joined: [f64; 2],
+}
+
+/// A glance around an outline. None when too little of it lies in the picture.
+pub(crate) fn glance<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64, bright: bool) -> Option<Glance> {
     const RAYS: usize = 24;
     let rims = Rims::of(plane, outline, &[true; RAYS]);
     let (mut levels, mut count) = ([f32::MAX; RAYS], 0);
@@ -118,9 +127,14 @@ pub(crate) fn contrast_at_most<T: Sample>(plane: &Plane<T>, outline: &Outline, b
     if count < RAYS / 2 {
         return None;
     }
-    let (_, around, _) = levels[..count].select_nth_unstable_by(count / 8, f32::total_cmp);
+    let levels = &mut levels[..count];
+    levels.sort_unstable_by(f32::total_cmp);
     let inside = median::of_sizes(rims.inside().into_iter(), &mut Vec::new()) - rims.reference;
-    Some(if bright { inside } else { -inside } - f64::from(*around))
+    let inside = if bright { inside } else { -inside };
+    let least = f64::from(levels[count / 8]);
+    let contrast = inside - least;
+    let joined = [4, 8].map(|part| (f64::from(levels[count - 1 - count / part]) - least) / contrast);
+    Some(Glance { contrast, joined })
 }
 
 /// Rim points and normals of the rays that count, four at a time, and how to read pixels there.
@@ -162,7 +176,8 @@ impl<'a, T: Sample> Rims<'a, T> {
         let (distance, half) = (f32x4::splat(distance as f32), f32x4::splat(0.5));
         let reference = f32x4::splat(self.reference as f32);
         self.fours.iter().map(move |four| {
-            let [x, y, nx, ny, one] = four.map(f32x4::new);
+            let [x, y, nx, ny, one] = *four;
+            let [x, y, nx, ny, one] = [f32x4::new(x), f32x4::new(y), f32x4::new(nx), f32x4::new(ny), f32x4::new(one)];
             let ([x, y], level, inside) = self.plane.pixels_four(self.from, x + distance * nx, y + distance * ny);
             [x + half - self.centre[0], y + half - self.centre[1], level - reference, inside & one]
         })
@@ -345,11 +360,33 @@ mod tests {
                     .collect();
                 let plane = Plane::new(100, 100, &samples);
                 let outline = Outline::from_axes(50.0, 50.0, 12.0, 12.0, 0.0);
-                let at_most = contrast_at_most(&plane, &outline, 0.7, bright).unwrap();
+                let at_most = glance(&plane, &outline, 0.7, bright).unwrap().contrast;
                 let whole = measure(&plane, &outline, 0.7, &[true; 40], u32::MAX).unwrap().contrast;
                 let whole = if bright { whole } else { -whole };
                 assert!(at_most > whole && at_most < whole + 12.0, "{bright} {disc} {joined}: {at_most} {whole}");
                 assert_eq!(at_most > 0.0, shown);
+            }
+        }
+    }
+
+    #[test]
+    fn one_ring_shows_in_how_many_directions_a_disc_goes_on() {
+        // half the width of an arm, and whether an eighth and a quarter of the directions lie in it
+        for (half, eighth, quarter) in
+            [(0.0, false, false), (3.0, false, false), (8.0, true, false), (14.0, true, true)]
+        {
+            for (bright, disc) in [(true, 90.0), (false, -70.0)] {
+                let samples: Vec<u8> = (0..100 * 100)
+                    .map(|i| {
+                        let (x, y) = (f64::from(i % 100) - 49.5, f64::from(i / 100) - 49.5);
+                        let inside = x.hypot(y) < 12.0 || x > 0.0 && y.abs() < half;
+                        (100.0 + if inside { disc } else { 0.0 }) as u8
+                    })
+                    .collect();
+                let outline = Outline::from_axes(50.0, 50.0, 12.0, 12.0, 0.0);
+                let joined = glance(&Plane::new(100, 100, &samples), &outline, 0.7, bright).unwrap().joined;
+                assert_eq!(joined.map(|share| share > 0.9), [quarter, eighth], "{half} {joined:?}");
+                assert!(joined.iter().all(|share| *share > 0.9 || *share < 0.1), "{half} {joined:?}");
             }
         }
     }

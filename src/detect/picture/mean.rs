@@ -53,26 +53,28 @@ impl Levels {
         }
     }
 
-    /// The rows of others of the same width instead of its own.
-    pub fn copy(&mut self, other: &Self) {
-        self.levels.clone_from(&other.levels);
-    }
-
-    pub fn rows(&self) -> impl Iterator<Item = &[f32]> {
-        self.levels.chunks_exact(self.stride).map(|row| &row[..self.width])
+    /// The rows of others of the same width instead of its own, times a factor.
+    pub fn scaled(&mut self, other: &Self, factor: f32) {
+        self.levels.clear();
+        self.levels.extend(other.levels.iter().map(|level| factor * level));
     }
 
     pub fn rows_mut(&mut self) -> impl Iterator<Item = &mut [f32]> {
         self.levels.chunks_exact_mut(self.stride).map(|row| &mut row[..self.width])
     }
 
-    /// Convolves rows and columns with a symmetric kernel; beyond the border samples go on.
-    pub fn convolve(&mut self, kernel: &[f32]) {
+    /// Convolves rows and columns with a symmetric kernel and adds other rows times a factor; beyond the border samples go on.
+    pub fn convolve(&mut self, kernel: &[f32], factor: f32, added: &Self) {
         self.across(kernel);
         let (stride, mut sums) = (self.stride, std::mem::take(&mut self.sums));
         sums.resize(self.levels.len(), 0.0);
-        self.down(kernel, 0..sums.len() / stride, |x, y, sum| {
-            sums[y * stride + x..][..LANES].copy_from_slice(sum.map(f32x4::to_array).as_flattened());
+        let factor = f32x4::splat(factor);
+        self.down(kernel, 0..sums.len() / stride, |x, y, mut sum| {
+            let at = y * stride + x;
+            for (sum, added) in sum.iter_mut().zip(fours(&added.levels[at..][..LANES])) {
+                *sum += factor * added;
+            }
+            sums[at..][..LANES].copy_from_slice(sum.map(f32x4::to_array).as_flattened());
         });
         self.sums = std::mem::replace(&mut self.levels, sums);
     }
@@ -96,6 +98,11 @@ impl Levels {
         }
     }
 
+    #[inline(always)]
+    fn at(&self, x: usize, y: usize) -> &[f32] {
+        &self.levels[y * self.stride + x..][..LANES]
+    }
+
     /// Convolves columns: hands over column, row and sums of every sixteen of these rows.
     #[inline(never)]
     pub fn down(&self, kernel: &[f32], rows: Range<usize>, mut take: impl FnMut(usize, usize, [f32x4; 4])) {
@@ -103,8 +110,7 @@ impl Levels {
         for tile in (0..self.stride).step_by(TILE) {
             for y in rows.clone() {
                 for x in (tile..self.stride.min(tile + TILE)).step_by(LANES) {
-                    let at = |y: usize| &self.levels[y * self.stride + x..][..LANES];
-                    take(x, y, weighted(kernel, |t| [at(y.saturating_sub(t)), at((y + t).min(last))]));
+                    take(x, y, weighted(kernel, |t| [self.at(x, y.saturating_sub(t)), self.at(x, (y + t).min(last))]));
                 }
             }
         }
@@ -114,18 +120,26 @@ impl Levels {
 /// Sums of sixteen samples and their neighbours on both sides, `pair(t)` those at distance t.
 #[inline(always)]
 fn weighted<'a>(kernel: &[f32], pair: impl Fn(usize) -> [&'a [f32]; 2]) -> [f32x4; 4] {
-    let fours = |values: &[f32]| -> [f32x4; 4] {
-        let fours = values.as_chunks::<4>().0;
-        std::array::from_fn(|i| f32x4::new(fours[i]))
-    };
-    let mut sums = fours(pair(0)[0]).map(|own| f32x4::splat(kernel[0]) * own);
+    let own = fours(pair(0)[0]);
+    let weight = f32x4::splat(kernel[0]);
+    let mut sums = [weight * own[0], weight * own[1], weight * own[2], weight * own[3]];
     for (t, weight) in kernel.iter().enumerate().skip(1) {
-        let [one, other] = pair(t).map(fours);
-        for (i, sum) in sums.iter_mut().enumerate() {
-            *sum += f32x4::splat(*weight) * (one[i] + other[i]);
+        let [one, other] = pair(t);
+        let (one, other, weight) = (fours(one), fours(other), f32x4::splat(*weight));
+        for i in 0..4 {
+            sums[i] += weight * (one[i] + other[i]);
         }
     }
     sums
+}
+
+/// Sixteen samples as they are loaded: written out, for what an array's own methods become depends on the compiler's mood.
+#[inline(always)]
+fn fours(values: &[f32]) -> [f32x4; 4] {
+    match values.as_chunks::<4>().0 {
+        [a, b, c, d] => [f32x4::new(*a), f32x4::new(*b), f32x4::new(*c), f32x4::new(*d)],
+        _ => [f32x4::ZERO; 4],
+    }
 }
 
 #[cfg(test)]
@@ -136,26 +150,28 @@ mod tests {
     use super::*;
 
     /// Rows of samples, convolved.
-    fn convolved(samples: &[f32], width: usize, kernel: &[f32]) -> Vec<f32> {
+    fn convolved(samples: &[f32], width: usize, kernel: &[f32], factor: f32) -> Vec<f32> {
         let mut levels = Levels::of(width);
         levels.levels.resize(samples.len() / width * levels.stride, 0.0);
         levels.rows_mut().zip(samples.chunks_exact(width)).for_each(|(row, samples)| row.copy_from_slice(samples));
-        levels.convolve(kernel);
-        levels.rows().flatten().copied().collect()
+        let mut own = Levels::of(width);
+        own.scaled(&levels, 1.0);
+        levels.convolve(kernel, factor, &own);
+        levels.rows_mut().flat_map(|row| row.to_vec()).collect()
     }
 
     #[test]
     fn a_mean_keeps_the_light_and_a_flat_picture() {
         let mut levels = vec![0f32; 41 * 41];
         levels[20 * 41 + 20] = 1000.0;
-        let levels = convolved(&levels, 41, &kernel(1.6));
+        let levels = convolved(&levels, 41, &kernel(1.6), 0.0);
         assert!((levels.iter().sum::<f32>() - 1000.0).abs() < 0.1);
         let variance: f32 =
             (0..41 * 41).map(|i| levels[i] * (i as f32 / 41.0).floor().mul_add(1.0, -20.0).powi(2)).sum();
         assert!((variance / 1000.0 - 2.56).abs() < 0.05, "{variance}");
         let turned: Vec<f32> = (0..41 * 41).map(|i| levels[(i % 41) * 41 + i / 41]).collect();
         assert!(levels.iter().zip(&turned).all(|(a, b)| (a - b).abs() < 1e-3));
-        let flat = convolved(&[7f32; 12 * 5], 12, &kernel(3.0));
+        let flat = convolved(&[7f32; 12 * 5], 12, &kernel(3.0), 0.0);
         assert!(flat.iter().all(|level| (level - 7.0).abs() < 1e-4));
     }
 
@@ -170,11 +186,12 @@ mod tests {
                 let (x, y) = (x.clamp(0, width - 1), y.clamp(0, height - 1));
                 f64::from(noise[(y * width + x) as usize])
             };
-            let sums = convolved(&noise, width as usize, &kernel);
+            let sums = convolved(&noise, width as usize, &kernel, -0.7);
             for (i, sum) in sums.iter().enumerate() {
                 let (x, y) = (i as i64 % width, i as i64 / width);
                 let around = (-4..=4).flat_map(|dy| (-4..=4).map(move |dx| (dx, dy)));
                 let plain: f64 = around.map(|(dx, dy)| weight(dx) * weight(dy) * at(x + dx, y + dy)).sum();
+                let plain = plain - 0.7 * at(x, y);
                 assert!((f64::from(*sum) - plain).abs() < 1e-3, "{width} x {height}, {x} {y}: {sum} {plain}");
             }
         }

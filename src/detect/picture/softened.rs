@@ -1,8 +1,10 @@
 //! A picture softened, and the inverse of its sharpening.
 //!
-//! An unsharp mask makes y = x + k (x - G x) of x, with G a Gaussian mean of sigma ρ: a linear map whose eigenvalues lie between
-//! 1 and 1 + k. Its inverse therefore amplifies nothing, the noise of the picture included, and Richardson's iteration
-//! x ← x + ω (y - x - k (x - G x)) with ω = 2 / (2 + k) finds it, each time nearer by k / (2 + k) at least.
+//! An unsharp mask makes y = x + k (x - G x) of x, with G a Gaussian mean of sigma ρ: a linear map, 1 + k - k g on what G multiplies
+//! by g, between 1 and 1 + k. Its inverse therefore amplifies nothing, the noise of the picture included. It is a function of g alone, and so
+//! is a polynomial in G: of those of n terms the one that Chebyshev's iteration (Golub and Varga, 1961) takes,
+//! p(g) = (1 - T(2g - 1) / T(1 + 2/k)) / (1 + k - k g), with T Chebyshev's polynomial of degree n, leaves least of the sharpening in the
+//! worst case, 1 / T(1 + 2/k). By Horner's rule its n - 1 means follow one on the other.
 
 use wide::f32x4;
 
@@ -13,8 +15,8 @@ use crate::image::{Plane, Sample};
 /// What a grey level of 8 bits becomes: the fractions that a mean has are kept.
 const FINE: f64 = 128.0;
 
-/// Iterations of the inverse: at k = 2 what is left is 2^-7 of the sharpening.
-const ITERATIONS: usize = 7;
+/// Most that is left of a picture's contrast at any frequency where its sharpening is undone: with two means at k = 1, three at 2.
+const LEFT: f64 = 0.0115;
 
 /// Rows of a strip, in those that are read beyond it on each side: a third of all is read twice.
 const STRIP: usize = 6;
@@ -44,29 +46,24 @@ impl Softened {
         let scale = if T::MAX < 256 { FINE } else { 1.0 };
         let most = (f64::from(T::MAX) * scale) as f32;
         let mut samples = vec![0; width * height];
-        let (mut levels, mut mean) = (Levels::of(width), Levels::of(width));
+        let (mut levels, mut sharpened) = (Levels::of(width), Levels::of(width));
+        let inverse = sharpening.map(|sharpening| (kernel(sharpening.radius), inverse(sharpening.amount)));
+        let mean = if sigma > 0.0 { kernel(sigma) } else { vec![1.0] };
         for (strip, samples) in samples.chunks_mut(rows * width).enumerate() {
             let top = strip * rows;
             let bottom = (top + rows).min(height);
             let read = top.saturating_sub(reach)..(bottom + reach).min(height);
             levels.take(plane, read.clone());
-            if let Some(Sharpening { amount, radius }) = sharpening {
-                let (amount, kernel) = (amount as f32, kernel(radius));
-                let step = 2.0 / (2.0 + amount);
-                for _ in 0..ITERATIONS {
-                    mean.copy(&levels);
-                    mean.convolve(&kernel);
-                    for ((levels, mean), y) in levels.rows_mut().zip(mean.rows()).zip(read.clone()) {
-                        for ((level, mean), sharpened) in levels.iter_mut().zip(mean).zip(plane.row(y)) {
-                            *level += step * (sharpened.level() as f32 - *level - amount * (*level - mean));
-                        }
-                    }
-                }
+            if let Some((kernel, factors)) = &inverse
+                && let Some((highest, others)) = factors.split_last()
+            {
+                sharpened.scaled(&levels, 1.0);
+                levels.scaled(&sharpened, *highest);
+                others.iter().rev().for_each(|factor| levels.convolve(kernel, *factor, &sharpened));
             }
             let own = top - read.start..bottom - read.start;
-            let kernel = if sigma > 0.0 { kernel(sigma) } else { vec![1.0] };
-            levels.across(&kernel);
-            levels.down(&kernel, own.clone(), |x, y, sums| {
+            levels.across(&mean);
+            levels.down(&mean, own.clone(), |x, y, sums| {
                 let end = (x + LANES).min(width);
                 let to = &mut samples[(y - own.start) * width..][x..end];
                 let fours = sums.map(|sum| {
@@ -90,7 +87,32 @@ impl Softened {
 
 /// How far a sample depends on others.
 fn reach(sharpening: Option<Sharpening>, sigma: f64) -> usize {
-    side(sigma) + sharpening.map_or(0, |sharpening| ITERATIONS * side(sharpening.radius))
+    side(sigma) + sharpening.map_or(0, |sharpening| (inverse(sharpening.amount).len() - 1) * side(sharpening.radius))
+}
+
+/// Factors of the powers of the mean, from its zeroth on, whose sum undoes a sharpening of this amount; what is even stays as it is.
+fn inverse(amount: f64) -> Vec<f32> {
+    // T(2g - 1) of two degrees, and its value where p has its pole, at g = 1 + 1 / k
+    let (mut before, mut last) = (vec![1.0], vec![-1.0, 2.0]);
+    let [mut there_before, mut there] = [1.0, 1.0 + 2.0 / amount];
+    while LEFT * there < 1.0 {
+        let mut next = vec![0.0; last.len() + 1];
+        for (k, factor) in last.iter().enumerate() {
+            next[k] -= 2.0 * factor;
+            next[k + 1] += 4.0 * factor;
+        }
+        before.iter().enumerate().for_each(|(k, factor)| next[k] -= factor);
+        (before, last) = (last, next);
+        (there_before, there) = (there, 2.0 * (1.0 + 2.0 / amount) * there - there_before);
+    }
+    // divided by 1 + k - k g from the highest power down: the rest is none; and by its value at g = 1
+    let mut factors = vec![0.0f32; last.len() - 1];
+    let mut carried = 0.0;
+    for k in (0..factors.len()).rev() {
+        carried = carried * (1.0 + 1.0 / amount) + last[k + 1] / there;
+        factors[k] = (carried / amount / (1.0 - 1.0 / there)) as f32;
+    }
+    factors
 }
 
 #[cfg(test)]
@@ -110,6 +132,20 @@ mod tests {
                 assert!(Softened::in_strips(&plane, sharpening, 0.7, rows).samples == whole.samples, "{rows} rows");
             }
         }
+    }
+
+    #[test]
+    fn the_inverse_undoes_a_sharpening_of_any_amount_at_every_frequency() {
+        for amount in [0.05, 0.3, 1.0, 2.0, 3.5, 6.0] {
+            let factors = inverse(amount);
+            let at = |g: f64| factors.iter().rev().fold(0.0, |sum, factor| sum * g + f64::from(*factor));
+            assert!((at(1.0) - 1.0).abs() < 1e-5, "{amount}");
+            let left =
+                (0..=100).map(|k| 0.01 * f64::from(k)).map(|g| (at(g) * (1.0 + amount - amount * g) - 1.0).abs());
+            let left = left.fold(0.0, f64::max);
+            assert!(left < 2.1 * LEFT, "{amount}: {left}");
+        }
+        assert_eq!([0.3, 1.0, 2.0, 6.0].map(|amount| inverse(amount).len()), [2, 3, 4, 7]);
     }
 
     #[test]
