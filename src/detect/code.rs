@@ -4,6 +4,7 @@
 //! blurred as the dot's own rim is. [`polar`] samples it, [`radial`] separates gap, ring and outside in each direction,
 //! [`sectors`] divides the ring into sectors, [`judge`](mod@judge) decides what that is.
 
+mod bands;
 mod judge;
 mod light;
 mod parts;
@@ -12,12 +13,15 @@ mod radial;
 mod sectors;
 mod vote;
 
+use std::rc::Rc;
+
 use super::outline::Outline;
 use crate::detection::{CodeNote, Codes, Polarity, Target};
 use crate::image::{Plane, Sample};
 use crate::ring_code::{Design, Family};
+use bands::Bands;
 use judge::{Divisions, Tone, judge};
-use polar::Frame;
+use polar::{Frame, Polar, Rays};
 use radial::Radial;
 
 pub(super) use parts::{drop_parts, settle_grounds};
@@ -53,11 +57,13 @@ pub(super) fn read<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, fami
     }
     // whether the levels are light or a camera's tone curve has bent them: each family is judged by what explains it best
     let bent = light::of_screen(plane, target, blur);
+    let size = plane.width.max(plane.height);
+    let as_is = Around::of(plane, target, blur, size);
+    let in_light = bent.as_ref().map(|(part, target)| (part.plane(), target));
+    let in_light = in_light.as_ref().map(|(plane, target)| Around::of(plane, target, blur, size));
     read_tones(families, |design| {
-        let size = plane.width.max(plane.height);
-        let as_is = straightest(plane, target, blur, design, size);
-        let bent = bent.as_ref().and_then(|(part, target)| straightest(&part.plane(), target, blur, design, size));
-        as_is.into_iter().chain(bent).collect()
+        let bent = in_light.as_ref().and_then(|around| around.straightest(design));
+        as_is.straightest(design).into_iter().chain(bent).collect()
     })
 }
 
@@ -73,7 +79,9 @@ pub(super) fn read_curve<T: Sample>(
         light::of(plane, target, blur, light).filter(|(part, target)| radial::may_have_ring(&part.plane(), target));
     let Some((part, target)) = found else { return vec![Reading::Plain; families.len()] };
     let size = plane.width.max(plane.height);
-    read_tones(families, |design| straightest(&part.plane(), &target, blur, design, size).into_iter().collect())
+    let plane = part.plane();
+    let around = Around::of(&plane, &target, blur, size);
+    read_tones(families, |design| around.straightest(design).into_iter().collect())
 }
 
 fn read_tones(families: &[Family], rings: impl Fn(Design) -> Vec<Radial>) -> Vec<Reading> {
@@ -97,34 +105,59 @@ const SHIFT: f64 = 0.1;
 /// Least side of a camera's picture in pixels: a smaller one is cut out of one.
 const CAMERA: usize = 640;
 
-/// The ring under the perspective that explains it best.
-///
-/// A plane tilted by t at a distance that a target of semi-axis a px sees under a/f has a boost of a sin t / f along its slope; the
-/// slope is that of the minor axis, and f at least 0.6 widths of the whole picture.
-fn straightest<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, design: Design, size: usize) -> Option<Radial> {
-    let outline = outline_of(target);
-    let (a, b) = outline.semi_axes();
-    let sine = (1.0 - (b / a) * (b / a)).max(0.0).sqrt();
-    let largest = a * sine / (0.6 * size.max(CAMERA) as f64);
-    let [inner, outer] = design.ring();
-    let moves = inner * outer - 1.0;
-    let of =
-        |size: f64| Radial::of(plane, target, blur, &Frame::new(outline, size), design).map(|radial| (size, radial));
-    let looked_around =
-        |(size, radial): (f64, Radial)| radial.with_neighbours(plane, target, &Frame::new(outline, size));
-    if largest * moves < SHIFT {
-        return of(0.0).map(looked_around);
+/// What lies around a target in one picture, for every design.
+struct Around<'a, T> {
+    plane: &'a Plane<'a, T>,
+    target: &'a Target,
+    rays: Rc<Rays>,
+    /// Its samples seen straight on.
+    straight: Polar,
+    /// Larger side of the whole picture.
+    size: usize,
+}
+
+impl<'a, T: Sample> Around<'a, T> {
+    fn of(plane: &'a Plane<'a, T>, target: &'a Target, blur: f64, size: usize) -> Self {
+        let rays = Rc::new(Rays::of(outline_of(target), blur));
+        let straight = Polar::sample(plane, &Frame::new(rays.outline, 0.0), &rays);
+        Self { plane, target, rays, straight, size }
     }
-    let steps = (largest * moves / SHIFT).ceil().min(4.0);
-    let better = |a: (f64, Radial), b: (f64, Radial)| if b.1.misfit < a.1.misfit { b } else { a };
-    let all = (-(steps as i32)..=steps as i32).map(|k| largest * f64::from(k) / steps);
-    let mut best = all.filter_map(of).reduce(better)?;
-    for half in [0.5, 0.25] {
-        let step = half * largest / steps;
-        let around = [best.0 - step, best.0 + step].into_iter().filter_map(of);
-        best = around.fold(best, better);
+
+    /// The ring under the perspective that explains it best.
+    ///
+    /// A plane tilted by t at a distance that a target of semi-axis a px sees under a/f has a boost of a sin t / f along its slope; the
+    /// slope is that of the minor axis, and f at least 0.6 widths of the whole picture.
+    fn straightest(&self, design: Design) -> Option<Radial> {
+        let Self { plane, target, rays, .. } = self;
+        let outline = rays.outline;
+        let (a, b) = outline.semi_axes();
+        let sine = (1.0 - (b / a) * (b / a)).max(0.0).sqrt();
+        let largest = a * sine / (0.6 * self.size.max(CAMERA) as f64);
+        let bands = Bands::of(rays.clone(), design);
+        let of = |boost: f64| {
+            let frame = Frame::new(outline, boost);
+            let sampled = (boost != 0.0).then(|| Polar::sample(plane, &frame, rays));
+            let polar = sampled.as_ref().unwrap_or(&self.straight);
+            Radial::of(plane, target, &frame, polar, &bands).map(|radial| (boost, radial))
+        };
+        let looked_around =
+            |(boost, radial): (f64, Radial)| radial.with_neighbours(plane, target, &Frame::new(outline, boost));
+        let [inner, outer] = design.ring();
+        let moves = inner * outer - 1.0;
+        if largest * moves < SHIFT {
+            return of(0.0).map(looked_around);
+        }
+        let steps = (largest * moves / SHIFT).ceil().min(4.0);
+        let better = |a: (f64, Radial), b: (f64, Radial)| if b.1.misfit < a.1.misfit { b } else { a };
+        let all = (-(steps as i32)..=steps as i32).map(|k| largest * f64::from(k) / steps);
+        let mut best = all.filter_map(of).reduce(better)?;
+        for half in [0.5, 0.25] {
+            let step = half * largest / steps;
+            let around = [best.0 - step, best.0 + step].into_iter().filter_map(of);
+            best = around.fold(best, better);
+        }
+        Some(looked_around(best))
     }
-    Some(looked_around(best))
 }
 
 /// Sign of a target's contrast: inside less outside.

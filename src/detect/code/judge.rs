@@ -60,9 +60,9 @@ impl<'a> Ring<'a> {
     fn new(radial: &'a Radial, division: &'a Division) -> Self {
         let n = division.levels.len();
         let [gap, halves, outside] =
-            [&radial.gap, &radial.halves, &radial.outside].map(|levels| division.sectors(&radial.polar, levels));
+            [&radial.gap, &radial.halves, &radial.outside].map(|levels| division.sectors(&radial.rays, levels));
         let scale = division.high - division.low;
-        let veil = (limits::VEIL[0] + limits::VEIL[1] * radial.polar.blur / radial.sector(n)) * scale;
+        let veil = (limits::VEIL[0] + limits::VEIL[1] * radial.rays.blur / radial.sector(n)) * scale;
         Self { radial, division, n, scale, lit: division.lit(), gap, halves, outside, veil }
     }
 
@@ -114,7 +114,7 @@ impl<'a> Ring<'a> {
 
     /// Gate: the ground beside set sectors is that beside the others, or a ring of another width stands there.
     fn has_one_ground(&self) -> bool {
-        let grounds = self.division.sectors(&self.radial.polar, &self.radial.ground);
+        let grounds = self.division.sectors(&self.radial.rays, &self.radial.ground);
         let beside = |is_set: bool| {
             let of = || (0..self.n).filter(|k| self.division.is_set(*k) == is_set).map(|k| grounds[k]);
             of().sum::<f64>() / of().count().max(1) as f64
@@ -200,12 +200,12 @@ pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
 /// Whether a ring may be a code by chance: near its limits in several ways at once, of which these are the shares, or too blurred for its
 /// dot's radius. The smaller a ring, the more rings are nearly a code; and of a single arc one end settles the phase, the other one is on the
 /// grid of some family by chance: any broken ring is that, and one of several around each other most of all.
-fn is_by_chance(shares: [f64; 5], arcs: usize, Radial { polar, ringed, .. }: &Radial) -> bool {
+fn is_by_chance(shares: [f64; 5], arcs: usize, Radial { rays, ringed, .. }: &Radial) -> bool {
     let near = shares.iter().map(|share| share * share).sum::<f64>().sqrt();
     let [smallest, a_pixel, most] = limits::JOINT;
-    let radius = polar.area.sqrt();
+    let radius = rays.area.sqrt();
     let most = if arcs == 1 { limits::SINGLE } else { most };
     arcs == 1 && *ringed > limits::RINGED
         || near > (smallest + a_pixel * radius).min(most)
-        || polar.blur > limits::BLURRED * radius
+        || rays.blur > limits::BLURRED * radius
 }

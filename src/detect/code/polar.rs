@@ -57,19 +57,24 @@ impl Frame {
     }
 }
 
-/// Levels around a dot, less the background, as shares of the dot's contrast.
+/// The rays from a dot's centre on which the surroundings are read.
 #[derive(Clone, Debug)]
-pub(super) struct Polar {
-    /// Cosine and sine of each direction.
+pub(super) struct Rays {
+    /// Cosine and sine of each direction; those of the second half are opposite to those of the first.
     pub directions: Vec<[f64; 2]>,
     /// Pixels a radius across the rim and along it, in each direction.
     pub across: Vec<f64>,
     pub arc: Vec<f64>,
     /// Pixels a radius squared: the area that the unit square has in the photo.
     pub area: f64,
-    outline: Outline,
+    pub outline: Outline,
     /// Blur as sigma in pixels.
     pub blur: f64,
+}
+
+/// Levels around a dot, less the background, as shares of the dot's contrast.
+#[derive(Clone, Debug)]
+pub(super) struct Polar {
     /// Direction by direction, one level a radius; not a number outside of the picture.
     levels: Vec<f32>,
 }
@@ -85,35 +90,19 @@ pub(super) fn between([from, to]: [f64; 2]) -> std::ops::Range<usize> {
     index(from)..index(to)
 }
 
-impl Polar {
-    /// Samples the surroundings of a dot of this edge width.
-    pub fn sample<T: Sample>(plane: &Plane<T>, frame: &Frame, edge_width: f64) -> Self {
-        let Outline { p, q, r, .. } = frame.outline;
+impl Rays {
+    /// Of a dot of this edge width.
+    pub fn of(outline: Outline, edge_width: f64) -> Self {
+        let Outline { p, q, r, .. } = outline;
         let area = p * q - r * r;
         let around = 16.0 * area.sqrt();
-        let count = (around as usize).clamp(DIRECTIONS.0, DIRECTIONS.1);
+        let count = (around as usize).next_multiple_of(2).clamp(DIRECTIONS.0, DIRECTIONS.1);
+        let turn = std::f64::consts::TAU / count as f64;
+        let directions: Vec<[f64; 2]> = (0..count).map(|k| (turn * k as f64).sin_cos()).map(|(s, c)| [c, s]).collect();
+        let arc: Vec<f64> = directions.iter().map(|[c, s]| (r * c - p * s).hypot(q * c - r * s)).collect();
+        let across = arc.iter().map(|arc| area / arc).collect();
         let blur = (edge_width * edge_width + SAMPLING).sqrt();
-        let mut polar = Self {
-            directions: Vec::with_capacity(count),
-            across: Vec::with_capacity(count),
-            arc: Vec::with_capacity(count),
-            area,
-            outline: frame.outline,
-            blur,
-            levels: Vec::with_capacity(count * COUNT),
-        };
-        for k in 0..count {
-            let (s, c) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
-            let arc = (r * c - p * s).hypot(q * c - r * s);
-            polar.directions.push([c, s]);
-            polar.across.push(area / arc);
-            polar.arc.push(arc);
-            polar.levels.extend((0..COUNT).map(|i| {
-                let [x, y] = frame.place(radius(i), [c, s]);
-                if plane.holds(x, y, 0.0) { plane.sample(x as f32, y as f32) } else { f32::NAN }
-            }));
-        }
-        polar
+        Self { directions, across, arc, area, outline, blur }
     }
 
     /// Length in the photo of a radius in a direction.
@@ -122,36 +111,7 @@ impl Polar {
         (p * c + r * s).hypot(r * c + q * s)
     }
 
-    /// Levels of a direction.
-    pub fn row(&self, direction: usize) -> &[f32] {
-        &self.levels[direction * COUNT..(direction + 1) * COUNT]
-    }
-
-    /// Turns grey levels into shares of the contrast: takes off a background b0 + b1 x + b2 y and scales.
-    pub fn normalise(&mut self, background: [f64; 3], contrast: f64) {
-        let scale = 1.0 / contrast;
-        for (row, [c, s]) in self.levels.chunks_exact_mut(COUNT).zip(&self.directions) {
-            let slope = background[1] * c + background[2] * s;
-            for (k, level) in row.iter_mut().enumerate() {
-                *level = ((f64::from(*level) - background[0] - radius(k) * slope) * scale) as f32;
-            }
-        }
-    }
-
-    /// Share of the dot that reaches a radius in a direction.
-    #[inline]
-    pub fn dot(&self, radius: f64, direction: usize) -> f64 {
-        step((1.0 - radius) * self.across[direction] / self.blur)
-    }
-
-    /// Share of a band between two radii that reaches a radius in a direction.
-    #[inline]
-    pub fn band(&self, radius: f64, [from, to]: [f64; 2], direction: usize) -> f64 {
-        let scale = self.across[direction] / self.blur;
-        step((radius - from) * scale) - step((radius - to) * scale)
-    }
-
-    /// The shares of what lies within the first of these radii, and between each and the next.
+    /// The shares of what lies within the first of these radii, and between each and the next, that reach a radius in a direction.
     #[inline]
     pub fn bands<const N: usize>(&self, radius: f64, rims: [f64; N], direction: usize) -> [f64; N] {
         let scale = self.across[direction] / self.blur;
@@ -160,6 +120,37 @@ impl Polar {
             let beyond = step((radius - rim) * scale);
             std::mem::replace(&mut before, beyond) - beyond
         })
+    }
+}
+
+impl Polar {
+    /// Samples the surroundings of a dot.
+    pub fn sample<T: Sample>(plane: &Plane<T>, frame: &Frame, rays: &Rays) -> Self {
+        let level = |radius: f64, direction: [f64; 2]| {
+            let [x, y] = frame.place(radius, direction);
+            if plane.holds(x, y, 0.0) { plane.sample(x as f32, y as f32) } else { f32::NAN }
+        };
+        let along = |direction: &[f64; 2]| {
+            let direction = *direction;
+            (0..COUNT).map(move |k| level(radius(k), direction))
+        };
+        Self { levels: rays.directions.iter().flat_map(along).collect() }
+    }
+
+    /// Levels of a direction.
+    pub fn row(&self, direction: usize) -> &[f32] {
+        &self.levels[direction * COUNT..(direction + 1) * COUNT]
+    }
+
+    /// Turns grey levels into shares of the contrast: takes off a background b0 + b1 x + b2 y and scales.
+    pub fn normalise(&mut self, rays: &Rays, background: [f64; 3], contrast: f64) {
+        let scale = 1.0 / contrast;
+        for (row, [c, s]) in self.levels.chunks_exact_mut(COUNT).zip(&rays.directions) {
+            let slope = background[1] * c + background[2] * s;
+            for (k, level) in row.iter_mut().enumerate() {
+                *level = ((f64::from(*level) - background[0] - radius(k) * slope) * scale) as f32;
+            }
+        }
     }
 }
 

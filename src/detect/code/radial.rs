@@ -9,27 +9,27 @@
 //! with m pixels a radius across the rim; least squares over the four. The background is a plane through what dot and ring
 //! leave of each direction.
 
-use nalgebra::{Matrix2, Matrix3, Matrix4, Vector2, Vector3, Vector4};
+use std::rc::Rc;
 
-use super::polar::{Frame, Polar, between, radius, step};
+use nalgebra::{Matrix3, Vector3, Vector4};
+
+use super::bands::{Band, Bands};
+use super::polar::{Frame, Polar, Rays, between, step};
 use super::sectors::{self, Division};
 use super::{outline_of, sign};
 use crate::detect::acceptance::code as limits;
 use crate::detection::Target;
 use crate::image::{Plane, Sample};
-use crate::ring_code::Design;
 
 /// Radii of the dot where its level is taken: clear of a spot in its centre and of its rim.
 const INSIDE: [f64; 3] = [0.3, 0.5, 0.7];
 /// Radii between the dot and every family's ring.
 const GAP: [f64; 3] = [1.4, 1.5, 1.6];
 /// Where the first sample lies, and how far outside of the ring the ground must be clear.
-const START: f64 = 1.2;
-const GROUND: f64 = 0.42;
+pub(super) const START: f64 = 1.2;
+pub(super) const GROUND: f64 = 0.42;
 /// Radii beyond a ring where another one is looked for, close enough together for a thin one.
 const BEYOND: [f64; 11] = [0.55, 0.75, 0.95, 1.15, 1.35, 1.55, 1.75, 1.95, 2.15, 2.35, 2.55];
-/// Holds bands that blur has hidden, against the weight of one that is seen.
-const RIDGE: f64 = 0.02;
 /// Radii of the first look, where every family's ring is.
 const LOOKED_AT: [f64; 2] = [2.5, 2.9];
 /// Directions of a look.
@@ -38,7 +38,7 @@ const LOOKS: usize = 60;
 /// What lies around a dot, direction by direction.
 #[derive(Clone, Debug)]
 pub(super) struct Radial {
-    pub polar: Polar,
+    pub rays: Rc<Rays>,
     design: [f64; 2],
     middle: f64,
     pub ring: Vec<f64>,
@@ -108,28 +108,35 @@ fn like_dot<T: Sample>(plane: &Plane<T>, target: &Target, frame: &Frame, radii: 
 }
 
 impl Radial {
-    /// Of a target with this design; none where the ring leaves the picture or the dot has no contrast.
-    pub fn of<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, frame: &Frame, design: Design) -> Option<Self> {
-        let ring = design.ring();
-        let mut polar = Polar::sample(plane, frame, blur);
-        let whole = between([START, ring[1] + 0.1]);
-        if (0..polar.directions.len()).any(|j| polar.row(j)[whole.clone()].iter().any(|level| level.is_nan())) {
+    /// Of a target as it was sampled in this frame, with the bands of a design; none where the ring leaves the picture or the dot has no
+    /// contrast.
+    pub fn of<T: Sample>(
+        plane: &Plane<T>,
+        target: &Target,
+        frame: &Frame,
+        polar: &Polar,
+        bands: &Bands,
+    ) -> Option<Self> {
+        let whole = between([START, bands.design[1] + 0.1]);
+        let rays = &bands.rays;
+        if (0..rays.directions.len()).any(|j| polar.row(j)[whole.clone()].iter().any(|level| level.is_nan())) {
             return None;
         }
         let dot = inside(plane, frame);
         let mut contrast = sign(target) * target.contrast;
         let (mut background, mut off) = ([0.0; 3], Vec::new());
-        let shares = shares(&polar, ring);
+        let (grounds, seen) = (grounds(polar, bands), seen_inside(rays));
         for _ in 0..2 {
-            (background, off) = ground(&polar, contrast, ring, &shares)?;
-            contrast = (dot - background[0]) / seen_inside(&polar);
+            (background, off) = ground(&grounds, contrast, bands)?;
+            contrast = (dot - background[0]) / seen;
         }
         if !(contrast * sign(target) > limits::CONTRAST) {
             return None;
         }
-        polar.normalise(background, contrast);
+        let mut polar = polar.clone();
+        polar.normalise(rays, background, contrast);
         off.iter_mut().for_each(|level| *level /= contrast);
-        Some(Self::separate(polar, ring, off))
+        Some(Self::separate(&polar, bands, off))
     }
 
     /// The same with what stands around the ring in this frame.
@@ -145,47 +152,34 @@ impl Radial {
 
     /// Width of one of `n` sectors in the middle of the ring, in pixels.
     pub fn sector(&self, n: usize) -> f64 {
-        std::f64::consts::TAU / n as f64 * self.middle * self.polar.area.sqrt()
+        std::f64::consts::TAU / n as f64 * self.middle * self.rays.area.sqrt()
     }
 
-    fn separate(polar: Polar, [inner, outer]: [f64; 2], ground: Vec<f64>) -> Self {
-        let middle = (inner + outer) / 2.0;
-        let rims = [1.0, inner, middle, outer, outer + GROUND];
-        let samples = between([START, outer + GROUND]);
-        let count = polar.directions.len();
+    fn separate(polar: &Polar, bands: &Bands, ground: Vec<f64>) -> Self {
+        let [inner, outer] = bands.design;
+        let count = bands.rays.directions.len();
         let [mut ring, mut gap, mut halves, mut outside] = [(); 4].map(|()| Vec::with_capacity(count));
         let (mut squares, mut number) = (0.0, 0);
-        let mut seen = Vec::with_capacity(samples.len());
         for j in 0..count {
-            let mut normal = Matrix4::<f64>::zeros();
+            let (levels, row) = (&polar.row(j)[bands.samples.clone()], bands.row(j));
+            let is_whole = levels.iter().all(|level| !level.is_nan());
+            let seen = || levels.iter().zip(row).filter(|(level, _)| !level.is_nan());
             let mut right = Vector4::<f64>::zeros();
-            let row = polar.row(j);
-            let model = |k: usize| {
-                let [dot, gap, first, second, outside] = polar.bands(radius(k), rims, j);
-                (Vector4::new(gap, first + second, (first - second) / 2.0, outside), dot)
-            };
-            seen.clear();
-            seen.extend(samples.clone().filter(|k| !row[*k].is_nan()).map(|k| {
-                let (basis, dot) = model(k);
-                (basis, f64::from(row[k]) - dot)
-            }));
-            for (basis, level) in &seen {
-                normal += basis * basis.transpose();
-                right += basis * *level;
+            for (level, Band { dot, basis }) in seen() {
+                right += basis * (f64::from(*level) - dot);
             }
-            let ridge = RIDGE * samples.len() as f64;
-            for k in 0..4 {
-                normal[(k, k)] += ridge * if k == 2 { 0.5 } else { 0.1 };
-            }
-            let found = normal.cholesky().map_or_else(Vector4::zeros, |factor| factor.solve(&right));
+            let factor = if is_whole { bands.factor(j) } else { bands.factor_of(seen().map(|(_, band)| band)) };
+            let found = factor.map_or_else(Vector4::zeros, |factor| factor.solve(&right));
             gap.push(found[0]);
             ring.push(found[1]);
             halves.push(found[2]);
             outside.push(found[3]);
-            squares += seen.iter().map(|(basis, level)| (level - basis.dot(&found)).powi(2)).sum::<f64>();
-            number += seen.len() as u32;
+            for (level, Band { dot, basis }) in seen() {
+                squares += (f64::from(*level) - dot - basis.dot(&found)).powi(2);
+                number += 1;
+            }
         }
-        let misfit = (squares / f64::from(number.max(1))).sqrt();
+        let misfit = (squares / f64::from(number.max(1u32))).sqrt();
         // what gap, halves and outside have taken up, each over its width
         let mean_square = |levels: &[f64]| levels.iter().map(|level| level * level).sum::<f64>() / count as f64;
         let taken = mean_square(&gap) * (inner - START)
@@ -194,9 +188,9 @@ impl Radial {
         let bare = (misfit * misfit + taken / (outer + GROUND - START)).sqrt();
         let share = (outer - inner) / (outer + GROUND - START);
         Self {
-            polar,
+            rays: bands.rays.clone(),
             design: [inner, outer],
-            middle,
+            middle: (inner + outer) / 2.0,
             ring,
             gap,
             halves,
@@ -211,7 +205,7 @@ impl Radial {
 
     /// Largest distance of an arc's end from the grid of a division, over what it may be.
     pub fn off_grid(&self, division: &Division) -> f64 {
-        division.off_grid(&self.polar, &self.ring, self.middle)
+        division.off_grid(&self.rays, &self.ring, self.middle)
     }
 
     /// Larger distance of the ring's two rims from those of the design, over what it may be, from means of gap, halves and outside as
@@ -220,7 +214,7 @@ impl Radial {
         let [inner, outer] = self.design;
         let uneven = halves / 2.0 * (outer - inner) / 2.0;
         let [first, second] = [gap * (inner - 1.0) + uneven, outside * GROUND - uneven];
-        first.abs().max(second.abs()) / (limits::RIMS[0] + limits::RIMS[1] / self.polar.area.sqrt())
+        first.abs().max(second.abs()) / (limits::RIMS[0] + limits::RIMS[1] / self.rays.area.sqrt())
     }
 
     /// Rms of what a division leaves of the whole picture of gap, ring and outside, over the step between its levels.
@@ -239,57 +233,57 @@ impl Radial {
 
     /// The ring's division into sectors.
     pub fn divide(&self, bits: u32) -> Option<Division> {
-        sectors::divide(&self.polar, &self.ring, self.middle, bits)
+        sectors::divide(&self.rays, &self.ring, self.middle, bits)
     }
 }
 
 /// Share of the dot's contrast that blur leaves where its level is taken.
-fn seen_inside(polar: &Polar) -> f64 {
-    let count = polar.directions.len();
-    let share = |j: usize, r: f64| {
-        let scale = polar.across[j] / polar.blur;
+fn seen_inside(rays: &Rays) -> f64 {
+    let share = |across: f64, r: f64| {
+        let scale = across / rays.blur;
         step((1.0 - r) * scale) + step((1.0 + r) * scale) - 1.0
     };
-    let sum: f64 = (0..count).flat_map(|j| INSIDE.map(|r| share(j, r))).sum();
-    (sum / (INSIDE.len() * count) as f64).max(0.5)
+    let sum: f64 = rays.across.iter().flat_map(|across| INSIDE.map(|r| share(*across, r))).sum();
+    (sum / (INSIDE.len() * rays.across.len()) as f64).max(0.5)
 }
 
-/// Shares of ring and dot in the samples up to the ring's ground, direction by direction.
-fn shares(polar: &Polar, ring: [f64; 2]) -> Vec<[f64; 2]> {
-    let samples = between([START, ring[1] + GROUND]);
-    let of = |j: usize| samples.clone().map(move |k| [polar.band(radius(k), ring, j), polar.dot(radius(k), j)]);
-    (0..polar.directions.len()).flat_map(of).collect()
+/// The level of each direction beside a ring of any level and a dot without contrast, and what a dot's contrast takes off it: least squares
+/// over the level and that of the ring.
+fn grounds(polar: &Polar, bands: &Bands) -> Vec<[f64; 2]> {
+    let of = |j: usize| {
+        let (mut number, mut ring, mut square) = (0.0, 0.0, 0.0);
+        let (mut sums, mut with_ring) = ([0.0; 2], [0.0; 2]);
+        for (level, Band { dot, basis }) in polar.row(j)[bands.samples.clone()].iter().zip(bands.row(j)) {
+            let level = f64::from(*level);
+            if level.is_nan() {
+                continue;
+            }
+            let share = basis[1];
+            (number, ring, square) = (number + 1.0, ring + share, square + share * share);
+            for (k, value) in [level, *dot].into_iter().enumerate() {
+                sums[k] += value;
+                with_ring[k] += share * value;
+            }
+        }
+        let determinant = number * square - ring * ring;
+        let first = |k: usize| (square * sums[k] - ring * with_ring[k]) / determinant;
+        if determinant > 0.0 { [first(0), first(1)] } else { [f64::NAN; 2] }
+    };
+    (0..bands.rays.directions.len()).map(of).collect()
 }
 
 /// Background at the dot's centre and its slope along x and y of the target's plane, in levels a radius.
 ///
 /// Each direction gives the level that a dot of this contrast and a ring of any level leave; the plane goes through those that
 /// agree.
-fn ground(polar: &Polar, contrast: f64, ring: [f64; 2], shares: &[[f64; 2]]) -> Option<([f64; 3], Vec<f64>)> {
-    let samples = between([START, ring[1] + GROUND]);
-    let middle = (START + ring[1] + GROUND) / 2.0;
-    let count = polar.directions.len();
-    let levels: Vec<f64> = (0..count)
-        .map(|j| {
-            let mut normal = Matrix2::<f64>::zeros();
-            let mut right = Vector2::<f64>::zeros();
-            let shares = &shares[j * samples.len()..][..samples.len()];
-            for (level, [band, dot]) in polar.row(j)[samples.clone()].iter().zip(shares) {
-                let level = f64::from(*level);
-                if level.is_nan() {
-                    continue;
-                }
-                let basis = Vector2::new(1.0, *band);
-                normal += basis * basis.transpose();
-                right += basis * (level - contrast * dot);
-            }
-            normal.cholesky().map_or(f64::NAN, |factor| factor.solve(&right)[0])
-        })
-        .collect();
+fn ground(grounds: &[[f64; 2]], contrast: f64, bands: &Bands) -> Option<([f64; 3], Vec<f64>)> {
+    let middle = (START + bands.design[1] + GROUND) / 2.0;
+    let count = grounds.len();
+    let levels: Vec<f64> = grounds.iter().map(|[level, dot]| level - contrast * dot).collect();
     let mut kept: Vec<bool> = levels.iter().map(|level| level.is_finite()).collect();
     let mut plane = Vector3::zeros();
     let basis = |j: usize| {
-        let [c, s] = polar.directions[j];
+        let [c, s] = bands.rays.directions[j];
         Vector3::new(1.0, middle * c, middle * s)
     };
     for distance in limits::GROUND {

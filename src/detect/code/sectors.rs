@@ -12,7 +12,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix3, Vector3};
 
-use super::polar::{Polar, step};
+use super::polar::{Rays, step};
 use crate::detect::acceptance::code::{ENDS, ENDS_RMS, MISFIT, SAME, STANDS_OUT, UNEVEN};
 
 /// Steps of the phase, as shares of a sector: a coarse and a fine search.
@@ -54,9 +54,9 @@ pub(super) struct Division {
 }
 
 /// The best division into `n` sectors of levels around a ring whose middle is at `radius`; none where nothing stands out.
-pub(super) fn divide(polar: &Polar, levels: &[f64], radius: f64, n: u32) -> Option<Division> {
+pub(super) fn divide(rays: &Rays, levels: &[f64], radius: f64, n: u32) -> Option<Division> {
     let sector = std::f64::consts::TAU / f64::from(n);
-    let mut phase = first_phase(polar, levels, n);
+    let mut phase = first_phase(rays, levels, n);
     let mut best: Option<Tried> = None;
     'phases: for steps in PHASES {
         // what is so far from a ring of sectors does not become one by a fine step
@@ -66,7 +66,7 @@ pub(super) fn divide(polar: &Polar, levels: &[f64], radius: f64, n: u32) -> Opti
         let around = phase;
         for share in steps {
             let phase_tried = around + share * sector;
-            let Some(tried) = at_phase(polar, levels, radius, n, phase_tried) else { continue };
+            let Some(tried) = at_phase(rays, levels, radius, n, phase_tried) else { continue };
             if best.as_ref().is_none_or(|best| tried.misfit < best.misfit) {
                 // where all are set no sector begins or ends
                 let is_full = tried.bits == (1 << n) - 1;
@@ -78,11 +78,11 @@ pub(super) fn divide(polar: &Polar, levels: &[f64], radius: f64, n: u32) -> Opti
             }
         }
     }
-    best.map(|best| best.finish(polar, levels))
+    best.map(|best| best.finish(rays, levels))
 }
 
 /// Phase of the n-th harmonic of the edges.
-fn first_phase(polar: &Polar, levels: &[f64], n: u32) -> f64 {
+fn first_phase(rays: &Rays, levels: &[f64], n: u32) -> f64 {
     let count = levels.len();
     let turn = std::f64::consts::TAU / count as f64;
     let mut sums = [0.0; 2];
@@ -90,7 +90,7 @@ fn first_phase(polar: &Polar, levels: &[f64], n: u32) -> f64 {
         let rise = levels[(k + 1) % count] - levels[k];
         let (s, c) = (f64::from(n) * turn * (k as f64 + 0.5)).sin_cos();
         // blurred over more directions where the arc is short
-        let weight = rise * rise / polar.arc[k];
+        let weight = rise * rise / rays.arc[k];
         sums[0] += weight * c;
         sums[1] += weight * s;
     }
@@ -109,10 +109,10 @@ struct Tried {
     factor: Cholesky<f64, Dyn>,
 }
 
-fn at_phase(polar: &Polar, levels: &[f64], radius: f64, n: u32, phase: f64) -> Option<Tried> {
+fn at_phase(rays: &Rays, levels: &[f64], radius: f64, n: u32, phase: f64) -> Option<Tried> {
     let count = n as usize;
-    let shares = shares(polar, radius, n, phase);
-    let weights = &polar.arc;
+    let shares = shares(rays, radius, n, phase);
+    let weights = &rays.arc;
     let (mut normal, mut right) = normal_equations(&shares, levels, weights, count);
     let ridge = RIDGE * weights.iter().sum::<f64>() / f64::from(n);
     for k in 0..count {
@@ -176,9 +176,9 @@ fn rest(model: &DVector<f64>, shares: &[Shares], levels: &[f64], weights: &[f64]
 }
 
 impl Tried {
-    fn finish(self, polar: &Polar, levels: &[f64]) -> Division {
+    fn finish(self, rays: &Rays, levels: &[f64]) -> Division {
         let Self { found, bits, low, high, misfit, phase, shares, factor } = self;
-        let (count, weights) = (found.len(), &polar.arc);
+        let (count, weights) = (found.len(), &rays.arc);
         let inverse = factor.inverse();
         // what the free levels leave is noise, of so many independent places
         let mean_weight = weights.iter().sum::<f64>() / weights.len() as f64;
@@ -205,17 +205,17 @@ impl Shares {
     }
 }
 
-fn shares(polar: &Polar, radius: f64, n: u32, phase: f64) -> Vec<Shares> {
+fn shares(rays: &Rays, radius: f64, n: u32, phase: f64) -> Vec<Shares> {
     let sector = std::f64::consts::TAU / f64::from(n);
     let count = n as usize;
     // direction of each ray, and what turns a sine into a distance in blurs
-    let rays: Vec<([f64; 2], f64)> = (0..n)
+    let ends: Vec<([f64; 2], f64)> = (0..n)
         .map(|k| {
             let (s, c) = (phase + sector * f64::from(k)).sin_cos();
-            ([c, s], radius * polar.area / (polar.ray(c, s) * polar.blur))
+            ([c, s], radius * rays.area / (rays.ray(c, s) * rays.blur))
         })
         .collect();
-    let turn = std::f64::consts::TAU / polar.directions.len() as f64;
+    let turn = std::f64::consts::TAU / rays.directions.len() as f64;
     let of = |(j, [c, s]): (usize, &[f64; 2])| {
         let angle = (j as f64 * turn - phase).rem_euclid(std::f64::consts::TAU);
         let first = ((angle / sector) as usize + 1 + count - NEAR) % count;
@@ -223,22 +223,22 @@ fn shares(polar: &Polar, radius: f64, n: u32, phase: f64) -> Vec<Shares> {
         let mut before = 1.0;
         let mut shares = [0.0; 2 * NEAR];
         for (k, share) in shares.iter_mut().enumerate() {
-            let ([rc, rs], scale) = rays[(first + k + 1) % count];
+            let ([rc, rs], scale) = ends[(first + k + 1) % count];
             let here = if k + 1 < 2 * NEAR { step((s * rc - c * rs) * scale) } else { 0.0 };
             *share = before - here;
             before = here;
         }
         Shares { first, shares }
     };
-    polar.directions.iter().enumerate().map(of).collect()
+    rays.directions.iter().enumerate().map(of).collect()
 }
 
 impl Division {
     /// Other levels around the same ring, sector by sector.
-    pub fn sectors(&self, polar: &Polar, levels: &[f64]) -> Vec<f64> {
+    pub fn sectors(&self, rays: &Rays, levels: &[f64]) -> Vec<f64> {
         let count = self.levels.len();
         let mut right = DVector::<f64>::zeros(count);
-        for ((row, level), weight) in self.shares.iter().zip(levels).zip(&polar.arc) {
+        for ((row, level), weight) in self.shares.iter().zip(levels).zip(&rays.arc) {
             row.of(count).for_each(|(k, share)| right[k] += weight * share * level);
         }
         let found: DVector<f64> = &self.inverse * right;
@@ -277,8 +277,8 @@ impl Division {
 
     /// Largest distance of an arc's end from the grid, or the rms of all, over what it may be. All ends of a code are where they belong but
     /// for chance; a ring of other sectors that has none far from the grid has many a little off.
-    pub fn off_grid(&self, polar: &Polar, levels: &[f64], radius: f64) -> f64 {
-        let shifts = self.shifts(polar, levels, radius);
+    pub fn off_grid(&self, rays: &Rays, levels: &[f64], radius: f64) -> f64 {
+        let shifts = self.shifts(rays, levels, radius);
         let over =
             |limit: [f64; 2]| move |[shift, sector_px]: &[f64; 2]| shift.abs() / (limit[0] + limit[1] / sector_px);
         let largest = shifts.iter().map(over(ENDS)).fold(0.0, f64::max);
@@ -289,7 +289,7 @@ impl Division {
     /// Distance of each arc's end from the grid in sectors, and a sector's width there in pixels. What stands on the wrong side of an end,
     /// as far as half a sector to both sides, is its shift times the step between the levels, whatever the blur. Light changes the level of
     /// set sectors around the ring: a plane goes through what lies well inside of them.
-    fn shifts(&self, polar: &Polar, levels: &[f64], radius: f64) -> Vec<[f64; 2]> {
+    fn shifts(&self, rays: &Rays, levels: &[f64], radius: f64) -> Vec<[f64; 2]> {
         let n = self.levels.len();
         let (count, directions) = (n as f64, levels.len() as f64);
         let sector_of = |j: usize| {
@@ -297,7 +297,7 @@ impl Division {
             let place = turn.rem_euclid(1.0) * count;
             ((place as usize).min(n - 1), place.fract())
         };
-        let basis = |j: usize| Vector3::new(1.0, polar.directions[j][0], polar.directions[j][1]);
+        let basis = |j: usize| Vector3::new(1.0, rays.directions[j][0], rays.directions[j][1]);
         let (mut normal, mut right) = (Matrix3::<f64>::zeros(), Vector3::<f64>::zeros());
         for (j, level) in levels.iter().enumerate() {
             let (sector, share) = sector_of(j);
@@ -324,7 +324,7 @@ impl Division {
             let near = (place - half).ceil() as i64..=(place + half).floor() as i64;
             let at = |j: i64| j.rem_euclid(levels.len() as i64) as usize;
             let shift = near.map(|j| rest[at(j)]).sum::<f64>() * count / (directions * step);
-            let sector_px = std::f64::consts::TAU / count * radius * polar.arc[at(place.round() as i64)];
+            let sector_px = std::f64::consts::TAU / count * radius * rays.arc[at(place.round() as i64)];
             [shift, sector_px]
         };
         ends.map(off).collect()
@@ -355,9 +355,7 @@ mod tests {
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
     use super::*;
-    use crate::detect::code::polar::Frame;
     use crate::detect::outline::Outline;
-    use crate::image::Plane;
 
     /// Levels around a ring whose arcs end at these places, in sectors of 12, blurred over a tenth of a sector.
     fn ring(ends: &[[f64; 2]], directions: usize) -> Vec<f64> {
@@ -370,13 +368,11 @@ mod tests {
 
     #[test]
     fn light_is_a_plane_through_the_set_sectors() {
-        let samples = vec![0u8; 200 * 200];
-        let frame = Frame::new(Outline::from_axes(100.0, 100.0, 15.0, 15.0, 0.0), 0.0);
-        let polar = Polar::sample(&Plane::new(200, 200, &samples), &frame, 1.8);
+        let rays = Rays::of(Outline::from_axes(100.0, 100.0, 15.0, 15.0, 0.0), 1.8);
         let lit = |ends: &[[f64; 2]]| {
-            let mut levels = ring(ends, polar.directions.len());
-            levels.iter_mut().zip(&polar.directions).for_each(|(level, [c, _])| *level *= 1.0 + 0.2 * c);
-            divide(&polar, &levels, 2.5, 12).unwrap().lit()
+            let mut levels = ring(ends, rays.directions.len());
+            levels.iter_mut().zip(&rays.directions).for_each(|(level, [c, _])| *level *= 1.0 + 0.2 * c);
+            divide(&rays, &levels, 2.5, 12).unwrap().lit()
         };
         let around = lit(&[[0.0, 2.0], [3.0, 4.0], [5.0, 7.0], [8.0, 9.0], [10.0, 11.0]]);
         // sectors of 30 degrees from the direction of the light on
@@ -391,21 +387,19 @@ mod tests {
 
     #[test]
     fn products_summed_by_sector_are_those_of_the_definition() {
-        let samples = vec![0u8; 200 * 200];
-        let frame = Frame::new(Outline::from_axes(100.0, 100.0, 15.0, 9.0, 0.4), 0.0);
-        let polar = Polar::sample(&Plane::new(200, 200, &samples), &frame, 1.8);
-        let levels = ring(&[[1.0, 3.0], [5.0, 6.3], [8.0, 11.0]], polar.directions.len());
+        let rays = Rays::of(Outline::from_axes(100.0, 100.0, 15.0, 9.0, 0.4), 1.8);
+        let levels = ring(&[[1.0, 3.0], [5.0, 6.3], [8.0, 11.0]], rays.directions.len());
         for (n, phase) in [(12, 0.0), (14, 0.2), (16, -0.1), (20, 3.0)] {
             let count = n as usize;
-            let shares = shares(&polar, 2.5, n, phase);
-            let (normal, right) = normal_equations(&shares, &levels, &polar.arc, count);
+            let shares = shares(&rays, 2.5, n, phase);
+            let (normal, right) = normal_equations(&shares, &levels, &rays.arc, count);
             let all = |row: &Shares| {
                 let mut all = DVector::<f64>::zeros(count);
                 row.of(count).for_each(|(k, share)| all[k] += share);
                 all
             };
             let (mut plain, mut plain_right) = (DMatrix::<f64>::zeros(count, count), DVector::<f64>::zeros(count));
-            for ((row, level), weight) in shares.iter().zip(&levels).zip(&polar.arc) {
+            for ((row, level), weight) in shares.iter().zip(&levels).zip(&rays.arc) {
                 plain += *weight * all(row) * all(row).transpose();
                 plain_right += *weight * *level * all(row);
             }
@@ -416,13 +410,11 @@ mod tests {
 
     #[test]
     fn ends_off_the_grid_are_told_and_those_on_it_are_not() {
-        let samples = vec![0u8; 200 * 200];
-        let frame = Frame::new(Outline::from_axes(100.0, 100.0, 15.0, 15.0, 0.0), 0.0);
-        let polar = Polar::sample(&Plane::new(200, 200, &samples), &frame, 1.8);
+        let rays = Rays::of(Outline::from_axes(100.0, 100.0, 15.0, 15.0, 0.0), 1.8);
         let off = |ends: &[[f64; 2]]| {
-            let levels = ring(ends, polar.directions.len());
-            let division = divide(&polar, &levels, 2.5, 12).unwrap();
-            division.off_grid(&polar, &levels, 2.5)
+            let levels = ring(ends, rays.directions.len());
+            let division = divide(&rays, &levels, 2.5, 12).unwrap();
+            division.off_grid(&rays, &levels, 2.5)
         };
         let on = off(&[[1.0, 3.0], [5.0, 6.0], [8.0, 11.0]]);
         assert!(on < 0.3, "{on}");
