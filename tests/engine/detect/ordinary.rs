@@ -118,8 +118,9 @@ fn cameras_drawn_at_random_are_told_by_their_sigmas_and_show_nothing_false() {
 
 /// Least share found under each condition, and largest rms of error over sigma: what `cargo bench --bench photos -- conditions`
 /// shows of ten pictures each, less what chance leaves of two.
-const CONDITIONS: [(&str, f64, f64); 11] = [
+const CONDITIONS: [(&str, f64, f64); 12] = [
     ("hidden by up to a fifth", 0.5, 3.0),
+    ("crossed by a cable", 0.55, 2.0),
     ("moved by up to 6 px", 0.97, 1.3),
     ("JPEG of quality 30", 0.98, 1.2),
     ("noise 20, contrast 150", 0.96, 1.3),
@@ -147,8 +148,12 @@ fn targets_are_found_under_the_conditions_of_a_day() {
         let all = tally.all();
         let share = |count: usize| count as f64 / all.targets as f64;
         assert!(share(all.hits) >= least && Tally::chi(&all) <= most && all.others == 0, "{name}: {all}");
-        if name.starts_with("hidden") {
-            assert!(share(all.hits + hidden) > 0.93, "{name}: {all}, {hidden} said to be hidden");
-        }
+        // of the halves of a target on both sides of a cable one in six is too little of an ellipse
+        let told = match name {
+            "hidden by up to a fifth" => 0.93,
+            "crossed by a cable" => 0.75,
+            _ => 0.0,
+        };
+        assert!(share(all.hits + hidden) > told || told == 0.0, "{name}: {all}, {hidden} said to be hidden");
     }
 }

@@ -32,6 +32,7 @@ pub fn all() -> Vec<Condition> {
     let options = DetectOptions::default;
     vec![
         Condition { name: "hidden by up to a fifth", options: options(), picture: hidden },
+        Condition { name: "crossed by a cable", options: options(), picture: crossed },
         Condition { name: "moved by up to 6 px", options: options(), picture: moved },
         Condition { name: "JPEG of quality 30", options: options(), picture: compressed },
         Condition { name: "noise 20, contrast 150", options: options(), picture: noisy },
@@ -76,19 +77,35 @@ fn painted(spots: &[Spot], ground: f64, blur: f64) -> Canvas {
 
 /// A bar lies before every target and covers up to a fifth of its diameter.
 fn hidden(seed: u64) -> (Grey, Vec<Spot>) {
+    behind(seed, |random, spot, half| {
+        let near = half * (1.0 - 2.0 * random.within(0.05, 0.2));
+        [near, near + 0.4 * spot.a + 3.0]
+    })
+}
+
+/// A cable runs across every target, as wide as up to a fifth of its diameter.
+fn crossed(seed: u64) -> (Grey, Vec<Spot>) {
+    behind(seed, |random, _, half| {
+        let width = half * random.within(0.1, 0.4);
+        let middle = half * random.within(-0.6, 0.6);
+        [middle - width / 2.0, middle + width / 2.0]
+    })
+}
+
+/// Targets behind grey bars, each in a direction of its own from and to these distances from the target's centre; half is the target's
+/// own half width there.
+fn behind(seed: u64, bar: impl Fn(&mut Uniform, &Spot, f64) -> [f64; 2]) -> (Grey, Vec<Spot>) {
     let mut random = Uniform(seed);
     let spots = scattered(&mut random, [12.0, 50.0], [0.6, 1.0], 2.2, INK - PAPER);
     let blur = random.within(0.6, 1.2);
     let mut canvas = painted(&spots, PAPER, blur);
     for spot in &spots {
         let (sine, cosine) = random.within(0.0, std::f64::consts::TAU).sin_cos();
-        let share = random.within(0.05, 0.2);
-        let grey = random.within(60.0, 170.0);
         // the ellipse's half width in the bar's direction
         let (s, c) =
             (sine * spot.angle.cos() - cosine * spot.angle.sin(), cosine * spot.angle.cos() + sine * spot.angle.sin());
-        let half = (spot.a * c).hypot(spot.b * s);
-        let near = half * (1.0 - 2.0 * share);
+        let [near, far] = bar(&mut random, spot, (spot.a * c).hypot(spot.b * s));
+        let grey = random.within(60.0, 170.0);
         let reach = 2.0 * spot.a + 6.0;
         let step = |t: f64| 0.5 * libm::erfc(-t / blur * std::f64::consts::FRAC_1_SQRT_2);
         let bounds = |middle: f64| (middle - reach).max(0.0) as usize..((middle + reach).max(0.0) as usize).min(SIZE);
@@ -97,10 +114,7 @@ fn hidden(seed: u64) -> (Grey, Vec<Spot>) {
                 let [dx, dy] = [x as f64 + 0.5 - spot.u, y as f64 + 0.5 - spot.v];
                 let (along, across) = (dx * cosine + dy * sine, dy * cosine - dx * sine);
                 let width = spot.a + 2.0;
-                let inside = step(along - near)
-                    * step(near + 0.4 * spot.a + 3.0 - along)
-                    * step(across + width)
-                    * step(width - across);
+                let inside = (step(along - near) - step(along - far)) * step(across + width) * step(width - across);
                 let level = &mut canvas.levels[y * SIZE + x];
                 *level += inside * (grey - *level);
             }
