@@ -1,8 +1,8 @@
 //! Reading ring codes.
 //!
 //! A ring is read as a picture of a model: dot, gap, n equal sectors of one of two levels, and clear ground outside, all
-//! blurred as the dot's own rim is. [`polar`] samples it, [`radial`] separates gap, ring and outside in each direction,
-//! [`sectors`] divides the ring into sectors, [`judge`](mod@judge) decides what that is.
+//! blurred as the dot's own rim is. [`polar`] samples it, [`bands`] is the model of a ray, [`radial`] separates gap, ring and
+//! outside in each direction, [`sectors`] divides the ring into sectors, [`judge`](mod@judge) decides what that is.
 
 mod bands;
 mod judge;

@@ -133,7 +133,7 @@ fn weighted<'a>(kernel: &[f32], pair: impl Fn(usize) -> [&'a [f32]; 2]) -> [f32x
     sums
 }
 
-/// Sixteen samples as they are loaded: written out, for what an array's own methods become depends on the compiler's mood.
+/// Sixteen samples as they are loaded: written out, because compilers do not always inline an array's own methods.
 #[inline(always)]
 fn fours(values: &[f32]) -> [f32x4; 4] {
     match values.as_chunks::<4>().0 {
