@@ -72,7 +72,7 @@ pub(super) struct Rays {
     pub blur: f64,
 }
 
-/// Levels around a dot, less the background, as shares of the dot's contrast.
+/// Levels around a dot: grey levels as they are sampled, and less the background, as shares of the dot's contrast, once normalised.
 #[derive(Clone, Debug)]
 pub(super) struct Polar {
     /// Direction by direction, one level a radius; not a number outside of the picture.
