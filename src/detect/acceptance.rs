@@ -262,6 +262,8 @@ pub(crate) mod fit {
     use super::Source;
 
     table! {
+        /// Least rise of the level beside a target that is something standing there: share of the contrast, and rms of the fit.
+        RISE: [f64; 2] = [0.1, 5.0], Derived "the range of six bilinear samples of noise exceeds five deviations on one of 48 rays of every hundredth target";
         /// Residual beyond which a pixel is not the target's: in noise, least noise, and share of the contrast for a lens, a drawing,
         /// an edge sharper than any rendered.
         OUTLIER: f64 = 5.0, Derived "of a thousand pixels chance takes none";

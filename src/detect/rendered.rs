@@ -16,6 +16,7 @@ pub(crate) mod band;
 pub(crate) mod colour;
 pub(crate) mod fit;
 mod flats;
+mod neighbours;
 mod scatter;
 mod sketch;
 

@@ -308,6 +308,15 @@ impl Band {
         (left / (used - 24.0).max(1.0)).max(0.0).sqrt()
     }
 
+    /// J'l of the band for a light l, as a share of the contrast, at places counted from the pixels' origin. The residuals are lost.
+    pub fn right_of_light(&mut self, contrast: f64, light: impl Fn(f64, f64) -> f64) -> Unknowns {
+        let places = self.x.iter().zip(&self.y).zip(&self.kept);
+        for (residual, ((x, y), kept)) in self.residual.iter_mut().zip(places) {
+            *residual = kept * (contrast * light(f64::from(*x), f64::from(*y))) as f32;
+        }
+        self.right(contrast)
+    }
+
     /// The residuals.
     pub(super) fn residuals(&self) -> &[f32] {
         &self.residual

@@ -4,6 +4,9 @@
 //! blurred ellipse ([`rendered`](super::rendered)): ten unknowns, weights equal. No pixel is lost and none is
 //! interpolated, so the centre reaches the Cramér-Rao bound of the photograph.
 //!
+//! Light that blur carries from what stands around onto those pixels pulls the centre; in the end it is taken back to first order
+//! ([`neighbours`](super::neighbours)), δ = N⁻¹ J'l, and δ δ' is added to the covariance.
+//!
 //! Only the band of pixels that the rim's blur reaches depends on the outline ([`band`](super::band)). The design matrix
 //! is rendered at the start and kept while the corrections are small against the blur (chord method): the limit is the
 //! same, as the residuals are always exact.
@@ -11,6 +14,7 @@
 use super::band::{Band, Normal, Prior, Region, Unknowns};
 use super::colour::Colour;
 use super::flats::Flats;
+use super::neighbours::Neighbours;
 use super::scatter;
 use crate::detect::acceptance::fit as limits;
 use crate::detect::ellipse::outline::Outline;
@@ -198,13 +202,24 @@ pub(crate) fn fit<T: Sample>(
             covariance = covariance.map(|value| value * (1.0 + share * (limits::MOVED_TOGETHER - 1.0)));
         }
     }
+    let (rms, uneven) = (variance.sqrt(), work.band.unevenness());
+    let mut outline = state.outline;
+    let reach = region.half_band.min(region.surround.outer.max(1.0)) + 0.3;
+    if let Some(neighbours) = Neighbours::of(plane, &outline, state.blur, state.contrast, reach, rms) {
+        let [u, v] = work.origin;
+        let pulled = cofactors * work.band.right_of_light(state.contrast, |x, y| neighbours.light(x + u, y + v));
+        let [pu, pv] = [pulled[0], pulled[1]];
+        (outline.u, outline.v) = (outline.u - pu, outline.v - pv);
+        // the light is known to about its own size
+        covariance = [covariance[0] + pu * pu, covariance[1] + pu * pv, covariance[2] + pv * pv];
+    }
     (covariance[0] > 0.0 && covariance[2] > 0.0).then_some(Fit {
         colour,
-        outline: state.outline,
+        outline,
         blur: state.blur,
         contrast: state.contrast,
-        rms: variance.sqrt(),
-        uneven: work.band.unevenness(),
+        rms,
+        uneven,
         disturbed: dropped as f64 / used as f64,
         covariance,
     })
