@@ -4,9 +4,10 @@
 //! blobs that may be ellipses; in the same pass the picture at a quarter of its size shows what is large or out of focus. [`edges`]
 //! confirms them: sub-pixel edges, a robust ellipse through them ([`ellipse`] is the shape itself), the grey levels around.
 //! [`rendered`] measures the centre by the fit of a rendered ellipse, or [`centroid`] by a classical operator; [`measure`] leads
-//! from one to the next. Rings around a target are read as codes ([`code`]). In ordinary photos [`alike`] finds more by what the targets
-//! found have in common. What decides is one table, [`acceptance`]. A room uses those before it, never the reverse. [`whole`] goes around what a damaged file does not give,
-//! [`sites`] measures on a sensor's own samples, [`colours`] red and blue beside green.
+//! from one to the next, [`pass`](mod@pass) through a whole picture. Rings around a target are read as codes ([`code`]). In ordinary
+//! photos [`alike`] finds more by what the targets found have in common. What decides is one table, [`acceptance`]. A room uses those
+//! before it, never the reverse. [`whole`] goes around what a damaged file does not give, [`sites`] measures on a sensor's own samples,
+//! [`colours`] red and blue beside green.
 
 mod acceptance;
 mod alike;
@@ -22,6 +23,7 @@ mod measure;
 mod median;
 mod normal;
 mod part;
+mod pass;
 mod picture;
 mod rendered;
 mod search;
@@ -31,24 +33,20 @@ mod whole;
 
 pub(crate) use ellipse::{conic, outline};
 
-use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, PictureReport, Reason, Target};
+use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, PictureReport, Target};
 use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
-use acceptance::size::{ALIKE_LARGE, ALIKE_SMALL};
 use code::outline_of;
 pub use colours::colours_apart;
-use covered::Covered;
 use measure::Measure;
 use normal::BLUR;
 use outline::Outline;
+use pass::Pass;
 use picture::character::{APART, Character};
 use picture::noise::{self, Levels};
 use picture::sharpening::{self, Sharpening};
 use picture::softened::Softened;
-use rendered::colour::{Colour, Correlation};
-use search::blob::NoBlob;
 use search::census::Census;
-use search::{Blobs, Candidate};
 pub use shot::{detect_shot, measure_in_shot};
 pub use whole::{detect_photo, measure_in_photo};
 
@@ -148,7 +146,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let character = Character::of(&plane, &levels);
     let mut processed = character.is_processed(&levels);
     let mut picture = report(&levels, &character);
-    let mut passed = pass(plane, levels, options, processed && character.is_compressed(), false, &[]);
+    let mut passed = pass::pass(plane, levels, options, processed && character.is_compressed(), false, &[]);
     if !processed && !levels.stairs {
         // Dots too small for flat sides of a row's steps show in their own rims what was done to the picture.
         let outlines: Vec<Outline> = passed.detection.targets.iter().map(outline_of).collect();
@@ -156,12 +154,17 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         processed = found.is_some_and(|sharpening| sharpening.amount > acceptance::picture::BY_RIMS);
     }
     picture.noise_correlation = passed.correlate();
-    let mut restored = None;
+    let (mut restored, mut left) = (None, Vec::new());
     if processed {
-        let Pass { detection: Detection { targets: mut first, .. }, mut grounds, .. } = passed;
+        let Pass { detection: Detection { targets: first, .. }, mut grounds, doubtful, .. } = passed;
         let known: Vec<Target> = first.iter().chain(&grounds).cloned().collect();
         (passed, restored) = soften(&plane, &levels, options, &known, &mut picture);
-        passed.detection.targets.append(&mut first);
+        passed.detection.targets.extend_from_slice(&first);
+        if options.codes != Codes::None {
+            let undone = restored.iter().flat_map(|(_, pass)| &pass.detection.targets);
+            let known = passed.detection.targets.iter().chain(undone);
+            left = in_rings(plane, levels, options, &doubtful, &first, known);
+        }
         grounds.append(&mut passed.grounds);
         passed.grounds = grounds;
     }
@@ -171,6 +174,9 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         Some((softened, pass)) => (pass.detection.targets, pass.grounds, Some(softened)),
         None => (Vec::new(), Vec::new(), None),
     };
+    let first_left = detection.targets.len();
+    detection.targets.extend(left);
+    let left = first_left..detection.targets.len();
     let mut in_undone = vec![false; detection.targets.len()];
     detection.targets.extend(undone);
     let found = detection.targets.len();
@@ -184,7 +190,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
             }
         }
     }
-    code::read_all(&mut detection.targets, options.codes, |k, target, families| match &softened {
+    let family = code::read_all(&mut detection.targets, options.codes, |k, target, families| match &softened {
         Some(softened) if in_undone[k] => {
             let target = Target { contrast: target.contrast * softened.scale, ..target.clone() };
             let blur = target.quality.edge_width.hypot(RESTORED);
@@ -192,8 +198,9 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         }
         _ => code::read(&plane, target, target.quality.edge_width, families),
     });
-    code::settle_grounds(&mut detection, found);
-    code::drop_parts(&mut detection);
+    let taken_back = left.len() - code::keep_ringed(&mut detection, left, family);
+    code::settle_grounds(&mut detection, found - taken_back);
+    code::drop_parts(&mut detection, family);
     if processed {
         detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
     }
@@ -272,7 +279,7 @@ fn pass_softened<T: Sample>(
     // a mean has no end of the scale, and no noise less than that of rounding
     let levels =
         Levels { saturation: f64::from(u16::MAX), noise: levels.noise.max(0.3 * soft.scale), stairs: false, ..levels };
-    let mut passed = pass(soft.plane(), levels, options, true, true, known);
+    let mut passed = pass::pass(soft.plane(), levels, options, true, true, known);
     for target in passed.detection.targets.iter_mut().chain(&mut passed.grounds) {
         target.contrast /= soft.scale;
         target.quality.noise /= soft.scale;
@@ -286,115 +293,24 @@ fn pass_softened<T: Sample>(
     (soft, passed)
 }
 
-/// What one pass over a picture found.
-struct Pass {
-    detection: Detection,
-    /// Targets that may be the ground of a code's ring, to be settled when codes are read.
-    grounds: Vec<Target>,
-    /// What neighbouring pixels share, of the targets at these places.
-    colours: Vec<([f64; 2], Colour)>,
-}
-
-impl Pass {
-    /// Puts the correlation of neighbouring pixels into the covariances; by how much standard errors grow.
-    fn correlate(&mut self) -> f64 {
-        let Some(correlation) = Correlation::of(self.colours.iter().map(|(_, colour)| colour)) else { return 1.0 };
-        let (mut sum, mut count) = (0.0, 0.0);
-        for target in &mut self.detection.targets {
-            let own = self.colours.iter().find(|(place, _)| *place == [target.u, target.v]);
-            let Some((_, colour)) = own else { continue };
-            let factor = correlation.factor(colour);
-            target.sigma_u *= factor.sqrt();
-            target.sigma_v *= factor.sqrt();
-            target.covariance_uv *= factor;
-            (sum, count) = (sum + factor, count + 1.0);
-        }
-        if count > 0.0 { f64::sqrt(sum / count) } else { 1.0 }
-    }
-}
-
-/// One pass: what is found beyond the targets that are known.
-fn pass<T: Sample>(
+/// Small dots in rings of codes that only the picture itself shows: a mean joins them with their ring, and compression scatters their
+/// edges. `own` are the targets found there, `known` all. Only a ring around them makes targets of them: letters have such shapes too.
+fn in_rings<'a, T: Sample>(
     plane: Plane<T>,
     levels: Levels,
     options: &DetectOptions,
-    coloured: bool,
-    soft: bool,
-    known: &[Target],
-) -> Pass {
-    let blobs = search::search(&plane, &levels, options);
-    let mut census = Census::new(plane.width, plane.height, code::have_spots(options.codes));
-    known.iter().for_each(|target| census.know(target));
-    census.expect(blobs.iter().map(|blobs| blobs.shapeless.len() + blobs.unlike.len()).sum());
-    for Blobs { shapeless, unlike, too_small, too_large, .. } in &blobs {
-        census.add(Reason::TooSmall, *too_small);
-        census.add(Reason::TooLarge, *too_large);
-        for no in shapeless.iter().chain(unlike) {
-            census.count(no);
-        }
-    }
+    doubtful: &[Outline],
+    own: &[Target],
+    known: impl Iterator<Item = &'a Target>,
+) -> Vec<Target> {
     let mut measure = Measure::new(plane, levels, options);
-    measure.work.coloured = coloured;
+    measure.work.coloured = true;
+    let Some(alike) = alike::of(&mut measure, &[], own) else { return Vec::new() };
+    let mut census = Census::new(plane.width, plane.height, code::have_spots(options.codes));
+    known.for_each(|target| census.know(target));
     let mut colours = Vec::new();
-    let mut doubtful: Vec<Outline> = Vec::new();
-    let mut covered: Vec<Candidate> = Vec::new();
-    for candidate in blobs.iter().flat_map(|blobs| &blobs.candidates) {
-        if !census.is_new(candidate) {
-            continue;
-        }
-        let Candidate { outline, bright } = candidate;
-        match measure.confirm(outline, *bright).and_then(|found| measure.finish(&found, options.method)) {
-            Ok(target) => {
-                colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
-                census.accept(target, *bright);
-            }
-            Err(reason) => {
-                doubtful.push(*outline);
-                if matches!(reason, Reason::NotAnEllipse | Reason::Touching | Reason::NoFit | Reason::Occluded) {
-                    covered.push(*candidate);
-                }
-                census.reject(*outline, *bright, reason);
-            }
-        }
-    }
-    covered.extend(blobs.iter().flat_map(|blobs| &blobs.partial));
-    for Candidate { outline, bright } in &covered {
-        if !census.is_free(outline) {
-            continue;
-        }
-        match measure.uncovered(outline, *bright) {
-            Ok(found) => match measure.finish(&found, options.method) {
-                Ok(target) => {
-                    colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
-                    census.reconsider(target, *bright);
-                }
-                Err(_) => census.hide(&found.ellipse.outline),
-            },
-            Err(Covered::Hidden(outline)) => census.hide(&outline),
-            Err(Covered::No) => {}
-        }
-    }
-    if let Some(alike) = alike::of(&mut measure, known, &census.targets)
-        && (soft || alike.swallows())
-    {
-        let not = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
-        let near = |no: &NoBlob| {
-            ALIKE_SMALL * options.min_diameter < no.diameter && no.diameter < ALIKE_LARGE * options.max_diameter
-        };
-        let disc = |no: &NoBlob| {
-            let radius = no.diameter / 2.0;
-            no.outline.unwrap_or_else(|| Outline::from_axes(no.u, no.v, radius, radius, 0.0))
-        };
-        doubtful.extend(not.filter(|no| near(no)).map(disc));
-        for outline in doubtful {
-            if census.is_free(&outline)
-                && let Ok(target) = measure.alike(&outline, &alike)
-            {
-                colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
-                census.reconsider(target, alike.bright);
-            }
-        }
-    }
-    let grounds = std::mem::take(&mut census.grounds);
-    Pass { detection: census.finish(), grounds, colours }
+    pass::take_alike(&mut measure, &mut census, &mut colours, doubtful, &alike, true);
+    let mut left = Pass { detection: census.finish(), grounds: Vec::new(), colours, doubtful: Vec::new() };
+    left.correlate();
+    left.detection.targets
 }

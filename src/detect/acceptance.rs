@@ -372,6 +372,12 @@ pub(crate) mod alike {
         /// Share of its contrast that a quarter of the directions around a disc still show, and an eighth of them, from which it is joined
         /// to something.
         JOINED: [f64; 2] = [0.6, 0.9], Measured "of 1925 targets found so in `photos 100` and `conditions` at most 0.52 and 0.76; of 2400 other shapes of det1.camera.jpg seven in ten have more";
+        /// Least semi-minor axis, in blurs, of a disc that is measured on the gap before a ring alone; and how far from the ring, in blurs,
+        /// that gap ends.
+        GAP: f64 = 3.0, Measured "error over sigma of 1000 small coded dots of sharpened and compressed photos: 1.0 to 1.5 above, 2.7 and more below";
+        RING_APART: f64 = 1.2, Derived "blur leaves there an eighth of the ring's contrast, and less further in";
+        /// Most of the contrast that the gap may lack in some direction.
+        GAP_LACKS: f64 = 0.5, Derived "half-way";
         /// Largest share of pixels that neighbours may disturb.
         DISTURBED: f64 = 0.25, Judged "neighbours at a pitch of 2.5 radii, `photos -- conditions`; 0.45 shows a false target more in two of the webcam grids";
         /// Departure of the blur: in standard deviations, and as a share.

@@ -34,6 +34,13 @@ const MEASURED: usize = 40;
 /// Corrections in pixels that end the fit.
 const CONVERGED: f64 = 1e-3;
 
+/// Which ground a disc is measured on: what lies around it, or only the gap before a ring.
+#[derive(Clone, Copy, PartialEq)]
+enum Ground {
+    Wide,
+    Gap,
+}
+
 /// What the known targets of a picture have in common.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Alike {
@@ -116,12 +123,21 @@ impl<T: Sample> Measure<'_, T> {
         if !seen.is_proper() || seen.semi_axes().0 > size {
             return Err(Reason::NotAnEllipse);
         }
-        match self.alike_from(seen, alike) {
+        match self.alike_from(seen, alike, Ground::Wide) {
             Err(Reason::NoFit | Reason::NotAnEllipse) if !self.work.hopeless => {
-                self.lump(seen, alike).and_then(|seen| self.alike_from(&seen, alike))
+                self.lump(seen, alike).and_then(|seen| self.alike_from(&seen, alike, Ground::Wide))
             }
             found => found,
         }
+    }
+
+    /// The same where a ring may stand around, of what is small and has no other ground than the gap before it: that there is a ring
+    /// is for its code to show.
+    pub fn alike_in_ring(&mut self, seen: &Outline, alike: &Alike) -> Result<Target, Reason> {
+        self.alike(seen, alike).or_else(|reason| match seen.is_proper() {
+            true => self.alike_from(seen, alike, Ground::Gap).map_err(|_| reason),
+            false => Err(reason),
+        })
     }
 
     /// The lump of light at what was seen, as the outline of half its height.
@@ -138,16 +154,17 @@ impl<T: Sample> Measure<'_, T> {
             .ok_or(Reason::NoFit)
     }
 
-    /// The same from one outline.
-    fn alike_from(&mut self, seen: &Outline, alike: &Alike) -> Result<Target, Reason> {
+    /// The same from one outline, on one ground.
+    fn alike_from(&mut self, seen: &Outline, alike: &Alike, ground: Ground) -> Result<Target, Reason> {
         let mut outline = alike.within(seen);
         self.has_room(&outline)?;
         let sign = if alike.bright { 1.0 } else { -1.0 };
         let (a, b) = outline.semi_axes();
         let least = limits::LIGHT * alike.seen(a, b) * alike.contrast[0] / limits::CONTRASTS;
         // most of what stands out has the other polarity, or is no more than a part of a larger shape
-        if let Some(Glance { contrast, joined }) =
-            surround::glance(&self.plane, &outline, APART * alike.blur[0], alike.bright)
+        if ground == Ground::Wide
+            && let Some(Glance { contrast, joined }) =
+                surround::glance(&self.plane, &outline, APART * alike.blur[0], alike.bright)
         {
             if contrast < least {
                 return Err(Reason::LowContrast);
@@ -157,7 +174,7 @@ impl<T: Sample> Measure<'_, T> {
             }
         }
         let mut kept = vec![true; super::edges::edge::ray_count(&outline)];
-        let mut around = self.level_around(&outline, alike, &kept)?;
+        let mut around = self.level_on(ground, &outline, alike, &kept)?;
         if sign * around.contrast < least {
             return Err(Reason::LowContrast);
         }
@@ -193,7 +210,7 @@ impl<T: Sample> Measure<'_, T> {
                 return Err(Reason::NotAnEllipse);
             }
             kept = vec![true; super::edges::edge::ray_count(&outline)];
-            around = self.level_around(&outline, alike, &kept)?;
+            around = self.level_on(ground, &outline, alike, &kept)?;
         }
         let fit = found.ok_or(Reason::NoFit)?;
         self.judge(seen, &fit, alike)?;
@@ -261,6 +278,42 @@ impl<T: Sample> Measure<'_, T> {
             && (fit.blur - blur).abs() <= limits::BLUR[0] * spread + limits::BLUR[1] * blur
             && moved <= farthest(seen);
         if good { Ok(()) } else { Err(Reason::NotAnEllipse) }
+    }
+
+    fn level_on(
+        &self,
+        ground: Ground,
+        outline: &Outline,
+        alike: &Alike,
+        kept: &[bool],
+    ) -> Result<surround::Surround, Reason> {
+        match ground {
+            Ground::Wide => self.level_around(outline, alike, kept),
+            Ground::Gap => self.level_in_gap(outline, alike),
+        }
+    }
+
+    /// The ground between a disc and the ring around it, which begins a radius beyond the rim.
+    fn level_in_gap(&self, outline: &Outline, alike: &Alike) -> Result<surround::Surround, Reason> {
+        let (b, blur) = (outline.semi_axes().1, alike.blur[0]);
+        if b < limits::GAP * blur {
+            return Err(Reason::Touching);
+        }
+        let outer = b - limits::RING_APART * blur;
+        let [level, lacking] = surround::in_gap(&self.plane, outline, outer, alike.bright).ok_or(Reason::AtBorder)?;
+        if lacking > limits::GAP_LACKS {
+            return Err(Reason::Touching);
+        }
+        let contrast = f64::from(self.plane.nearest(outline.u, outline.v)) - level;
+        Ok(surround::Surround {
+            level,
+            slope: [0.0; 2],
+            slope_covariance: [0.0; 3],
+            noise: self.levels.noise,
+            contrast,
+            uneven: 0.0,
+            outer,
+        })
     }
 
     fn level_around(&self, outline: &Outline, alike: &Alike, kept: &[bool]) -> Result<surround::Surround, Reason> {

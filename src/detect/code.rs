@@ -24,7 +24,7 @@ use judge::{Divisions, Tone, judge};
 use polar::{Frame, Polar, Rays};
 use radial::Radial;
 
-pub(super) use parts::{drop_parts, settle_grounds};
+pub(super) use parts::{drop_parts, keep_ringed, settle_grounds};
 pub(super) use vote::{read_all, read_in};
 
 /// What was read around a dot.

@@ -83,8 +83,8 @@ pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<
     let sites = Sites::of(sensor, options);
     let (photo, curve, hot) = searched(&sites)?;
     let mut detection = detect_photo(&photo, options)?;
-    codes::read_in_light(&photo, &curve, &mut detection.targets, options.codes);
-    super::code::drop_parts(&mut detection);
+    let family = codes::read_in_light(&photo, &curve, &mut detection.targets, options.codes);
+    super::code::drop_parts(&mut detection, family);
     let shift = [sites.lit[0] as f64, sites.lit[1] as f64];
     for blob in &mut detection.rejected_blobs {
         (blob.u, blob.v) = (blob.u + shift[0], blob.v + shift[1]);

@@ -1,19 +1,23 @@
 //! What detection finds in a coded target besides its dot: parts of the ring, and the spot in the dot's centre.
 
+use std::ops::Range;
+
 use super::outline_of;
 use crate::detect::acceptance::code::{BEYOND, SPOT};
 use crate::detect::outline::Outline;
+use crate::detect::search::census::forget_rejected;
 use crate::detection::{Detection, Reason, Rejected, Target};
-use crate::ring_code::Design;
+use crate::ring_code::{Design, Family};
 
-/// A coded dot with the ring it has.
-fn coded(target: &Target) -> Option<(Outline, Design)> {
-    target.code.and(target.code_family).map(|family| (outline_of(target), family.design()))
+/// A dot with the ring around it, of a code that was read or of none: among codes of a family what has all of a ring but a number is one.
+fn ringed(target: &Target, family: Option<Family>) -> Option<(Outline, Design)> {
+    let note = target.quality.code_note.and(family);
+    target.code_family.or(note).map(|family| (outline_of(target), family.design()))
 }
 
-/// Takes out what lies within the ring of a code that was read: nothing but its sectors and what they leave fits there.
-pub(crate) fn drop_parts(detection: &mut Detection) {
-    let dots: Vec<_> = detection.targets.iter().filter_map(coded).collect();
+/// Takes out what lies within a ring, in a photo whose codes are of this family: nothing but its sectors and what they leave fits there.
+pub(crate) fn drop_parts(detection: &mut Detection, family: Option<Family>) {
+    let dots: Vec<_> = detection.targets.iter().filter_map(|target| ringed(target, family)).collect();
     if dots.is_empty() {
         return;
     }
@@ -21,18 +25,23 @@ pub(crate) fn drop_parts(detection: &mut Detection) {
         let outline = outline_of(target);
         let within = |(dot, design): &(Outline, Design)| {
             let [inner, outer] = design.ring();
-            // centre and both ends of both axes
-            let (a, b, angle) = outline.axes();
-            let (s, c) = angle.sin_cos();
-            let ends = [[0.0, 0.0], [a * c, a * s], [-a * c, -a * s], [-b * s, b * c], [b * s, -b * c]];
-            ends.iter().all(|[x, y]| {
-                let [x, y] = dot.normalised(outline.u + x, outline.v + y);
-                (inner - BEYOND..outer + BEYOND).contains(&x.hypot(y))
-            })
+            let [x, y] = dot.normalised(outline.u, outline.v);
+            let widest = (outer - inner) / 2.0 + BEYOND;
+            (inner - BEYOND..outer + BEYOND).contains(&x.hypot(y)) && outline.semi_axes().1 < widest * dot.semi_axes().0
         };
         target.code.is_none() && dots.iter().any(within)
     };
     take_out(detection, is_part);
+}
+
+/// Leaves of the targets in this range only those with a ring that is read, or may be, as a code; how many.
+pub(crate) fn keep_ringed(detection: &mut Detection, range: Range<usize>, family: Option<Family>) -> usize {
+    let is_ringed = |target: &Target| ringed(target, family).is_some() || !target.code_candidates.is_empty();
+    let kept: Vec<Target> = detection.targets.drain(range.clone()).filter(is_ringed).collect();
+    let count = kept.len();
+    kept.iter().for_each(|target| forget_rejected(detection, target));
+    detection.targets.splice(range.start..range.start, kept);
+    count
 }
 
 /// Puts discs into the place of the spots in their centres, where a code shows that the disc is the target.

@@ -20,11 +20,15 @@ pub(crate) fn read_in<T: Sample>(plane: &Plane<T>, targets: &mut [Target], codes
     read_all(targets, codes, |_, target, families| read(plane, target, target.quality.edge_width, families));
 }
 
-/// Settles the codes of all targets of a photo, each of which `read` reads as a code of every family.
-pub(crate) fn read_all(targets: &mut [Target], codes: Codes, read: impl Fn(usize, &Target, &[Family]) -> Vec<Reading>) {
+/// Settles the codes of all targets of a photo, each of which `read` reads as a code of every family; the family that they are of.
+pub(crate) fn read_all(
+    targets: &mut [Target],
+    codes: Codes,
+    read: impl Fn(usize, &Target, &[Family]) -> Vec<Reading>,
+) -> Option<Family> {
     let families = codes.families();
     if families.is_empty() {
-        return;
+        return None;
     }
     let mut readings: Vec<Vec<Reading>> =
         targets.iter().enumerate().map(|(k, target)| read(k, target, families)).collect();
@@ -35,6 +39,7 @@ pub(crate) fn read_all(targets: &mut [Target], codes: Codes, read: impl Fn(usize
     for (target, readings) in targets.iter_mut().zip(readings) {
         enter(target, families, readings, chosen);
     }
+    chosen.map(|chosen| families[chosen])
 }
 
 /// The family that alone explains all readings.

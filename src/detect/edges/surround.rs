@@ -137,6 +137,34 @@ pub(crate) fn glance<T: Sample>(plane: &Plane<T>, outline: &Outline, blur: f64, 
     Some(Glance { contrast, joined })
 }
 
+/// The ground of a disc in the gap of this width between its rim and what stands around it: its level, and how much of it, as a share
+/// of the contrast, the worst direction but two lacks. None when some of it lies outside of the picture.
+///
+/// Each direction shows its ground where it is most unlike the disc.
+pub(crate) fn in_gap<T: Sample>(plane: &Plane<T>, outline: &Outline, width: f64, bright: bool) -> Option<[f64; 2]> {
+    const RAYS: usize = 24;
+    let rims = Rims::of(plane, outline, &[true; RAYS]);
+    let mut grounds = [f32::MAX; RAYS];
+    let steps = (width.ceil() as usize).max(1);
+    for step in 1..=steps {
+        for (four, grounds) in rims.ring(width * step as f64 / steps as f64).zip(grounds.as_chunks_mut::<4>().0) {
+            let [_, _, level, one] = four.map(f32x4::to_array);
+            for k in (0..4).filter(|k| one[*k] > 0.0) {
+                grounds[k] = grounds[k].min(if bright { level[k] } else { -level[k] });
+            }
+        }
+    }
+    if grounds.contains(&f32::MAX) {
+        return None;
+    }
+    grounds.sort_unstable_by(f32::total_cmp);
+    let inside = median::of_sizes(rims.inside().into_iter(), &mut Vec::new()) - rims.reference;
+    let inside = if bright { inside } else { -inside };
+    let level = f64::from(grounds[RAYS / 4]);
+    let lacking = (f64::from(grounds[RAYS - 3]) - level) / (inside - level);
+    Some([rims.reference + if bright { level } else { -level }, lacking])
+}
+
 /// Rim points and normals of the rays that count, four at a time, and how to read pixels there.
 struct Rims<'a, T> {
     plane: &'a Plane<'a, T>,

@@ -35,6 +35,21 @@ fn encloses(outer: &Outline, inner: &Outline) -> bool {
     distance < 0.1 * inner && inner < 0.9 * outer
 }
 
+/// Shows no longer as rejected what was so at a target.
+pub(crate) fn forget_rejected(detection: &mut Detection, target: &Target) {
+    let outline = Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle);
+    let rejected = &mut detection.rejected;
+    detection.rejected_blobs.retain(|blob| {
+        let [c, s] = outline.normalised(blob.u, blob.v);
+        let stays = c.hypot(s) > 1.0 || blob.diameter > 3.0 * target.major;
+        if !stays && let Some(count) = rejected.get_mut(&blob.reason) {
+            *count = count.saturating_sub(1);
+        }
+        stays
+    });
+    rejected.retain(|_, count| *count > 0);
+}
+
 /// Targets and decided places.
 pub(crate) struct Census {
     pub targets: Vec<Target>,
@@ -97,17 +112,7 @@ impl Census {
 
     /// Enters a target that was rejected before: what is shown as rejected there is so no longer.
     pub fn reconsider(&mut self, target: Target, bright: bool) {
-        let outline = Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle);
-        let rejected = &mut self.detection.rejected;
-        self.detection.rejected_blobs.retain(|blob| {
-            let [c, s] = outline.normalised(blob.u, blob.v);
-            let stays = c.hypot(s) > 1.0 || blob.diameter > 3.0 * target.major;
-            if !stays && let Some(count) = rejected.get_mut(&blob.reason) {
-                *count = count.saturating_sub(1);
-            }
-            stays
-        });
-        rejected.retain(|_, count| *count > 0);
+        forget_rejected(&mut self.detection, &target);
         self.accept(target, bright);
     }
 

@@ -6,16 +6,17 @@ use crate::decode::Photo;
 use crate::detect::code;
 use crate::detection::{Codes, Target};
 use crate::image::{Plane, Samples};
+use crate::ring_code::Family;
 
-/// Reads the codes of targets that were measured in the picture of the search.
-pub(super) fn read_in_light(photo: &Photo, curve: &Curve, targets: &mut [Target], codes: Codes) {
-    let Samples::U16(samples) = &photo.grey.samples else { return };
+/// Reads the codes of targets that were measured in the picture of the search; the family that they are of.
+pub(super) fn read_in_light(photo: &Photo, curve: &Curve, targets: &mut [Target], codes: Codes) -> Option<Family> {
+    let Samples::U16(samples) = &photo.grey.samples else { return None };
     if codes == Codes::None {
-        return;
+        return None;
     }
     let (plane, light) = (Plane::new(photo.grey.width, photo.grey.height, samples), curve.undone());
     let light =
         |level: f64| f64::from(light[(level.round().max(0.0) as usize).min(light.len() - 1)]) / f64::from(u16::MAX);
     targets.iter_mut().for_each(|t| (t.quality.code_margin, t.quality.code_note) = (None, None));
-    code::read_all(targets, codes, |_, target, families| code::read_curve(&plane, target, families, light));
+    code::read_all(targets, codes, |_, target, families| code::read_curve(&plane, target, families, light))
 }

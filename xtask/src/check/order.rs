@@ -74,6 +74,7 @@ const ORDERS: [Order; 3] = [
             "covered",
             "lump",
             "alike",
+            "pass",
             "click",
             "whole",
             "sites",

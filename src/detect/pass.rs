@@ -1,0 +1,145 @@
+//! One pass over a picture: candidates of the search, what is measured of them, and what something hides.
+
+use super::acceptance::size::{ALIKE_LARGE, ALIKE_SMALL};
+use super::alike::{self, Alike};
+use super::code;
+use super::covered::Covered;
+use super::measure::Measure;
+use super::outline::Outline;
+use super::picture::noise::Levels;
+use super::rendered::colour::{Colour, Correlation};
+use super::search::blob::NoBlob;
+use super::search::census::Census;
+use super::search::{self, Blobs, Candidate};
+use crate::detection::{DetectOptions, Detection, Reason, Target};
+use crate::image::{Plane, Sample};
+
+/// What one pass over a picture found.
+pub(super) struct Pass {
+    pub detection: Detection,
+    /// Targets that may be the ground of a code's ring, to be settled when codes are read.
+    pub grounds: Vec<Target>,
+    /// What neighbouring pixels share, of the targets at these places.
+    pub colours: Vec<([f64; 2], Colour)>,
+    /// Outlines that were no targets by themselves.
+    pub doubtful: Vec<Outline>,
+}
+
+impl Pass {
+    /// Puts the correlation of neighbouring pixels into the covariances; by how much standard errors grow.
+    pub fn correlate(&mut self) -> f64 {
+        let Some(correlation) = Correlation::of(self.colours.iter().map(|(_, colour)| colour)) else { return 1.0 };
+        let (mut sum, mut count) = (0.0, 0.0);
+        for target in &mut self.detection.targets {
+            let own = self.colours.iter().find(|(place, _)| *place == [target.u, target.v]);
+            let Some((_, colour)) = own else { continue };
+            let factor = correlation.factor(colour);
+            target.sigma_u *= factor.sqrt();
+            target.sigma_v *= factor.sqrt();
+            target.covariance_uv *= factor;
+            (sum, count) = (sum + factor, count + 1.0);
+        }
+        if count > 0.0 { f64::sqrt(sum / count) } else { 1.0 }
+    }
+}
+
+/// One pass: what is found beyond the targets that are known.
+pub(super) fn pass<T: Sample>(
+    plane: Plane<T>,
+    levels: Levels,
+    options: &DetectOptions,
+    coloured: bool,
+    soft: bool,
+    known: &[Target],
+) -> Pass {
+    let blobs = search::search(&plane, &levels, options);
+    let mut census = Census::new(plane.width, plane.height, code::have_spots(options.codes));
+    known.iter().for_each(|target| census.know(target));
+    census.expect(blobs.iter().map(|blobs| blobs.shapeless.len() + blobs.unlike.len()).sum());
+    for Blobs { shapeless, unlike, too_small, too_large, .. } in &blobs {
+        census.add(Reason::TooSmall, *too_small);
+        census.add(Reason::TooLarge, *too_large);
+        for no in shapeless.iter().chain(unlike) {
+            census.count(no);
+        }
+    }
+    let mut measure = Measure::new(plane, levels, options);
+    measure.work.coloured = coloured;
+    let mut colours = Vec::new();
+    let mut doubtful: Vec<Outline> = Vec::new();
+    let mut covered: Vec<Candidate> = Vec::new();
+    for candidate in blobs.iter().flat_map(|blobs| &blobs.candidates) {
+        if !census.is_new(candidate) {
+            continue;
+        }
+        let Candidate { outline, bright } = candidate;
+        match measure.confirm(outline, *bright).and_then(|found| measure.finish(&found, options.method)) {
+            Ok(target) => {
+                colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
+                census.accept(target, *bright);
+            }
+            Err(reason) => {
+                doubtful.push(*outline);
+                if matches!(reason, Reason::NotAnEllipse | Reason::Touching | Reason::NoFit | Reason::Occluded) {
+                    covered.push(*candidate);
+                }
+                census.reject(*outline, *bright, reason);
+            }
+        }
+    }
+    covered.extend(blobs.iter().flat_map(|blobs| &blobs.partial));
+    for Candidate { outline, bright } in &covered {
+        if !census.is_free(outline) {
+            continue;
+        }
+        match measure.uncovered(outline, *bright) {
+            Ok(found) => match measure.finish(&found, options.method) {
+                Ok(target) => {
+                    colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
+                    census.reconsider(target, *bright);
+                }
+                Err(_) => census.hide(&found.ellipse.outline),
+            },
+            Err(Covered::Hidden(outline)) => census.hide(&outline),
+            Err(Covered::No) => {}
+        }
+    }
+    let shapeless = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
+    doubtful.extend(shapeless.filter_map(|no| disc(no, options)));
+    if let Some(alike) = alike::of(&mut measure, known, &census.targets)
+        && (soft || alike.swallows())
+    {
+        take_alike(&mut measure, &mut census, &mut colours, &doubtful, &alike, false);
+    }
+    let grounds = std::mem::take(&mut census.grounds);
+    Pass { detection: census.finish(), grounds, colours, doubtful }
+}
+
+/// The outline, as far as it is known, of something without a shape that may still be a target by what the others show.
+fn disc(no: &NoBlob, options: &DetectOptions) -> Option<Outline> {
+    let sizes = ALIKE_SMALL * options.min_diameter..ALIKE_LARGE * options.max_diameter;
+    let radius = no.diameter / 2.0;
+    let round = || Outline::from_axes(no.u, no.v, radius, radius, 0.0);
+    (sizes.start < no.diameter && no.diameter < sizes.end).then(|| no.outline.unwrap_or_else(round))
+}
+
+/// Takes those of the doubtful outlines for targets that are like the others, `in_rings` those too that have only the gap before a ring.
+pub(super) fn take_alike<T: Sample>(
+    measure: &mut Measure<T>,
+    census: &mut Census,
+    colours: &mut Vec<([f64; 2], Colour)>,
+    doubtful: &[Outline],
+    alike: &Alike,
+    in_rings: bool,
+) {
+    for outline in doubtful.iter().filter(|outline| outline.is_proper()) {
+        if !census.is_free(outline) {
+            continue;
+        }
+        let found = if in_rings { measure.alike_in_ring(outline, alike) } else { measure.alike(outline, alike) };
+        if let Ok(target) = found {
+            colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
+            census.reconsider(target, alike.bright);
+        }
+    }
+}
