@@ -153,12 +153,12 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         let found = sharpening::of_rims(&plane, outlines.iter(), levels.saturation);
         processed = found.is_some_and(|sharpening| sharpening.amount > acceptance::picture::BY_RIMS);
     }
-    picture.noise_correlation = passed.correlate();
+    let mut factors = passed.correlate();
     let (mut restored, mut left) = (None, Vec::new());
     if processed {
         let Pass { detection: Detection { targets: first, .. }, mut grounds, doubtful, .. } = passed;
         let known: Vec<Target> = first.iter().chain(&grounds).cloned().collect();
-        (passed, restored) = soften(&plane, &levels, options, &known, &mut picture);
+        (passed, restored) = soften(&plane, &levels, options, &known, &mut picture, &mut factors);
         passed.detection.targets.extend_from_slice(&first);
         if options.codes != Codes::None {
             let undone = restored.iter().flat_map(|(_, pass)| &pass.detection.targets);
@@ -167,6 +167,9 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         }
         grounds.append(&mut passed.grounds);
         passed.grounds = grounds;
+    }
+    if factors[1] > 0.0 {
+        picture.noise_correlation = (factors[0] / factors[1]).sqrt();
     }
     let Pass { mut detection, grounds, .. } = passed;
     // codes are read where their dots were measured: with the sharpening undone, or in the picture itself
@@ -234,20 +237,21 @@ fn soften<T: Sample>(
     options: &DetectOptions,
     known: &[Target],
     picture: &mut PictureReport,
+    factors: &mut [f64; 2],
 ) -> (Pass, Option<(Softened, Pass)>) {
     picture.softened = true;
     let (_, mut softened) = pass_softened(plane, None, SOFT, options, known);
     alike::drop_faint(&mut softened.detection.targets, known);
     let outlines: Vec<Outline> = known.iter().chain(&softened.detection.targets).map(outline_of).collect();
     let Some(sharpening) = sharpening::of_rims(plane, outlines.iter(), levels.saturation) else {
-        picture.noise_correlation = softened.correlate();
+        add(factors, softened.correlate());
         return (softened, None);
     };
     (picture.sharpening, picture.sharpening_radius) = (sharpening.amount, sharpening.radius);
     let (undone, mut restored) = pass_softened(plane, Some(sharpening), RESTORED, options, known);
     alike::drop_faint(&mut restored.detection.targets, known);
-    picture.noise_correlation = restored.correlate();
-    softened.correlate();
+    add(factors, restored.correlate());
+    add(factors, softened.correlate());
     let taken: Vec<Outline> = known.iter().chain(&restored.detection.targets).map(outline_of).collect();
     softened.detection.targets.retain(|target| {
         let outline = outline_of(target);
@@ -258,6 +262,10 @@ fn soften<T: Sample>(
         })
     });
     (softened, Some((undone, restored)))
+}
+
+fn add(sum: &mut [f64; 2], other: [f64; 2]) {
+    *sum = [sum[0] + other[0], sum[1] + other[1]];
 }
 
 /// Sigma in pixels of the mean in which what is sharpened is searched: the middle of the range in which webcam pictures of dots

@@ -1,5 +1,6 @@
 //! One pass over a picture: candidates of the search, what is measured of them, and what something hides.
 
+use super::acceptance::alike::ENOUGH;
 use super::acceptance::size::{ALIKE_LARGE, ALIKE_SMALL};
 use super::alike::{self, Alike};
 use super::code;
@@ -26,20 +27,22 @@ pub(super) struct Pass {
 }
 
 impl Pass {
-    /// Puts the correlation of neighbouring pixels into the covariances; by how much standard errors grow.
-    pub fn correlate(&mut self) -> f64 {
-        let Some(correlation) = Correlation::of(self.colours.iter().map(|(_, colour)| colour)) else { return 1.0 };
-        let (mut sum, mut count) = (0.0, 0.0);
+    /// Puts the correlation of neighbouring pixels into the covariances: sum of the factors by which they grow, and their number. What
+    /// few targets show of it may be chance, and promises nothing.
+    pub fn correlate(&mut self) -> [f64; 2] {
+        let Some(correlation) = Correlation::of(self.colours.iter().map(|(_, colour)| colour)) else { return [0.0; 2] };
+        let least = if self.colours.len() < ENOUGH { 1.0 } else { 0.0 };
+        let mut all = [0.0; 2];
         for target in &mut self.detection.targets {
             let own = self.colours.iter().find(|(place, _)| *place == [target.u, target.v]);
             let Some((_, colour)) = own else { continue };
-            let factor = correlation.factor(colour);
+            let factor = correlation.factor(colour).max(least);
             target.sigma_u *= factor.sqrt();
             target.sigma_v *= factor.sqrt();
             target.covariance_uv *= factor;
-            (sum, count) = (sum + factor, count + 1.0);
+            all = [all[0] + factor, all[1] + 1.0];
         }
-        if count > 0.0 { f64::sqrt(sum / count) } else { 1.0 }
+        all
     }
 }
 
