@@ -12,7 +12,7 @@ use super::acceptance::{
     alike as limits,
     size::{EDGES_LARGE, FIT_SMALL},
 };
-use super::code::outline_of;
+use super::code::{may_be_in_ring, outline_of};
 use super::edges::surround::{self, Glance};
 use super::ellipse::outline::Outline;
 use super::lump::{self, Lump};
@@ -97,6 +97,12 @@ impl Alike {
         1.0 - (-0.5 * a * b / self.blur[0].powi(2)).exp()
     }
 
+    /// Contrast from which something of this outline may be like the others.
+    fn least_contrast(&self, outline: &Outline) -> f64 {
+        let (a, b) = outline.semi_axes();
+        limits::LIGHT * self.seen(a, b) * self.contrast[0] / limits::CONTRASTS
+    }
+
     /// A first outline of what stands out with this one: blur makes small discs look larger.
     fn within(&self, outline: &Outline) -> Outline {
         let (a, b, angle) = outline.axes();
@@ -134,10 +140,17 @@ impl<T: Sample> Measure<'_, T> {
     /// The same where a ring may stand around, of what is small and has no other ground than the gap before it: that there is a ring
     /// is for its code to show.
     pub fn alike_in_ring(&mut self, seen: &Outline, alike: &Alike) -> Result<Target, Reason> {
-        self.alike(seen, alike).or_else(|reason| match seen.is_proper() {
-            true => self.alike_from(seen, alike, Ground::Gap).map_err(|_| reason),
-            false => Err(reason),
-        })
+        if !seen.is_proper() {
+            return Err(Reason::NotAnEllipse);
+        }
+        let outline = alike.within(seen);
+        let least = alike.least_contrast(&outline);
+        if outline.semi_axes().1 > limits::LARGEST * alike.blur[0]
+            || !may_be_in_ring(&self.plane, &outline, alike.bright, least)
+        {
+            return Err(Reason::LowContrast);
+        }
+        self.alike(seen, alike).or_else(|reason| self.alike_from(seen, alike, Ground::Gap).map_err(|_| reason))
     }
 
     /// The lump of light at what was seen, as the outline of half its height.
@@ -159,8 +172,7 @@ impl<T: Sample> Measure<'_, T> {
         let mut outline = alike.within(seen);
         self.has_room(&outline)?;
         let sign = if alike.bright { 1.0 } else { -1.0 };
-        let (a, b) = outline.semi_axes();
-        let least = limits::LIGHT * alike.seen(a, b) * alike.contrast[0] / limits::CONTRASTS;
+        let least = alike.least_contrast(&outline);
         // most of what stands out has the other polarity, or is no more than a part of a larger shape
         if ground == Ground::Wide
             && let Some(Glance { contrast, joined }) =

@@ -25,6 +25,7 @@ use polar::{Frame, Polar, Rays};
 use radial::Radial;
 
 pub(super) use parts::{drop_parts, keep_ringed, settle_grounds};
+pub(super) use radial::may_be_in_ring;
 pub(super) use vote::{read_all, read_in};
 
 /// What was read around a dot.

@@ -18,6 +18,7 @@ use super::polar::{Frame, Polar, Rays, between, step};
 use super::sectors::{self, Division};
 use super::{outline_of, sign};
 use crate::detect::acceptance::code as limits;
+use crate::detect::outline::Outline;
 use crate::detection::Target;
 use crate::image::{Plane, Sample};
 
@@ -32,6 +33,10 @@ pub(super) const GROUND: f64 = 0.42;
 const BEYOND: [f64; 11] = [0.55, 0.75, 0.95, 1.15, 1.35, 1.55, 1.75, 1.95, 2.15, 2.35, 2.55];
 /// Radii of the first look, where every family's ring is.
 const LOOKED_AT: [f64; 2] = [2.5, 2.9];
+/// The same radii of dot, gap and ring where the outline is roughly known.
+const ROUGHLY_INSIDE: f64 = 0.4;
+const ROUGHLY_GAP: f64 = 1.5;
+const ROUGHLY_RING: [f64; 4] = [2.1, 2.5, 2.9, 3.3];
 /// Directions of a look.
 const LOOKS: usize = 60;
 
@@ -93,6 +98,33 @@ fn median<T: Sample>(plane: &Plane<T>, frame: &Frame, radii: [f64; 3]) -> f64 {
 pub(super) fn may_have_ring<T: Sample>(plane: &Plane<T>, target: &Target) -> bool {
     let seen = like_dot(plane, target, &Frame::new(outline_of(target), 0.0), &LOOKED_AT);
     seen * limits::LOOKED >= LOOKS
+}
+
+/// Whether something of an outline that is roughly known may be a dot in a ring: a gap around it, from which it stands out by `least`, and
+/// something of its colour where a ring would be.
+pub(in crate::detect) fn may_be_in_ring<T: Sample>(
+    plane: &Plane<T>,
+    outline: &Outline,
+    bright: bool,
+    least: f64,
+) -> bool {
+    const AROUND: usize = 24;
+    let frame = Frame::new(*outline, 0.0);
+    let directions: [[f64; 2]; AROUND] = std::array::from_fn(|k| {
+        let (s, c) = (std::f64::consts::TAU * k as f64 / AROUND as f64).sin_cos();
+        [c, s]
+    });
+    let level = |radius: f64, k: usize| {
+        let [x, y] = frame.place(radius, directions[k]);
+        let level = f64::from(plane.nearest(x, y));
+        if bright { level } else { -level }
+    };
+    let dot = (level(0.0, 0) + (0..4).map(|k| level(ROUGHLY_INSIDE, k * AROUND / 4)).sum::<f64>()) / 5.0;
+    let mut gap: [f64; AROUND] = std::array::from_fn(|k| level(ROUGHLY_GAP, k));
+    gap.sort_unstable_by(f64::total_cmp);
+    let contrast = dot - gap[AROUND / 4];
+    let is_like = |k: usize| ROUGHLY_RING.iter().any(|radius| dot - level(*radius, k) < (1.0 - limits::SET) * contrast);
+    contrast >= least && (0..AROUND).filter(|k| is_like(*k)).count() * limits::LOOKED >= AROUND
 }
 
 /// Number of the [`LOOKS`] directions in which something of the dot's colour stands at one of these radii.
