@@ -36,6 +36,7 @@ pub(crate) use ellipse::{conic, outline};
 use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, PictureReport, Target};
 use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
+use alike::Wanted;
 use code::outline_of;
 pub use colours::colours_apart;
 use measure::Measure;
@@ -163,10 +164,13 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         if options.codes != Codes::None {
             let undone = restored.iter().flat_map(|(_, pass)| &pass.detection.targets);
             let known = passed.detection.targets.iter().chain(undone);
-            left = in_rings(plane, levels, options, &doubtful, &first, known);
+            left = in_rings(plane, levels, options, true, &doubtful, &first, known);
         }
         grounds.append(&mut passed.grounds);
         passed.grounds = grounds;
+    } else if options.codes != Codes::None {
+        let Pass { detection: Detection { targets, .. }, doubtful, .. } = &passed;
+        left = in_rings(plane, levels, options, false, doubtful, targets, targets.iter());
     }
     if factors[1] > 0.0 {
         picture.noise_correlation = (factors[0] / factors[1]).sqrt();
@@ -204,9 +208,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let taken_back = left.len() - code::keep_ringed(&mut detection, left, family);
     code::settle_grounds(&mut detection, found - taken_back);
     code::drop_parts(&mut detection, family);
-    if processed {
-        detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
-    }
+    detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
     let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);
     Detection { width: size(plane.width), height: size(plane.height), picture, ..detection }
 }
@@ -303,21 +305,24 @@ fn pass_softened<T: Sample>(
 
 /// Small dots in rings of codes that only the picture itself shows: a mean joins them with their ring, and compression scatters their
 /// edges. `own` are the targets found there, `known` all. Only a ring around them makes targets of them: letters have such shapes too.
+/// Where a picture is not `processed` what lies around each was its ground already.
 fn in_rings<'a, T: Sample>(
     plane: Plane<T>,
     levels: Levels,
     options: &DetectOptions,
+    processed: bool,
     doubtful: &[Outline],
     own: &[Target],
     known: impl Iterator<Item = &'a Target>,
 ) -> Vec<Target> {
     let mut measure = Measure::new(plane, levels, options);
-    measure.work.coloured = true;
+    measure.work.coloured = processed;
     let Some(alike) = alike::of(&mut measure, &[], own) else { return Vec::new() };
     let mut census = Census::new(plane.width, plane.height, code::have_spots(options.codes));
     known.for_each(|target| census.know(target));
     let mut colours = Vec::new();
-    pass::take_alike(&mut measure, &mut census, &mut colours, doubtful, &alike, true);
+    let wanted = if processed { Wanted::InRingOrWide } else { Wanted::InRing };
+    pass::take_alike(&mut measure, &mut census, &mut colours, doubtful, &alike, wanted);
     let mut left = Pass { detection: census.finish(), grounds: Vec::new(), colours, doubtful: Vec::new() };
     left.correlate();
     left.detection.targets

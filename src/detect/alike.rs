@@ -41,6 +41,14 @@ enum Ground {
     Gap,
 }
 
+/// What is looked for at an outline: a disc; or one in a ring, on the gap before it alone or on what lies around it too.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Wanted {
+    Disc,
+    InRing,
+    InRingOrWide,
+}
+
 /// What the known targets of a picture have in common.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Alike {
@@ -121,10 +129,18 @@ fn farthest(seen: &Outline) -> f64 {
 }
 
 impl<T: Sample> Measure<'_, T> {
-    /// The target at a place where something of this outline stands out, as far as it is like the others. Noise and what lies nearby
-    /// pull the outline of a few rows out of shape: where the fit does not find back, it starts again from the lump of light itself, but
-    /// not where it promised nothing (of 55 targets that lumps found in sixty random cameras of `photos` one).
-    pub fn alike(&mut self, seen: &Outline, alike: &Alike) -> Result<Target, Reason> {
+    /// The target at a place where something of this outline stands out, as far as it is like the others.
+    pub fn alike(&mut self, seen: &Outline, alike: &Alike, wanted: Wanted) -> Result<Target, Reason> {
+        match wanted {
+            Wanted::Disc => self.disc(seen, alike),
+            Wanted::InRing | Wanted::InRingOrWide => self.in_ring(seen, alike, wanted),
+        }
+    }
+
+    /// A disc on what lies around it. Noise and what lies nearby pull the outline of a few rows out of shape: where the fit does not find
+    /// back, it starts again from the lump of light itself, but not where it promised nothing (of 55 targets that lumps found in sixty
+    /// random cameras of `photos` one).
+    fn disc(&mut self, seen: &Outline, alike: &Alike) -> Result<Target, Reason> {
         let size = self.plane.width.max(self.plane.height) as f64;
         if !seen.is_proper() || seen.semi_axes().0 > size {
             return Err(Reason::NotAnEllipse);
@@ -137,9 +153,9 @@ impl<T: Sample> Measure<'_, T> {
         }
     }
 
-    /// The same where a ring may stand around, of what is small and has no other ground than the gap before it: that there is a ring
-    /// is for its code to show.
-    pub fn alike_in_ring(&mut self, seen: &Outline, alike: &Alike) -> Result<Target, Reason> {
+    /// The same where a ring may stand around, of what is small and has no other ground than the gap before it: that there is a ring is
+    /// for its code to show.
+    fn in_ring(&mut self, seen: &Outline, alike: &Alike, wanted: Wanted) -> Result<Target, Reason> {
         if !seen.is_proper() {
             return Err(Reason::NotAnEllipse);
         }
@@ -150,7 +166,10 @@ impl<T: Sample> Measure<'_, T> {
         {
             return Err(Reason::LowContrast);
         }
-        self.alike(seen, alike).or_else(|reason| self.alike_from(seen, alike, Ground::Gap).map_err(|_| reason))
+        match wanted {
+            Wanted::InRing => self.alike_from(seen, alike, Ground::Gap),
+            _ => self.disc(seen, alike).or_else(|reason| self.alike_from(seen, alike, Ground::Gap).map_err(|_| reason)),
+        }
     }
 
     /// The lump of light at what was seen, as the outline of half its height.

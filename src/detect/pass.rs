@@ -2,7 +2,7 @@
 
 use super::acceptance::alike::ENOUGH;
 use super::acceptance::size::{ALIKE_LARGE, ALIKE_SMALL};
-use super::alike::{self, Alike};
+use super::alike::{self, Alike, Wanted};
 use super::code;
 use super::covered::Covered;
 use super::measure::Measure;
@@ -112,7 +112,7 @@ pub(super) fn pass<T: Sample>(
     if let Some(alike) = alike::of(&mut measure, known, &census.targets)
         && (soft || alike.swallows())
     {
-        take_alike(&mut measure, &mut census, &mut colours, &doubtful, &alike, false);
+        take_alike(&mut measure, &mut census, &mut colours, &doubtful, &alike, Wanted::Disc);
     }
     let grounds = std::mem::take(&mut census.grounds);
     Pass { detection: census.finish(), grounds, colours, doubtful }
@@ -126,21 +126,20 @@ fn disc(no: &NoBlob, options: &DetectOptions) -> Option<Outline> {
     (sizes.start < no.diameter && no.diameter < sizes.end).then(|| no.outline.unwrap_or_else(round))
 }
 
-/// Takes those of the doubtful outlines for targets that are like the others, `in_rings` those too that have only the gap before a ring.
+/// Takes those of the doubtful outlines for targets that are like the others.
 pub(super) fn take_alike<T: Sample>(
     measure: &mut Measure<T>,
     census: &mut Census,
     colours: &mut Vec<([f64; 2], Colour)>,
     doubtful: &[Outline],
     alike: &Alike,
-    in_rings: bool,
+    wanted: Wanted,
 ) {
     for outline in doubtful.iter().filter(|outline| outline.is_proper()) {
         if !census.is_free(outline) {
             continue;
         }
-        let found = if in_rings { measure.alike_in_ring(outline, alike) } else { measure.alike(outline, alike) };
-        if let Ok(target) = found {
+        if let Ok(target) = measure.alike(outline, alike, wanted) {
             colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
             census.reconsider(target, alike.bright);
         }

@@ -16,7 +16,7 @@ pub(crate) mod band;
 pub(crate) mod colour;
 pub(crate) mod fit;
 mod flats;
-mod neighbours;
+pub(crate) mod neighbours;
 mod scatter;
 mod sketch;
 

@@ -12,17 +12,23 @@ mod noise;
 mod plane;
 
 use super::ellipse::outline::Outline;
+use super::part::Part;
 use super::rendered::Field;
+use super::rendered::neighbours::Neighbours;
 use super::{check_place, code::outline_of, detect_photo, edges::edge, edges::surround, measure_in_photo};
 use crate::decode::Photo;
 use crate::detection::{
     Channel, Colour, DetectOptions, Detection, Measured, MeasuredOn, Method, Polarity, Reason, Rejected, Target,
 };
 use crate::error::{Error, Place, Reason as Wrong, Result};
-use crate::image::{Grey, GreyView, Plane, Samples, SamplesView};
+use crate::image::{Grey, Plane, Samples};
 use crate::sensor::{Sensor, measured_colour};
 use curve::Curve;
+use fit::SiteFit;
 use noise::NoiseModel;
+
+/// Pixels beside a target and what is looked at around it.
+const BESIDE: f64 = 32.0;
 
 /// The sites of one colour, with all that a fit needs to know of them.
 pub(crate) struct Sites<'a> {
@@ -81,9 +87,9 @@ impl<'a> Sites<'a> {
 /// As for [`detect`](super::detect).
 pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<Detection> {
     let sites = Sites::of(sensor, options);
-    let (photo, curve, hot) = searched(&sites)?;
-    let mut detection = detect_photo(&photo, options)?;
-    let family = codes::read_in_light(&photo, &curve, &mut detection.targets, options.codes);
+    let searched = Searched::of(&sites);
+    let mut detection = detect_photo(&searched.photo, options)?;
+    let family = codes::read_in_light(&searched, &mut detection.targets, options.codes);
     super::code::drop_parts(&mut detection, family);
     let shift = [sites.lit[0] as f64, sites.lit[1] as f64];
     for blob in &mut detection.rejected_blobs {
@@ -92,7 +98,7 @@ pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<
     let mut field = Field::default();
     for target in std::mem::take(&mut detection.targets) {
         let (u, v, diameter) = (target.u + shift[0], target.v + shift[1], target.major);
-        match sites.measured(&photo.grey.view()?, target, options, &mut field) {
+        match sites.measured(&searched, target, options, &mut field) {
             Ok(target) => detection.targets.push(target),
             Err(reason) => {
                 *detection.rejected.entry(reason).or_default() += 1;
@@ -102,7 +108,7 @@ pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<
     }
     if let Some(green) = sites.in_green(options) {
         let seen = detect_sensor(sensor, &green)?.targets;
-        sites.join(&mut detection, &photo, seen, options, &mut field)?;
+        sites.join(&mut detection, &searched, seen, options, &mut field);
     }
     detection.targets.iter_mut().for_each(|target| target.id = 0);
     detection.number_targets();
@@ -113,7 +119,7 @@ pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<
     detection.picture.noise = sites.noise.deviation(sites.noise.usual);
     detection.picture.noise_correlation = 1.0;
     detection.picture.compression = 0.0;
-    detection.measured = Some(sites.told(options.method, hot));
+    detection.measured = Some(sites.told(options.method, searched.hot));
     Ok(detection)
 }
 
@@ -123,7 +129,7 @@ pub(super) fn detect_sensor(sensor: &Sensor, options: &DetectOptions) -> Result<
 /// As for [`measure_at`](super::measure_at).
 pub(super) fn measure_in_sensor(sensor: &Sensor, u: f64, v: f64, options: &DetectOptions) -> Result<Option<Target>> {
     let sites = Sites::of(sensor, options);
-    let (photo, curve, _) = searched(&sites)?;
+    let searched = Searched::of(&sites);
     let shift = [sites.lit[0] as f64, sites.lit[1] as f64];
     let whole = [(u, sensor.width, "u"), (v, sensor.height, "v")];
     if let Some((value, size, name)) =
@@ -132,19 +138,18 @@ pub(super) fn measure_in_sensor(sensor: &Sensor, u: f64, v: f64, options: &Detec
         let reason = Wrong::OutsidePicture { name: name.into(), value: value.into(), size };
         return Err(Error::Invalid { reason, at: Place::field(name) });
     }
-    let view = photo.grey.view()?;
-    if check_place(&view, u - shift[0], v - shift[1]).is_err() {
+    if check_place(&searched.photo.grey.view()?, u - shift[0], v - shift[1]).is_err() {
         // in the masked border, where no light falls
         return Ok(None);
     }
     let mut field = Field::default();
-    let found = measure_in_photo(&photo, u - shift[0], v - shift[1], options)?.and_then(|mut target| {
-        codes::read_in_light(&photo, &curve, std::slice::from_mut(&mut target), options.codes);
-        sites.measured(&view, target, options, &mut field).ok()
+    let found = measure_in_photo(&searched.photo, u - shift[0], v - shift[1], options)?.and_then(|mut target| {
+        codes::read_in_light(&searched, std::slice::from_mut(&mut target), options.codes);
+        sites.measured(&searched, target, options, &mut field).ok()
     });
     let Some(green) = sites.in_green(options).filter(|_| found.is_none()) else { return Ok(found) };
     let seen = measure_in_sensor(sensor, u, v, &green)?;
-    Ok(seen.and_then(|target| sites.again(&view, &target, options, &mut field)))
+    Ok(seen.and_then(|target| sites.again(&searched, &target, options, &mut field)))
 }
 
 /// Targets that are known, measured on the sites of another colour, without a search; none where that has no target.
@@ -157,21 +162,53 @@ pub(super) fn measured_again(
     options: &DetectOptions,
 ) -> Result<Vec<Option<Target>>> {
     let sites = Sites::of(sensor, options);
-    let (photo, ..) = searched(&sites)?;
-    let view = photo.grey.view()?;
+    let searched = Searched::of(&sites);
     let mut field = Field::default();
-    Ok(targets.iter().map(|target| sites.again(&view, target, options, &mut field)).collect())
+    Ok(targets.iter().map(|target| sites.again(&searched, target, options, &mut field)).collect())
 }
 
-/// The grey picture of the search, of the lit part, with the curve of its levels; how many hot sites were left out of it.
-fn searched(sites: &Sites) -> Result<(Photo, Curve, usize)> {
-    let curve = Curve::of(sites);
-    let (samples, hot) = plane::of(sites, &curve);
-    let [left, top, right, bottom] = sites.lit;
-    let grey = Grey { width: right - left, height: bottom - top, samples: Samples::U16(samples) };
-    let inside = |row: u32| (row as usize).clamp(top, bottom) - top;
-    let rows = sites.sensor.damaged_rows.iter().map(|rows| rows.map(|row| inside(row) as u32));
-    Ok((Photo { grey, damaged_rows: rows.filter(|rows| rows[0] < rows[1]).collect() }, curve, hot))
+/// The grey picture of the search, of the lit part.
+struct Searched {
+    photo: Photo,
+    /// What each of its levels is in light, in 16 bits again, and their levels for a unit of light.
+    light: Vec<u16>,
+    per_light: f64,
+    /// How many hot sites were left out of it.
+    hot: usize,
+}
+
+impl Searched {
+    fn of(sites: &Sites) -> Self {
+        let curve = Curve::of(sites);
+        let (samples, hot) = plane::of(sites, &curve);
+        let [left, top, right, bottom] = sites.lit;
+        let grey = Grey { width: right - left, height: bottom - top, samples: Samples::U16(samples) };
+        let inside = |row: u32| (row as usize).clamp(top, bottom) - top;
+        let rows = sites.sensor.damaged_rows.iter().map(|rows| rows.map(|row| inside(row) as u32));
+        let photo = Photo { grey, damaged_rows: rows.filter(|rows| rows[0] < rows[1]).collect() };
+        Self { photo, light: curve.undone(), per_light: curve.per_light(), hot }
+    }
+
+    fn plane(&self) -> Option<Plane<'_, u16>> {
+        let Grey { width, height, samples: Samples::U16(samples) } = &self.photo.grey else { return None };
+        Some(Plane::new(*width, *height, samples))
+    }
+
+    /// What stands around a fit, up to `reach` beyond its rim, and throws onto a site at a place of this picture.
+    fn neighbours(&self, fit: &SiteFit, shift: [f64; 2], reach: f64) -> Option<impl Fn(f64, f64) -> f64 + use<>> {
+        let outline = Outline { u: fit.outline.u - shift[0], v: fit.outline.v - shift[1], ..fit.outline };
+        let size = 2.0 * (outline.semi_axes().0 + reach) + BESIDE;
+        let Part { left, top, width, height, samples } =
+            Part::of(&self.plane()?, outline.u, outline.v, size.ceil() as usize);
+        let in_light = |level: &u16| self.light[usize::from(*level).min(self.light.len() - 1)];
+        let samples: Vec<u16> = samples.iter().map(in_light).collect();
+        let part = [left as f64, top as f64];
+        let outline = Outline { u: outline.u - part[0], v: outline.v - part[1], ..outline };
+        let plane = Plane::new(width, height, &samples);
+        let [contrast, rms] = [fit.contrast, fit.rms].map(|light| self.per_light * light);
+        let neighbours = Neighbours::of(&plane, &outline, fit.blur, contrast, reach, rms)?;
+        Some(move |x: f64, y: f64| neighbours.light(x - shift[0] - part[0], y - shift[1] - part[1]))
+    }
 }
 
 impl Sites<'_> {
@@ -187,18 +224,17 @@ impl Sites<'_> {
     fn join(
         &self,
         detection: &mut Detection,
-        photo: &Photo,
+        searched: &Searched,
         seen: Vec<Target>,
         options: &DetectOptions,
         field: &mut Field,
-    ) -> Result<()> {
-        let view = photo.grey.view()?;
+    ) {
         let near = |u: f64, v: f64, target: &Target| (u - target.u).hypot(v - target.v) < 0.5 * target.minor;
         for target in seen {
             if detection.targets.iter().any(|known| near(known.u, known.v, &target)) {
                 continue;
             }
-            let Some(found) = self.again(&view, &target, options, field) else { continue };
+            let Some(found) = self.again(searched, &target, options, field) else { continue };
             detection.rejected_blobs.retain(|blob| {
                 let same = near(blob.u, blob.v, &target);
                 if let Some(count) = detection.rejected.get_mut(&blob.reason).filter(|_| same) {
@@ -209,19 +245,24 @@ impl Sites<'_> {
             detection.targets.push(found);
         }
         detection.rejected.retain(|_, count| *count > 0);
-        Ok(())
     }
 
     /// A target that is known on the whole grid, measured on the sites; none where this colour does not show it.
-    fn again(&self, view: &GreyView, target: &Target, options: &DetectOptions, field: &mut Field) -> Option<Target> {
+    fn again(
+        &self,
+        searched: &Searched,
+        target: &Target,
+        options: &DetectOptions,
+        field: &mut Field,
+    ) -> Option<Target> {
         let (u, v) = (target.u - self.lit[0] as f64, target.v - self.lit[1] as f64);
-        self.measured(view, Target { u, v, ..target.clone() }, options, field).ok()
+        self.measured(searched, Target { u, v, ..target.clone() }, options, field).ok()
     }
 
     /// A target of the search, measured on the sites. Other methods than the fit keep what they found in the picture.
     fn measured(
         &self,
-        view: &GreyView,
+        searched: &Searched,
         target: Target,
         options: &DetectOptions,
         field: &mut Field,
@@ -231,14 +272,17 @@ impl Sites<'_> {
         if options.method != Method::LeastSquares {
             return Ok(moved(target));
         }
-        let SamplesView::U16(samples) = view.samples() else { return Err(Reason::NoFit) };
+        let plane = searched.plane().ok_or(Reason::NoFit)?;
         let outline = outline_of(&target);
         let all = vec![true; edge::ray_count(&outline)];
-        let plane = Plane::new(view.width(), view.height(), samples);
         let blur = target.quality.edge_width;
         let around = surround::measure(&plane, &outline, blur.max(0.7), &all, u32::MAX).ok_or(Reason::NoFit)?;
         let outline = Outline { u: outline.u + shift[0], v: outline.v + shift[1], ..outline };
-        let found = fit::fit(self, &outline, blur, around.outer, field).ok_or(Reason::NoFit)?;
+        let light = |fit: &SiteFit, reach: f64| searched.neighbours(fit, shift, reach);
+        // where a ring stands near by, only the gap before it is ground
+        let found = fit::fit(self, &outline, blur, around.outer, field, light)
+            .or_else(|| fit::fit(self, &outline, blur, 0.0, field, light))
+            .ok_or(Reason::NoFit)?;
         let (a, b, angle) = found.outline.axes();
         let bright = target.polarity == Polarity::Bright;
         let apart = (found.outline.u - outline.u).hypot(found.outline.v - outline.v);

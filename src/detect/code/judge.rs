@@ -146,7 +146,7 @@ fn rivalry(family: Family, division: &Division, tones: &[Tone]) -> f64 {
 
 /// What a ring is as a code of a family, given its divisions into the sectors of every family of its design.
 pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
-    if tones.iter().all(|(radial, _)| radial.is_faint()) {
+    if tones.iter().all(|(radial, _)| radial.is_faint() || radial.is_clutter()) {
         return Reading::Plain;
     }
     let Some((radial, division)) = best(tones, family.bits()) else { return Reading::Plain };

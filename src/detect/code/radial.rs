@@ -182,6 +182,16 @@ impl Radial {
         self.ring.iter().all(|level| *level < limits::FAINT * limits::HIGH.start)
     }
 
+    /// Whether so much stands beside the ring where it is set, in the gap, in one of its halves or outside, that it is none: what a look at the
+    /// sectors would tell too, at a hundred times the work.
+    pub fn is_clutter(&self) -> bool {
+        let top = self.ring.iter().copied().fold(0.0, f64::max);
+        let set = || (0..self.ring.len()).filter(|j| self.ring[*j] > top / 2.0);
+        let sum = |levels: &[f64]| set().map(|j| levels[j]).sum::<f64>();
+        let most = limits::BESIDE * sum(&self.ring);
+        [&self.gap, &self.halves, &self.outside].iter().any(|levels| !(sum(levels).abs() <= most))
+    }
+
     /// Width of one of `n` sectors in the middle of the ring, in pixels.
     pub fn sector(&self, n: usize) -> f64 {
         std::f64::consts::TAU / n as f64 * self.middle * self.rays.area.sqrt()
@@ -337,4 +347,42 @@ fn ground(grounds: &[[f64; 2]], contrast: f64, bands: &Bands) -> Option<([f64; 3
     let off =
         levels.iter().enumerate().map(|(j, level)| if level.is_finite() { level - basis(j).dot(&plane) } else { 0.0 });
     Some(([plane[0], plane[1], plane[2]], off.collect()))
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    #[test]
+    fn a_dot_may_stand_in_a_ring_where_a_gap_and_something_of_its_colour_are_around_it() {
+        // dots of 5 px: in a ring of two sectors, alone, joined with what lies around, and on the other polarity's ground
+        let seen = |ring: [f64; 2], gap: f64, bright: bool| {
+            let level = |i: usize| {
+                let [x, y] = [(i % 60) as f64 - 29.5, (i / 60) as f64 - 29.5];
+                let radius = x.hypot(y) / 5.0;
+                let in_ring = (ring[0]..ring[1]).contains(&radius) && y.abs() < 0.5 * x;
+                if radius < 1.0 || in_ring {
+                    200
+                } else if radius < 2.0 {
+                    gap as u8
+                } else {
+                    40
+                }
+            };
+            let samples: Vec<u8> = (0..60 * 60).map(level).collect();
+            // the outline is known to a fifth of its size
+            [4.2, 5.0, 5.8].map(|radius| {
+                let outline = Outline::from_axes(30.0, 30.0, radius, radius, 0.0);
+                may_be_in_ring(&Plane::new(60, 60, &samples), &outline, bright, 60.0)
+            })
+        };
+        assert_eq!(seen([2.0, 3.0], 40.0, true), [true; 3]);
+        assert_eq!(seen([2.28, 3.54], 40.0, true), [true; 3]);
+        assert_eq!(seen([0.0, 0.0], 40.0, true), [false; 3]);
+        assert_eq!(seen([2.0, 3.0], 170.0, true), [false; 3]);
+        assert_eq!(seen([2.0, 3.0], 40.0, false), [false; 3]);
+    }
 }

@@ -63,6 +63,11 @@ impl Curve {
         (0..=WHITE as usize).map(of).collect()
     }
 
+    /// What a unit of light is in levels that are undone.
+    pub(super) fn per_light(&self) -> f64 {
+        WHITE * f64::from(self.per_unit) / (ENTRIES - 1) as f64
+    }
+
     /// The level of light.
     #[inline]
     pub(super) fn at(&self, light: f32) -> u16 {

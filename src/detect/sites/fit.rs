@@ -4,7 +4,8 @@
 //! sites alone, each weighted by the inverse of its variance r + g g(x, y). The variance follows the model, not the sample: weights that
 //! know a sample's noise would draw the fit to the dark. Which sites the white level clips follows the model too, so that the
 //! choice says nothing of their noise. The covariance is that of the Cramér-Rao bound of these sites where the model holds, and as
-//! much more as the residuals show where it does not.
+//! much more as the residuals show where it does not. Light that blur carries from what stands around onto the sites is taken back to first
+//! order, as for pictures ([`neighbours`](crate::detect::rendered::neighbours)).
 
 mod system;
 
@@ -55,11 +56,20 @@ struct State {
 }
 
 /// Fits, from an outline and a blur on the whole grid; `outer` is the distance from the rim up to which the ground is free. What is
-/// found chooses the sites anew: which ones count is not left to the first guess.
-pub(super) fn fit(sites: &Sites, start: &Outline, blur: f64, outer: f64, field: &mut Field) -> Option<SiteFit> {
+/// found chooses the sites anew: which ones count is not left to the first guess. `light` is what stands around a fit, seen as far as it
+/// says, and throws onto a site, as a share of the contrast.
+pub(super) fn fit<L: Fn(f64, f64) -> f64>(
+    sites: &Sites,
+    start: &Outline,
+    blur: f64,
+    outer: f64,
+    field: &mut Field,
+    light: impl Fn(&SiteFit, f64) -> Option<L>,
+) -> Option<SiteFit> {
     let blur = blur.clamp(BLUR.0.max(0.4), BLUR.1);
+    let reach = |blur: f64| (2.5 * blur + 1.0).max(outer.min(2.5 * blur + WIDEST));
     let around = |outline: &Outline, blur: f64| {
-        let chosen = choose(sites, &outline.grown((2.5 * blur + 1.0).max(outer.min(2.5 * blur + WIDEST))));
+        let chosen = choose(sites, &outline.grown(reach(blur)));
         (chosen.len() >= 2 * UNKNOWNS).then_some(chosen)
     };
     let mut chosen = around(start, blur)?;
@@ -71,7 +81,15 @@ pub(super) fn fit(sites: &Sites, start: &Outline, blur: f64, outer: f64, field: 
     let [level, gx, gy] = state.background;
     state.background = [level + gx * (origin[0] - start.u) + gy * (origin[1] - start.v), gx, gy];
     let origin = approach(sites, &mut chosen, &mut state, false, field)?;
-    finished(sites, &chosen, &state, field, origin)
+    let (mut found, system) = finished(sites, &chosen, &state, field, origin)?;
+    if let Some(light) = light(&found, reach(state.blur)) {
+        let [pu, pv] = system.pulled(sites, &chosen, &state, field, origin, |x, y| state.contrast * light(x, y))?;
+        (found.outline.u, found.outline.v) = (found.outline.u - pu, found.outline.v - pv);
+        // the light is known to about its own size
+        let [uu, uv, vv] = found.covariance;
+        found.covariance = [uu + pu * pu, uv + pu * pv, vv + pv * pv];
+    }
+    Some(found)
 }
 
 /// Corrections until nothing changes any more, from the sites that are the target's; gives the place that the ground's slopes
@@ -202,7 +220,13 @@ fn clean(sites: &Sites, chosen: &mut [Site], state: &State, field: &Field, origi
     changed
 }
 
-fn finished(sites: &Sites, chosen: &[Site], state: &State, field: &Field, origin: [f64; 2]) -> Option<SiteFit> {
+fn finished(
+    sites: &Sites,
+    chosen: &[Site],
+    state: &State,
+    field: &Field,
+    origin: [f64; 2],
+) -> Option<(SiteFit, System)> {
     let system = System::of(sites, chosen, state, field, origin, false);
     let free = system.used.checked_sub(UNKNOWNS).filter(|free| *free >= UNKNOWNS)? as f64;
     let dropped = chosen.iter().filter(|site| !site.kept).count() as f64;
@@ -226,13 +250,7 @@ fn finished(sites: &Sites, chosen: &[Site], state: &State, field: &Field, origin
         }
     }
     let sound = covariance.iter().all(|part| part.is_finite()) && covariance[0] > 0.0 && covariance[2] > 0.0;
-    sound.then_some(SiteFit {
-        outline: state.outline,
-        blur: state.blur,
-        contrast: state.contrast,
-        ground,
-        rms,
-        clipped: clipped / f64::max(inside, 1.0),
-        covariance,
-    })
+    let clipped = clipped / f64::max(inside, 1.0);
+    let State { outline, blur, contrast, .. } = *state;
+    sound.then_some((SiteFit { outline, blur, contrast, ground, rms, clipped, covariance }, system))
 }

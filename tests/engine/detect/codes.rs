@@ -4,11 +4,12 @@ use crate::support::coded_patch::{Curve, Kind, coded_patch};
 use crate::support::data::data;
 use crate::support::painter::Uniform;
 use sightline::decode;
-use sightline::detect::{detect, read_codes};
-use sightline::detection::{Channel, CodeNote, Codes, DetectOptions, Detection, Quality, Reason, Target};
-use sightline::image::{GreyView, SamplesView};
+use sightline::detect::{detect, detect_shot, read_codes};
+use sightline::detection::{Channel, CodeNote, Codes, Colour, DetectOptions, Detection, Quality, Reason, Target};
+use sightline::image::{GreyView, Samples, SamplesView};
 use sightline::noise::Noise;
 use sightline::ring_code::Family;
+use sightline::sensor::{Black, Header, Mosaic, Pattern, Shot, Unpacked};
 
 /// Targets a row and a column of a picture, and their distance in pixels.
 const COUNT: usize = 6;
@@ -58,23 +59,30 @@ impl Coded {
 /// A picture of coded targets, its light falling off from the left to the right, steeper across each target.
 struct Plate {
     coded: Vec<Coded>,
+    /// Light without noise, in grey levels.
+    light: Vec<f64>,
     samples: Vec<u8>,
 }
 
 fn plate(family: Family, blur: f64, dark: bool, random: &mut Uniform, seed: u64) -> Plate {
-    plate_of(family, family.codes(), [5.0, 14.0], blur, dark, random, seed)
+    let look = Look { radii: [5.0, 14.0], blur, dark, even: false };
+    plate_of(family, family.codes(), look, random, seed)
 }
 
-/// The same of these codes only, with dots of these radii.
-fn plate_of(
-    family: Family,
-    codes: &[u32],
+/// How a plate is drawn.
+struct Look {
+    /// Radii of the dots in pixels.
     radii: [f64; 2],
     blur: f64,
+    /// Whether dots are darker than their ground.
     dark: bool,
-    random: &mut Uniform,
-    seed: u64,
-) -> Plate {
+    /// Whether its light is the same everywhere.
+    even: bool,
+}
+
+/// The same of these codes only.
+fn plate_of(family: Family, codes: &[u32], look: Look, random: &mut Uniform, seed: u64) -> Plate {
+    let Look { radii, blur, dark, even } = look;
     let size = COUNT * PITCH;
     let coded: Vec<Coded> = (0..COUNT * COUNT)
         .map(|k| {
@@ -99,24 +107,28 @@ fn plate_of(
         let (left, top) = (k % COUNT * PITCH * FINE, k / COUNT * PITCH * FINE);
         for y in top..top + PITCH * FINE {
             for x in left..left + PITCH * FINE {
-                let [px, py] = [x, y].map(|i| (i as f64 + 0.5) / FINE as f64);
-                marked[y * fine + x] = f32::from(u8::from(target.is_marked(px, py, family)));
+                // four places in each: rims that are whole sub-pixels move a centre by .005 px
+                let inside = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]].map(|[dx, dy]| {
+                    target.is_marked((x as f64 + dx) / FINE as f64, (y as f64 + dy) / FINE as f64, family)
+                });
+                marked[y * fine + x] = 0.25 * inside.into_iter().filter(|inside| *inside).count() as f32;
             }
         }
     }
     let marked = blurred(&blurred(&marked, fine, blur), fine, blur);
-    let mut noise = Noise::new(seed, 0);
-    let samples = (0..size * size)
+    let light: Vec<f64> = (0..size * size)
         .map(|i| {
             let (x, y) = (i % size, i / size);
             let sum: f32 = (0..FINE * FINE).map(|k| marked[(y * FINE + k / FINE) * fine + x * FINE + k % FINE]).sum();
             let share = f64::from(sum) / (FINE * FINE) as f64;
             let paint = if dark { 1.0 - 0.85 * share } else { 0.15 + 0.85 * share };
-            let light = (1.0 - 0.4 * x as f64 / size as f64) * (1.0 - 0.25 * (y % PITCH) as f64 / PITCH as f64);
-            (220.0 * paint * light + 2.0 * noise.normal()).round().clamp(0.0, 255.0) as u8
+            let falling = (1.0 - 0.4 * x as f64 / size as f64) * (1.0 - 0.25 * (y % PITCH) as f64 / PITCH as f64);
+            220.0 * paint * if even { 1.0 } else { falling }
         })
         .collect();
-    Plate { coded, samples }
+    let mut noise = Noise::new(seed, 0);
+    let samples = light.iter().map(|light| (light + 2.0 * noise.normal()).round().clamp(0.0, 255.0) as u8).collect();
+    Plate { coded, light, samples }
 }
 
 /// Rows blurred, and the picture turned over its diagonal: twice gives both directions.
@@ -199,42 +211,110 @@ fn handed_over(plate: &Plate, amount: f64, quality: u8) -> Vec<u8> {
     image::load_from_memory(&file).expect("the JPEG").to_luma8().into_raw()
 }
 
+/// What small coded dots come to.
+#[derive(Default)]
+struct Small {
+    dots: usize,
+    hits: usize,
+    codes: usize,
+    /// Other targets within the rings of codes that are read.
+    parts: usize,
+    /// Sum of the squares of errors over their standard errors, and how many of them are beyond five.
+    square: f64,
+    far: usize,
+}
+
+impl Small {
+    fn add(&mut self, plate: &Plate, found: &Detection) {
+        for coded in plate.coded.iter().filter(|coded| coded.squeeze > 0.7) {
+            self.dots += 1;
+            let beside = |t: &&Target, reach: f64| (t.u - coded.u).hypot(t.v - coded.v) < reach;
+            let Some(dot) = found.targets.iter().find(|t| beside(t, 1.0)) else { continue };
+            self.hits += 1;
+            let own = [(dot.u - coded.u) / dot.sigma_u, (dot.v - coded.v) / dot.sigma_v];
+            self.square += own.iter().map(|x| x * x).sum::<f64>();
+            self.far += own.iter().filter(|x| x.abs() > 5.0).count();
+            if let Some(number) = dot.code {
+                assert_eq!(number, coded.number);
+                self.codes += 1;
+                let around = found.targets.iter().filter(|t| beside(t, 3.8 * coded.radius) && t.id != dot.id);
+                self.parts += around.count();
+            }
+        }
+    }
+
+    fn assert_honest(&self) {
+        let Self { dots, hits, codes, parts, square, far } = *self;
+        let chi = (square / (2 * hits) as f64).sqrt();
+        println!(
+            "{hits} of {dots} found, {codes} read, {parts} parts beside them, error over sigma {chi:.2}, {far} far off"
+        );
+        assert!(100 * hits >= 90 * dots && 100 * codes >= 85 * dots, "{hits} and {codes} of {dots}");
+        assert!(chi < 1.4 && far <= hits / 50 && parts <= codes / 50, "{chi} {far} {parts}");
+    }
+}
+
+fn small_dots(random: &mut Uniform) -> Look {
+    Look { radii: [4.0, 9.0], blur: random.within(0.7, 1.1), dark: true, even: true }
+}
+
 /// Dots of 8 to 18 px whose rings blur reaches: found, with standard errors that the ring's own light is a part of, and what is
 /// left of rings is no target.
 #[test]
 fn small_codes_of_a_camera_are_found_with_honest_standard_errors() {
     let mut random = Uniform(7);
-    let (mut dots, mut hits, mut codes, mut parts) = (0, 0, 0, 0);
-    let (mut square, mut far) = (0.0, 0);
+    let mut small = Small::default();
     for family in [Family::Ring12, Family::Metashape12] {
-        for (seed, (amount, quality)) in [(0.0, 60), (0.0, 90), (1.0, 60), (1.0, 90)].into_iter().enumerate() {
-            let mut plate =
-                plate_of(family, family.codes(), [4.0, 9.0], random.within(0.7, 1.1), true, &mut random, seed as u64);
-            plate.samples = handed_over(&plate, amount, quality);
-            let found = read(&plate, family.into());
-            for coded in plate.coded.iter().filter(|coded| coded.squeeze > 0.7) {
-                dots += 1;
-                let beside = |t: &&Target, reach: f64| (t.u - coded.u).hypot(t.v - coded.v) < reach;
-                let Some(dot) = found.targets.iter().find(|t| beside(t, 1.0)) else { continue };
-                hits += 1;
-                let own = [(dot.u - coded.u) / dot.sigma_u, (dot.v - coded.v) / dot.sigma_v];
-                square += own.iter().map(|x| x * x).sum::<f64>();
-                far += own.iter().filter(|x| x.abs() > 5.0).count();
-                if let Some(number) = dot.code {
-                    assert_eq!(number, coded.number);
-                    codes += 1;
-                    let around = found.targets.iter().filter(|t| beside(t, 3.8 * coded.radius) && t.id != dot.id);
-                    parts += around.count();
-                }
+        for (seed, made) in
+            [None, Some((0.0, 60)), Some((0.0, 90)), Some((1.0, 60)), Some((1.0, 90))].into_iter().enumerate()
+        {
+            let mut plate = plate_of(family, family.codes(), small_dots(&mut random), &mut random, seed as u64);
+            if let Some((amount, quality)) = made {
+                plate.samples = handed_over(&plate, amount, quality);
             }
+            small.add(&plate, &read(&plate, family.into()));
         }
     }
-    let chi = (square / (2 * hits) as f64).sqrt();
-    println!(
-        "{hits} of {dots} found, {codes} read, {parts} parts beside them, error over sigma {chi:.2}, {far} far off"
-    );
-    assert!(100 * hits >= 90 * dots && 100 * codes >= 85 * dots, "{hits} and {codes} of {dots}");
-    assert!(chi < 1.4 && far <= hits / 50 && parts <= codes / 50, "{chi} {far} {parts}");
+    small.assert_honest();
+}
+
+/// What a sensor with filters of three colours has of a plate, with the noise of photons and of reading out.
+fn on_sensor(plate: &Plate, seed: u64) -> Shot {
+    const BLACK: f64 = 512.0;
+    const WHITE: f64 = 16383.0;
+    let size = COUNT * PITCH;
+    let pattern = Pattern::parse("RGGB", 2).expect("a pattern");
+    let mut noise = Noise::new(seed, 0);
+    let samples = plate.light.iter().enumerate().map(|(k, level)| {
+        let share = match pattern.at(k % size, k / size) {
+            Colour::Red => 0.55,
+            Colour::Blue => 0.7,
+            _ => 1.0,
+        };
+        let light = share * level / 255.0 * (WHITE - BLACK);
+        (BLACK + light + (16.0 + 1.5 * light).sqrt() * noise.normal()).round().clamp(0.0, WHITE) as u16
+    });
+    let samples = Samples::U16(samples.collect());
+    let side = size as u32;
+    let mosaic = Mosaic { pattern, active_area: [0, 0, side, side], black: Black::uniform(BLACK), white: WHITE };
+    let header =
+        Header { format: "DNG".into(), width: side, height: side, bits: 14, mosaic: Some(mosaic), ..Header::default() };
+    Unpacked { header, samples, small: Vec::new() }.into_shot().expect("a sensor's samples")
+}
+
+/// The same on a sensor's own samples.
+#[test]
+fn small_codes_on_a_sensor_are_found_with_honest_standard_errors() {
+    let mut random = Uniform(8);
+    let mut small = Small::default();
+    for family in [Family::Ring12, Family::Metashape12] {
+        for seed in 0..3 {
+            let plate = plate_of(family, family.codes(), small_dots(&mut random), &mut random, seed);
+            let options = DetectOptions { codes: family.into(), ..DetectOptions::default() };
+            small.add(&plate, &detect_shot(&on_sensor(&plate, seed), &options).expect("valid options"));
+        }
+    }
+    small.assert_honest();
 }
 
 /// Pictures of the short form; `cargo xtask bench codes` draws 200 000.
@@ -331,7 +411,15 @@ fn a_ring_of_two_families_is_asked_about_and_another_ring_answers() {
     };
     let numbers: Vec<_> = both.iter().map(|family| family.number(quarters(family.bits()))).collect();
     assert!(numbers.iter().all(Option::is_some), "{numbers:?}");
-    let picture = |codes: [u32; 2]| plate_of(Family::Ring12, &codes, [5.0, 14.0], 0.7, false, &mut Uniform(5), 1);
+    let picture = |codes: [u32; 2]| {
+        plate_of(
+            Family::Ring12,
+            &codes,
+            Look { radii: [5.0, 14.0], blur: 0.7, dark: false, even: false },
+            &mut Uniform(5),
+            1,
+        )
+    };
     let alone = read(&picture([quarters(12); 2]), Codes::Auto);
     let rings: Vec<_> = alone.targets.iter().filter(|t| !t.code_candidates.is_empty()).collect();
     assert!(!rings.is_empty() && rings.iter().all(|t| t.code.is_none()), "{rings:?}");

@@ -41,6 +41,20 @@ pub(super) fn counts(sites: &Sites, site: &Site, level: f64, by_sample: bool) ->
     site.kept && if by_sample { !site.clipped } else { level < white - WHITE * sites.noise.deviation(white) }
 }
 
+/// How the model of a site changes with the unknowns.
+fn row(site: &Site, state: &State, model: &Modelled, origin: [f64; 2]) -> [f64; UNKNOWNS] {
+    let Outline { u, v, p, q, r } = state.outline;
+    let det = p * q - r * r;
+    let place = [site.x as f64 + 0.5, site.y as f64 + 0.5];
+    let [du, dv, ds] = model.slopes.map(|slope| state.contrast * slope);
+    // the rim next to the site moves with p, q and r as its parameter says
+    let [dx, dy] = [place[0] - u, place[1] - v];
+    let (c, s) = ((q * dx - r * dy) / det, (p * dy - r * dx) / det);
+    let length = (c * c + s * s + 1e-12).sqrt();
+    let (c, s) = (c / length, s / length);
+    [du, dv, c * du, s * dv, s * du + c * dv, ds, model.share, 1.0, place[0] - origin[0], place[1] - origin[1]]
+}
+
 /// The weighted normal equations.
 pub(super) struct System {
     normal: Normal,
@@ -54,8 +68,6 @@ pub(super) struct System {
 impl System {
     /// Of the sites that count, at a state whose picture is in the field.
     pub fn of(sites: &Sites, chosen: &[Site], state: &State, field: &Field, origin: [f64; 2], by_sample: bool) -> Self {
-        let Outline { u, v, p, q, r } = state.outline;
-        let det = p * q - r * r;
         let mut system = Self { normal: Normal::zeros(), right: Unknowns::zeros(), squares: [0.0; 2], used: 0 };
         for site in chosen {
             let model = modelled(site, state, field, origin);
@@ -64,14 +76,7 @@ impl System {
             }
             let weight = 1.0 / sites.noise.variance(model.level);
             let residual = site.light - model.level;
-            let [x, y] = [site.x as f64 + 0.5 - origin[0], site.y as f64 + 0.5 - origin[1]];
-            let [du, dv, ds] = model.slopes.map(|slope| state.contrast * slope);
-            // the rim next to the site moves with p, q and r as its parameter says
-            let [dx, dy] = [site.x as f64 + 0.5 - u, site.y as f64 + 0.5 - v];
-            let (c, s) = ((q * dx - r * dy) / det, (p * dy - r * dx) / det);
-            let length = (c * c + s * s + 1e-12).sqrt();
-            let (c, s) = (c / length, s / length);
-            let row = [du, dv, c * du, s * dv, s * du + c * dv, ds, model.share, 1.0, x, y];
+            let row = row(site, state, &model, origin);
             for i in 0..UNKNOWNS {
                 let weighted = weight * row[i];
                 system.right[i] += weighted * residual;
@@ -85,6 +90,30 @@ impl System {
         }
         system.normal.fill_upper_triangle_with_lower_triangle();
         system
+    }
+
+    /// What light in the sites that the model does not know moves the centre by, N⁻¹ J'l.
+    pub fn pulled(
+        &self,
+        sites: &Sites,
+        chosen: &[Site],
+        state: &State,
+        field: &Field,
+        origin: [f64; 2],
+        light: impl Fn(f64, f64) -> f64,
+    ) -> Option<[f64; 2]> {
+        let mut right = Unknowns::zeros();
+        for site in chosen {
+            let model = modelled(site, state, field, origin);
+            if !counts(sites, site, model.level, false) {
+                continue;
+            }
+            let own = light(site.x as f64 + 0.5, site.y as f64 + 0.5) / sites.noise.variance(model.level);
+            if own != 0.0 {
+                right += own * Unknowns::from(row(site, state, &model, origin));
+            }
+        }
+        Self { right, ..*self }.solve().map(|moved| [moved[0], moved[1]])
     }
 
     /// Scales of a unit diagonal, and the matrix with a trace of damping for what clipped sites do not determine.
