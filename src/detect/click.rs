@@ -4,27 +4,36 @@ use super::measure::{Found, Measure};
 use super::part::Part;
 use super::picture::noise;
 use super::{Outline, Plane, code, search};
-use crate::detection::{DetectOptions, Method, MethodResult, Target};
+use crate::detection::{Codes, DetectOptions, Method, MethodResult, Target};
 use crate::image::Sample;
 
 /// Sizes of the window in pixels; the next one is tried when the click hits no target in the last.
 const WINDOWS: [usize; 3] = [64, 192, 1000];
+/// The last window where codes are read: small dots in rings are found by what many others have in common.
+const LAST: usize = 2000;
 /// Distance in pixels at which a click beside a target still means it.
 const BESIDE: f64 = 4.0;
 
 /// The target under the click, or the nearest one within a few pixels of it.
 pub(super) fn measure<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Option<Target> {
     let method = options.method;
-    let found = at(plane, u, v, options, |measure, found| measure.finish(found, method).ok());
-    let Some(mut target) = found else { return in_ordinary(plane, u, v, options) };
-    code::read_in(&plane, std::slice::from_mut(&mut target), options.codes);
-    Some(target)
+    let mut found = at(plane, u, v, options, |measure, found| measure.finish(found, method).ok());
+    code::read_in(&plane, found.as_mut_slice(), options.codes);
+    let is_settled =
+        |target: &Target| options.codes == Codes::None || target.code.is_some() || !target.code_candidates.is_empty();
+    if found.as_ref().is_some_and(is_settled) {
+        return found;
+    }
+    // a dot may be measured otherwise, and read, where others tell of it
+    let coded = |target: &Target| found.is_none() || target.code.is_some();
+    in_ordinary(plane, u, v, options).filter(coded).or(found)
 }
 
 /// The target under the click where the picture is no laboratory's: as the whole picture would be searched, in windows.
 fn in_ordinary<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Option<Target> {
-    WINDOWS[1..].iter().find_map(|size| {
-        let Part { left, top, width, height, samples } = Part::of(&plane, u, v, *size);
+    let last = (options.codes != Codes::None).then_some(LAST);
+    WINDOWS.into_iter().skip(1).chain(last).find_map(|size| {
+        let Part { left, top, width, height, samples } = Part::of(&plane, u, v, size);
         let away = |target: &Target| {
             let outline = code::outline_of(target);
             let [c, s] = outline.grown(BESIDE).normalised(u, v);
