@@ -228,6 +228,10 @@ pub(crate) mod outline {
         RMS: [f64; 2] = [0.3, 0.03], Judged "an outline that no expectation saves";
         /// Rays in a row without a fitting edge that are something in front of the target.
         COVERED: usize = 3, Judged "one edge out of place is chance, two in a row are seldom";
+        /// Distance, in pixels, from which a single edge that does not fit is something in front as well; and the scatter of the others up to
+        /// which it is no chance.
+        GONE: f64 = 0.5, Measured "error over sigma of 380 discs behind thin cables 1.20, with half as much again 1.28";
+        EVEN: f64 = 0.1, Measured "with more, coarse JPEG and drawings lose edges that are their own, `photos -- conditions`";
         /// Change of an outline up to which its edges are not looked for again.
         HEAD_ON: f64 = 0.4, Judged "rays meet the rim as head on as before";
     }
@@ -296,6 +300,10 @@ pub(crate) mod fit {
         /// Largest share of a whole outline that chance may hide; gap inside of a ring, in pixels, that is worth a narrower ground.
         WHOLE: f64 = 0.05, Judged "two of 48 rays";
         NARROW: f64 = 1.0, Judged "one pixel of ground";
+        /// Depth, in blurs, up to which a cap beyond a cable is left out.
+        SHALLOW: f64 = 1.0, Judged "less of it has no edge of its own, and more leaves too little of small discs: `photos -- conditions`";
+        /// Standard error of a centre, in pixels, of which too much is hidden.
+        UNTOLD: f64 = 0.25, Judged "a twentieth of the smallest semi-axis that is looked for behind covers, and more than a hand does";
         /// Fewest pixels, unknowns being ten.
         PIXELS: usize = 24, Derived "14 of redundancy";
         /// Contrast of what is clipped, in units of what the scale shows: at most, from which on nothing of the rim is left, and at least then.

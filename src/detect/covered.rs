@@ -54,7 +54,7 @@ impl<T: Sample> Measure<'_, T> {
         }
         let missing: Vec<bool> = (0..count).map(|k| self.edges.is_kept(k)).collect();
         let strength = self.strength();
-        let kept = undisturbed(&self.edges, &outline, SHARP);
+        let kept = undisturbed(&self.edges, &ellipse, SHARP);
         let around = |blur: f64| surround::measure(&self.plane, &outline, blur, &kept, NEARBY).ok_or(Covered::No);
         let rough = around(SHARP)?;
         let blur = blur::of(strength, rough.contrast.abs());
@@ -69,7 +69,7 @@ impl<T: Sample> Measure<'_, T> {
         if !(signed > FAINT * noise && ellipse.rms < CLEAR * scatter) {
             return Err(Covered::No);
         }
-        let kept = undisturbed(&self.edges, &outline, blur);
+        let kept = undisturbed(&self.edges, &ellipse, blur);
         let levels = DotLevels { dot: surround.level + surround.contrast, background: surround.level };
         let foreign = look::unexplained(&self.plane, &outline, &missing, levels) <= UNEXPLAINED;
         if !foreign || surround.uneven > UNEVEN || 2.0 * b < GAP_MINOR {

@@ -19,6 +19,7 @@ use super::median;
 use super::picture::noise::Levels;
 use super::rendered::band::{Prior, Region};
 use super::rendered::colour::Colour;
+use super::rendered::cover::Cover;
 use super::rendered::fit::{self, Workspace};
 use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
 use crate::image::{Plane, Sample};
@@ -30,6 +31,11 @@ const CONVERGED: f64 = 1e-4;
 /// Half the width of the band of pixels that the rim's blur reaches.
 fn half_band(blur: f64) -> f64 {
     3.6 * (blur * blur + 1.0 / 12.0).sqrt() + 0.8
+}
+
+/// Depth of a cap, in pixels, that the blur of what runs across leaves nothing of.
+fn shallow(blur: f64) -> f64 {
+    limits::SHALLOW * blur
 }
 
 /// What measuring needs besides the outline; scratch is reused.
@@ -230,6 +236,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             surround: &found.surround,
             kept: &found.kept,
             whole,
+            cover: Cover::of(&found.ellipse.outline, &found.kept, shallow(found.blur)),
             saturation: self.levels.saturation,
             stairs: self.levels.stairs,
             prior: self.prior,
@@ -240,7 +247,8 @@ impl<'a, T: Sample> Measure<'a, T> {
         let kept = if whole { &all } else { &found.kept };
         let mut surround = self.surround(&outline, blur, kept)?;
         surround.contrast = contrast;
-        let last = Region { outline, half_band: half_band(blur), surround: &surround, kept, ..region };
+        let cover = Cover::of(&outline, kept, shallow(blur));
+        let last = Region { outline, half_band: half_band(blur), surround: &surround, kept, cover, ..region };
         let mut fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
         let b = fit.outline.semi_axes().1;
         let gap = b - 2.0 * fit.blur;
@@ -249,6 +257,10 @@ impl<'a, T: Sample> Measure<'a, T> {
             let narrow = Surround { outer: gap.min(surround.outer), ..surround };
             let last = Region { surround: &narrow, ..last };
             fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
+        }
+        let [uu, _, vv] = fit.covariance;
+        if !whole && uu.max(vv) > limits::UNTOLD.powi(2) {
+            return Err(Reason::Occluded);
         }
         let (a, b) = fit.outline.semi_axes();
         let moved = (fit.outline.u - region.outline.u).hypot(fit.outline.v - region.outline.v);

@@ -14,6 +14,7 @@
 
 pub(crate) mod band;
 pub(crate) mod colour;
+pub(crate) mod cover;
 pub(crate) mod fit;
 mod flats;
 pub(crate) mod neighbours;

@@ -21,16 +21,25 @@ pub(in crate::detect) const NEARBY: u32 = 6;
 /// Correction, in pixels, that ends the refinement of an ellipse that only starts the final measurement.
 pub(in crate::detect) const NEAR: f64 = 0.005;
 
-/// Which rays count: a single edge out of place is chance, more in a row are something in front of the target. Its own edge is as
-/// blurred as the target's: beside what covers more than that the rim is left out as far as that blur reaches.
-pub(in crate::detect) fn undisturbed(edges: &Edges, outline: &Outline, blur: f64) -> Vec<bool> {
+/// Which rays count: a single edge out of place is chance, unless the others are even and it is far off, like that of a cable that only
+/// one ray meets; more in a row are something in front of the target. Its own edge is as blurred as the target's: beside it the rim is
+/// left out as far as that blur reaches.
+pub(in crate::detect) fn undisturbed(edges: &Edges, ellipse: &EllipseFit, blur: f64) -> Vec<bool> {
     let count = edges.len();
     let kept = |k: usize| edges.is_kept(k % count);
+    let outline = &ellipse.outline;
+    let even = ellipse.rms <= limits::EVEN;
+    let is_gone = |k: &usize| {
+        let [x, y] = edges.place(*k);
+        even && !edges.is_kept(*k) && (edges.strength[*k] <= 0.0 || outline.distance(x, y).abs() > limits::GONE)
+    };
     let good: Vec<bool> = (0..count).map(|k| kept(k) || kept(k + 1) && kept(k + count - 1)).collect();
     let margin = ((2.0 * blur + 1.0) * count as f64 / outline.perimeter()).ceil() as usize;
     let mut all = good.clone();
-    for k in (0..count).filter(|k| (0..limits::COVERED).all(|i| !good[(k + i) % count])) {
-        for i in 0..limits::COVERED + 2 * margin {
+    let covered = (0..count).filter(|k| (0..limits::COVERED).all(|i| !good[(k + i) % count]));
+    let runs = covered.map(|k| (k, limits::COVERED)).chain((0..count).filter(is_gone).map(|k| (k, 1)));
+    for (k, run) in runs {
+        for i in 0..run + 2 * margin {
             all[(k + count + i - margin.min(count)) % count] = false;
         }
     }
@@ -170,7 +179,7 @@ impl<T: Sample> Measure<'_, T> {
     /// The ellipse with what lies around it and its blur.
     fn surrounded(&mut self, ellipse: EllipseFit, bright: bool, focus: f64) -> Result<Found, Reason> {
         let outline = ellipse.outline;
-        let kept = undisturbed(&self.edges, &outline, blur::rough(focus));
+        let kept = undisturbed(&self.edges, &ellipse, blur::rough(focus));
         let strength = self.strength();
         let around = |blur: f64| surround::measure(&self.plane, &outline, blur, &kept, NEARBY).ok_or(Reason::AtBorder);
         let rough = around(blur::rough(focus))?;
@@ -205,7 +214,7 @@ impl<T: Sample> Measure<'_, T> {
         let (count, profile) = (self.edges.len(), blur::profile(&outline, &found.surround, found.strength, found.blur));
         edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
         found.ellipse = through::fit(&mut self.edges, &outline, Start::Near(NEAR)).ok_or(Reason::NotAnEllipse)?;
-        found.kept = undisturbed(&self.edges, &found.ellipse.outline, found.blur);
+        found.kept = undisturbed(&self.edges, &found.ellipse, found.blur);
         found.refined = true;
         is_seen(&found.ellipse)
     }

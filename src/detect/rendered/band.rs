@@ -6,6 +6,7 @@
 use nalgebra::{SMatrix, SVector};
 use wide::{f32x4, f32x8};
 
+use super::cover::Cover;
 use super::flats::Flats;
 use super::scatter::Lights;
 use crate::detect::edges::surround::Surround;
@@ -32,6 +33,8 @@ pub(crate) struct Region<'a> {
     pub kept: &'a [bool],
     /// Whether all of them are true.
     pub whole: bool,
+    /// What lies in front, where they show that.
+    pub cover: Option<Cover>,
     /// Grey level from which a sample says nothing.
     pub saturation: f64,
     /// Whether edges are the stairs of the pixels.
@@ -420,7 +423,11 @@ impl Region<'_> {
         if self.whole {
             return true;
         }
-        let [c, s] = self.outline.normalised(x as f64 + 0.5, y as f64 + 0.5);
+        let (x, y) = (x as f64 + 0.5, y as f64 + 0.5);
+        if self.cover.is_some_and(|cover| cover.hides(x, y)) {
+            return false;
+        }
+        let [c, s] = self.outline.normalised(x, y);
         let turn = s.atan2(c) / std::f64::consts::TAU * self.kept.len() as f64;
         // a ray's neighbours share its edge: both must count
         let count = self.kept.len() as i64;

@@ -118,9 +118,10 @@ fn cameras_drawn_at_random_are_told_by_their_sigmas_and_show_nothing_false() {
 
 /// Least share found under each condition, and largest rms of error over sigma: what `cargo bench --bench photos -- conditions`
 /// shows of ten pictures each, less what chance leaves of two.
-const CONDITIONS: [(&str, f64, f64); 12] = [
-    ("hidden by up to a fifth", 0.5, 3.0),
-    ("crossed by a cable", 0.55, 2.0),
+const CONDITIONS: [(&str, f64, f64); 13] = [
+    ("hidden by up to a fifth", 0.5, 2.2),
+    ("crossed by a cable", 0.55, 1.4),
+    ("crossed by a dark cable", 0.7, 1.5),
     ("moved by up to 6 px", 0.97, 1.3),
     ("JPEG of quality 30", 0.98, 1.2),
     ("noise 20, contrast 150", 0.96, 1.3),
@@ -152,6 +153,7 @@ fn targets_are_found_under_the_conditions_of_a_day() {
         let told = match name {
             "hidden by up to a fifth" => 0.93,
             "crossed by a cable" => 0.75,
+            "crossed by a dark cable" => 0.8,
             _ => 0.0,
         };
         assert!(share(all.hits + hidden) >= told, "{name}: {all}, {hidden} said to be hidden");

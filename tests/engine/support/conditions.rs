@@ -26,6 +26,8 @@ pub fn said_to_be_hidden(detection: &Detection, spots: &[Spot]) -> usize {
 const SIZE: usize = 800;
 const PAPER: f64 = 190.0;
 const INK: f64 = 40.0;
+/// Of what lies before targets.
+const GREYS: [f64; 2] = [60.0, 170.0];
 
 /// All of them.
 pub fn all() -> Vec<Condition> {
@@ -33,6 +35,7 @@ pub fn all() -> Vec<Condition> {
     vec![
         Condition { name: "hidden by up to a fifth", options: options(), picture: hidden },
         Condition { name: "crossed by a cable", options: options(), picture: crossed },
+        Condition { name: "crossed by a dark cable", options: options(), picture: crossed_darkly },
         Condition { name: "moved by up to 6 px", options: options(), picture: moved },
         Condition { name: "JPEG of quality 30", options: options(), picture: compressed },
         Condition { name: "noise 20, contrast 150", options: options(), picture: noisy },
@@ -77,7 +80,7 @@ fn painted(spots: &[Spot], ground: f64, blur: f64) -> Canvas {
 
 /// A bar lies before every target and covers up to a fifth of its diameter.
 fn hidden(seed: u64) -> (Grey, Vec<Spot>) {
-    behind(seed, |random, spot, half| {
+    behind(seed, GREYS, |random, spot, half| {
         let near = half * (1.0 - 2.0 * random.within(0.05, 0.2));
         [near, near + 0.4 * spot.a + 3.0]
     })
@@ -85,16 +88,23 @@ fn hidden(seed: u64) -> (Grey, Vec<Spot>) {
 
 /// A cable runs across every target, as wide as up to a fifth of its diameter.
 fn crossed(seed: u64) -> (Grey, Vec<Spot>) {
-    behind(seed, |random, _, half| {
-        let width = half * random.within(0.1, 0.4);
-        let middle = half * random.within(-0.6, 0.6);
-        [middle - width / 2.0, middle + width / 2.0]
-    })
+    behind(seed, GREYS, cable)
 }
 
-/// Targets behind grey bars, each in a direction of its own from and to these distances from the target's centre; half is the target's
+/// The cable is about as dark as the targets.
+fn crossed_darkly(seed: u64) -> (Grey, Vec<Spot>) {
+    behind(seed, [INK - 15.0, INK + 25.0], cable)
+}
+
+fn cable(random: &mut Uniform, _: &Spot, half: f64) -> [f64; 2] {
+    let width = half * random.within(0.1, 0.4);
+    let middle = half * random.within(-0.6, 0.6);
+    [middle - width / 2.0, middle + width / 2.0]
+}
+
+/// Targets behind bars of these greys, each in a direction of its own from and to these distances from the target's centre; half is the target's
 /// own half width there.
-fn behind(seed: u64, bar: impl Fn(&mut Uniform, &Spot, f64) -> [f64; 2]) -> (Grey, Vec<Spot>) {
+fn behind(seed: u64, greys: [f64; 2], bar: impl Fn(&mut Uniform, &Spot, f64) -> [f64; 2]) -> (Grey, Vec<Spot>) {
     let mut random = Uniform(seed);
     let spots = scattered(&mut random, [12.0, 50.0], [0.6, 1.0], 2.2, INK - PAPER);
     let blur = random.within(0.6, 1.2);
@@ -105,7 +115,7 @@ fn behind(seed: u64, bar: impl Fn(&mut Uniform, &Spot, f64) -> [f64; 2]) -> (Gre
         let (s, c) =
             (sine * spot.angle.cos() - cosine * spot.angle.sin(), cosine * spot.angle.cos() + sine * spot.angle.sin());
         let [near, far] = bar(&mut random, spot, (spot.a * c).hypot(spot.b * s));
-        let grey = random.within(60.0, 170.0);
+        let grey = random.within(greys[0], greys[1]);
         let reach = 2.0 * spot.a + 6.0;
         let step = |t: f64| 0.5 * libm::erfc(-t / blur * std::f64::consts::FRAC_1_SQRT_2);
         let bounds = |middle: f64| (middle - reach).max(0.0) as usize..((middle + reach).max(0.0) as usize).min(SIZE);
