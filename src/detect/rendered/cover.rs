@@ -91,7 +91,9 @@ mod tests {
                 assert_eq!(cover.hides(x, y), hidden, "{along} {across}");
             }
         }
-        for hidden in [vec![], vec![5..8, 20..25, 50..55], vec![0..64]] {
+        let three = [5..8, 20..25, 50..55];
+        let hidden: [&[std::ops::Range<i32>]; 3] = [&[], &three, &[0..count]];
+        for hidden in hidden {
             let kept: Vec<bool> = (0..count).map(|k| !hidden.iter().any(|run| run.contains(&k))).collect();
             assert!(Cover::of(&outline, &kept, 0.0).is_none(), "{hidden:?}");
         }
