@@ -92,7 +92,7 @@ mod tests {
             }
         }
         let three = [5..8, 20..25, 50..55];
-        let hidden: [&[std::ops::Range<i32>]; 3] = [&[], &three, &[0..count]];
+        let hidden: [&[std::ops::Range<i32>]; 3] = [&[], &three, &[0..9, 9..count]];
         for hidden in hidden {
             let kept: Vec<bool> = (0..count).map(|k| !hidden.iter().any(|run| run.contains(&k))).collect();
             assert!(Cover::of(&outline, &kept, 0.0).is_none(), "{hidden:?}");
