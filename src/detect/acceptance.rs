@@ -150,6 +150,30 @@ pub(crate) mod partial {
     }
 }
 
+/// Targets that something divides: two blobs and their convex hull.
+pub(crate) mod halves {
+    use super::Source;
+
+    table! {
+        /// Least area of the smaller part in that of the larger: with less the larger shows the ellipse by itself.
+        SMALLER: f64 = 0.15, Judged "a cable next to the rim";
+        /// Shortest part, in the smallest minor axis.
+        SHORTEST: f64 = 0.8, Judged "the longer side of a half is the diameter";
+        /// Least length of the shorter part in that of the longer.
+        SHORTER: f64 = 0.4, Judged "both lie along the cable; the smaller one is short where it is small";
+        /// Largest distance between the parts, in the size of the larger.
+        GAP: f64 = 0.3, Derived "a cable of a fifth of the diameter, and its blur";
+        /// Least share of the hull that both fill.
+        AREA: f64 = 0.6, Derived "such a cable takes a quarter of a circle, and blur a little more";
+        /// Largest share of their bounding box that both fill.
+        FULLEST: f64 = 0.8, Derived "an ellipse fills π/4 of its own";
+        /// By how much the hull's area may differ from that of its ellipse, in addition to a quarter of the rows.
+        FILL: f64 = 0.06, Judged "corners every second row";
+        /// Least share of the hull's corners that follows the ellipse.
+        FOLLOWING: f64 = 0.8, Judged "the parts' own corners are rounded off";
+    }
+}
+
 /// The first look at a blob: sixteen directions, two pixels each.
 pub(crate) mod look {
     use super::Source;

@@ -9,6 +9,7 @@
 pub(crate) mod blob;
 pub(crate) mod census;
 mod component;
+mod halves;
 mod partial;
 mod scan;
 
@@ -16,6 +17,7 @@ use std::collections::HashSet;
 
 use self::blob::{Limits, NoBlob};
 use self::component::{Chord, Linker};
+use self::halves::Parts;
 use self::scan::Edge;
 use super::acceptance::picture::{QUARTERED, SEARCHED};
 use super::acceptance::size::{BLOB_LARGE, LARGE, SEARCHED_FLAT};
@@ -44,6 +46,8 @@ pub(crate) struct Blobs {
     pub unlike: Vec<NoBlob>,
     pub too_small: usize,
     pub too_large: usize,
+    /// What may be a part of a target that something divides.
+    parts: Parts,
 }
 
 /// Levels of contrast, each three times the one below.
@@ -190,6 +194,8 @@ impl Pass {
             for (bright, linker) in &mut level.linkers {
                 linker.end(&mut |chain| level.blobs.judge(chain, *bright, &limits, look, &mut tried));
             }
+            let parts = std::mem::take(&mut level.blobs.parts);
+            level.blobs.partial.extend(parts.joined(&limits));
             level.blobs
         });
         all.collect()
@@ -226,13 +232,16 @@ impl Blobs {
                     let outlines = parts.into_iter().filter_map(|part| blob::test(part, limits).ok());
                     outlines.for_each(&mut enter);
                 }
-                // one that is covered in part, or joined with what lies in front of it
-                if no.reason == Reason::NotAnEllipse
+                // one that is covered in part, divided, or joined with what lies in front of it
+                if matches!(no.reason, Reason::NotAnEllipse | Reason::TooFlat)
                     && let [first, .., last] = chain
                     && tried.insert([first.x0, first.x1, first.y, last.x0, last.x1, last.y].map(f32::to_bits))
-                    && let Some(outline) = partial::most(chain, limits)
                 {
-                    self.partial.push(Candidate { outline, bright });
+                    let most = (no.reason == Reason::NotAnEllipse).then(|| partial::most(chain, limits)).flatten();
+                    match most {
+                        Some(outline) => self.partial.push(Candidate { outline, bright }),
+                        None => self.parts.take(chain, bright, limits),
+                    }
                 }
                 match no.reason {
                     Reason::TooSmall => self.too_small += 1,
