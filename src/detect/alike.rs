@@ -226,7 +226,7 @@ impl<T: Sample> Measure<'_, T> {
                 surround: &around,
                 kept: &kept,
                 whole: true,
-                cover: None,
+                strip: None,
                 saturation: self.levels.saturation,
                 stairs: false,
                 prior: Some(prior),

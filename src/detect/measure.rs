@@ -5,6 +5,7 @@ pub(super) mod confirm;
 use super::acceptance::fit as limits;
 use super::acceptance::levels::{BELIEVED, ROUNDING};
 use super::acceptance::look::OUTSIDE;
+use super::acceptance::outline::GAP_MINOR;
 use super::acceptance::size::FIT_SMALL;
 use super::centroid::{self, Centre};
 use super::edges::blur::{self, BLURRED, DEFOCUSED, SHARP};
@@ -19,8 +20,8 @@ use super::median;
 use super::picture::noise::Levels;
 use super::rendered::band::{Prior, Region};
 use super::rendered::colour::Colour;
-use super::rendered::cover::Cover;
 use super::rendered::fit::{self, Workspace};
+use super::rendered::strip::Strip;
 use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
 use crate::image::{Plane, Sample};
 
@@ -33,9 +34,10 @@ fn half_band(blur: f64) -> f64 {
     3.6 * (blur * blur + 1.0 / 12.0).sqrt() + 0.8
 }
 
-/// Depth of a cap, in pixels, that the blur of what runs across leaves nothing of.
-fn shallow(blur: f64) -> f64 {
-    limits::SHALLOW * blur
+/// What runs across a target that is large enough for that: of small letters only the bowl would be left.
+fn strip(outline: &Outline, kept: &[bool], blur: f64) -> Option<Strip> {
+    let large = 2.0 * outline.semi_axes().1 >= GAP_MINOR;
+    if large { Strip::of(outline, kept, limits::SHALLOW * blur) } else { None }
 }
 
 /// What measuring needs besides the outline; scratch is reused.
@@ -236,7 +238,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             surround: &found.surround,
             kept: &found.kept,
             whole,
-            cover: Cover::of(&found.ellipse.outline, &found.kept, shallow(found.blur)),
+            strip: strip(&found.ellipse.outline, &found.kept, found.blur),
             saturation: self.levels.saturation,
             stairs: self.levels.stairs,
             prior: self.prior,
@@ -247,8 +249,8 @@ impl<'a, T: Sample> Measure<'a, T> {
         let kept = if whole { &all } else { &found.kept };
         let mut surround = self.surround(&outline, blur, kept)?;
         surround.contrast = contrast;
-        let cover = Cover::of(&outline, kept, shallow(blur));
-        let last = Region { outline, half_band: half_band(blur), surround: &surround, kept, cover, ..region };
+        let strip = strip(&outline, kept, blur);
+        let last = Region { outline, half_band: half_band(blur), surround: &surround, kept, strip, ..region };
         let mut fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
         let b = fit.outline.semi_axes().1;
         let gap = b - 2.0 * fit.blur;

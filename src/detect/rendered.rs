@@ -14,12 +14,12 @@
 
 pub(crate) mod band;
 pub(crate) mod colour;
-pub(crate) mod cover;
 pub(crate) mod fit;
 mod flats;
 pub(crate) mod neighbours;
 mod scatter;
 mod sketch;
+pub(crate) mod strip;
 
 use wide::f32x4;
 

@@ -6,9 +6,9 @@
 use nalgebra::{SMatrix, SVector};
 use wide::{f32x4, f32x8};
 
-use super::cover::Cover;
 use super::flats::Flats;
 use super::scatter::Lights;
+use super::strip::Strip;
 use crate::detect::edges::surround::Surround;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::median;
@@ -33,8 +33,8 @@ pub(crate) struct Region<'a> {
     pub kept: &'a [bool],
     /// Whether all of them are true.
     pub whole: bool,
-    /// What lies in front, where they show that.
-    pub cover: Option<Cover>,
+    /// What runs across, where they show that.
+    pub strip: Option<Strip>,
     /// Grey level from which a sample says nothing.
     pub saturation: f64,
     /// Whether edges are the stairs of the pixels.
@@ -424,7 +424,7 @@ impl Region<'_> {
             return true;
         }
         let (x, y) = (x as f64 + 0.5, y as f64 + 0.5);
-        if self.cover.is_some_and(|cover| cover.hides(x, y)) {
+        if self.strip.is_some_and(|strip| strip.hides(x, y)) {
             return false;
         }
         let [c, s] = self.outline.normalised(x, y);

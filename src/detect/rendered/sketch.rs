@@ -95,7 +95,7 @@ mod tests {
                 surround: &surround,
                 kept: &kept,
                 whole: true,
-                cover: None,
+                strip: None,
                 saturation: 255.0,
                 stairs: false,
                 prior: None,
