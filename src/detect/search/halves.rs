@@ -61,7 +61,8 @@ impl Parts {
 
     /// Ellipses of which two of them are the parts.
     pub fn joined(mut self, limits: &Limits) -> Vec<Candidate> {
-        self.all.sort_unstable_by(|a, b| a.low[0].total_cmp(&b.low[0]));
+        // stable: native and wasm give the same order
+        self.all.sort_by(|a, b| a.low[0].total_cmp(&b.low[0]));
         let mut found = Vec::new();
         for (k, part) in self.all.iter().enumerate() {
             let reach = part.high[0] + (GAP / SHORTER) as f32 * part.size();
@@ -79,7 +80,7 @@ impl Parts {
     /// The ellipse of both; none where they are no halves of one.
     fn ellipse(&self, one: &Part, other: &Part, limits: &Limits) -> Option<Outline> {
         let mut runs = [&self.runs[one.runs.clone()], &self.runs[other.runs.clone()]].concat();
-        runs.sort_unstable_by(|a, b| a[2].total_cmp(&b[2]));
+        runs.sort_by(|a, b| a[2].total_cmp(&b[2]));
         let left = side(runs.iter().map(|[x, _, y]| [*x, *y]), -1.0);
         let right = side(runs.iter().map(|[_, x, y]| [*x, *y]), 1.0);
         let hull = (twice_beside(&right) - twice_beside(&left)) / 2.0;
