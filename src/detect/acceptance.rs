@@ -327,7 +327,7 @@ pub(crate) mod fit {
         /// Depth, in blurs, up to which a cap beyond a cable is left out.
         SHALLOW: f64 = 1.0, Judged "less of it has no edge of its own, and more leaves too little of small discs: `photos -- conditions`";
         /// Standard error of a centre, in pixels, of which too much is hidden.
-        UNTOLD: f64 = 0.25, Judged "a twentieth of the smallest semi-axis that is looked for behind covers, and more than a hand does";
+        UNTOLD: f64 = 0.25, Judged "a hand points as well";
         /// Fewest pixels, unknowns being ten.
         PIXELS: usize = 24, Derived "14 of redundancy";
         /// Contrast of what is clipped, in units of what the scale shows: at most, from which on nothing of the rim is left, and at least then.

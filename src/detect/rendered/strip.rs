@@ -77,6 +77,13 @@ mod tests {
                 assert!(!strip.hides(x, y), "{hidden:?} {k}");
             }
         }
+        // of caps that are too shallow nothing is seen: of the smaller one alone, then of both
+        let kept: Vec<bool> = (0..count).map(|k| !(10..14).contains(&k) && !(30..34).contains(&k)).collect();
+        for (shallow, seen) in [(0.0, [true, true]), (15.0, [false, true]), (100.0, [false, false])] {
+            let strip = Strip::of(&outline, &kept, shallow).expect("two runs");
+            let caps = [22.0, 54.0].map(|ray| place(ray, 1.0)).map(|[x, y]| !strip.hides(x, y));
+            assert_eq!(caps, seen, "{shallow}");
+        }
         let three = [5..8, 20..25, 50..55];
         let hidden: [&[std::ops::Range<i32>]; 4] = [&[], &three[..1], &three, &[0..9, 9..count]];
         for hidden in hidden {

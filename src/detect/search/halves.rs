@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use super::Candidate;
 use super::blob::Limits;
 use super::component::Chord;
+use super::partial::is_possible;
 use crate::detect::acceptance::halves::{AREA, FILL, FOLLOWING, FULLEST, GAP, SHORTER, SHORTEST, SMALLER};
 use crate::detect::acceptance::partial::{GOOD, SMALLEST};
 use crate::detect::acceptance::size::BLOB_LARGE;
@@ -90,20 +91,13 @@ impl Parts {
         let corners = left.iter().chain(&right).map(|[x, y]| [f64::from(*x), f64::from(*y), 1.0]).collect::<Vec<_>>();
         let outline = conic::fit(&corners)?;
         let (a, b) = outline.semi_axes();
-        let (half_u, half_v) = outline.half_box();
         // rows leave out the caps above and below, about a quarter of a step each
         let unseen = limits.step as f64 / (2.0 * b);
         let good = GOOD[0] + GOOD[1] * b;
         let follow = corners.iter().filter(|[x, y, _]| outline.distance(*x, *y).abs() < good).count();
-        let possible = 2.0 * b >= SMALLEST
-            && b >= limits.flattest * a
-            && 2.0 * a <= BLOB_LARGE * limits.max_diameter
+        let possible = is_possible(&outline, limits, SMALLEST)
             && (hull / (PI * a * b) - 1.0).abs() < FILL + unseen
-            && follow as f64 >= FOLLOWING * corners.len() as f64
-            && outline.u > half_u
-            && outline.v > half_v
-            && outline.u + half_u < limits.width as f64
-            && outline.v + half_v < limits.height as f64;
+            && follow as f64 >= FOLLOWING * corners.len() as f64;
         possible.then_some(outline)
     }
 }

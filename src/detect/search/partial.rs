@@ -178,7 +178,8 @@ fn range(values: impl Iterator<Item = f32>) -> [f32; 2] {
     values.fold([f32::MAX, f32::MIN], |[low, high], x| [if x < low { x } else { low }, if x > high { x } else { high }])
 }
 
-fn is_possible(outline: &Outline, limits: &Limits, least: f64) -> bool {
+/// Whether an ellipse has the size and shape of a target, and lies in the picture.
+pub(super) fn is_possible(outline: &Outline, limits: &Limits, least: f64) -> bool {
     let (a, b) = outline.semi_axes();
     let (half_u, half_v) = outline.half_box();
     outline.is_proper()
