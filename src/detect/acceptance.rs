@@ -150,6 +150,18 @@ pub(crate) mod partial {
     }
 }
 
+/// Blobs that are wider where a target is.
+pub(crate) mod bulge {
+    use super::Source;
+
+    table! {
+        /// Least width of a target's rows over that of the others.
+        WIDER: f32 = 1.4, Judged "a cable is at most half as wide as what it crosses; less are bends and steps of a bar";
+        /// Shares of the rows up to which they may be the narrow ones, one after the other.
+        NARROW: [f64; 3] = [0.1, 0.3, 0.5], Judged "a cable that ends at the target's rim, one as long as the target beyond it, and longer";
+    }
+}
+
 /// Targets that something divides: two blobs and their convex hull.
 pub(crate) mod halves {
     use super::Source;

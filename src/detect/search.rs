@@ -7,6 +7,7 @@
 //! too, for what is large or so far out of focus that three pixels do not cross its edge.
 
 pub(crate) mod blob;
+mod bulge;
 pub(crate) mod census;
 mod component;
 mod halves;
@@ -233,14 +234,18 @@ impl Blobs {
                     outlines.for_each(&mut enter);
                 }
                 // one that is covered in part, divided, or joined with what lies in front of it
-                if matches!(no.reason, Reason::NotAnEllipse | Reason::TooFlat)
+                if matches!(no.reason, Reason::NotAnEllipse | Reason::TooFlat | Reason::TooLarge)
                     && let [first, .., last] = chain
                     && tried.insert([first.x0, first.x1, first.y, last.x0, last.x1, last.y].map(f32::to_bits))
                 {
                     let most = (no.reason == Reason::NotAnEllipse).then(|| partial::most(chain, limits)).flatten();
                     match most {
                         Some(outline) => self.partial.push(Candidate { outline, bright }),
-                        None => self.parts.take(chain, bright, limits),
+                        None => {
+                            let mut enter = |outline| self.partial.push(Candidate { outline, bright });
+                            bulge::bulges(chain, limits, &mut enter);
+                            self.parts.take(chain, bright, limits);
+                        }
                     }
                 }
                 match no.reason {

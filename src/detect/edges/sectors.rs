@@ -93,8 +93,7 @@ pub(crate) fn promising(edges: &Edges, outline: &Outline, shares: &[f64]) -> Vec
         let mut next = running[running.len() - 1];
         match ray {
             Some((moves, distance)) if distance.abs() <= limit => next.add(*moves, *distance),
-            Some(_) => {}
-            None => next.missing += 1,
+            _ => next.missing += 1,
         }
         running.push(next);
     }
