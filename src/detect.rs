@@ -143,9 +143,10 @@ fn check(options: &DetectOptions) -> Result<()> {
 /// The picture as it is; and, where it is no laboratory's, also softened and with its sharpening undone, for what is hidden
 /// otherwise. What was found first stands.
 fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
-    let levels = noise::levels(&plane);
+    let mut levels = noise::levels(&plane);
     let character = Character::of(&plane, &levels);
     let mut processed = character.is_processed(&levels);
+    levels.developed = processed && !character.is_clipped();
     let mut picture = report(&levels, &character);
     let mut passed = pass::pass(plane, levels, options, processed && character.is_compressed(), false, &[]);
     if !processed && !levels.stairs {
@@ -153,6 +154,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         let outlines: Vec<Outline> = passed.detection.targets.iter().map(outline_of).collect();
         let found = sharpening::of_rims(&plane, outlines.iter(), levels.saturation);
         processed = found.is_some_and(|sharpening| sharpening.amount > acceptance::picture::BY_RIMS);
+        levels.developed = processed && !character.is_clipped();
     }
     let mut factors = passed.correlate();
     let (mut restored, mut left) = (None, Vec::new());
@@ -242,7 +244,7 @@ fn soften<T: Sample>(
     factors: &mut [f64; 2],
 ) -> (Pass, Option<(Softened, Pass)>) {
     picture.softened = true;
-    let (_, mut softened) = pass_softened(plane, None, SOFT, options, known);
+    let (_, mut softened) = pass_softened(plane, levels, None, SOFT, options, known);
     alike::drop_faint(&mut softened.detection.targets, known);
     let outlines: Vec<Outline> = known.iter().chain(&softened.detection.targets).map(outline_of).collect();
     let Some(sharpening) = sharpening::of_rims(plane, outlines.iter(), levels.saturation) else {
@@ -250,7 +252,7 @@ fn soften<T: Sample>(
         return (softened, None);
     };
     (picture.sharpening, picture.sharpening_radius) = (sharpening.amount, sharpening.radius);
-    let (undone, mut restored) = pass_softened(plane, Some(sharpening), RESTORED, options, known);
+    let (undone, mut restored) = pass_softened(plane, levels, Some(sharpening), RESTORED, options, known);
     alike::drop_faint(&mut restored.detection.targets, known);
     add(factors, restored.correlate());
     add(factors, softened.correlate());
@@ -279,6 +281,7 @@ const RESTORED: f64 = 0.7;
 /// One pass over a picture made of another one, in that one's grey levels.
 fn pass_softened<T: Sample>(
     plane: &Plane<T>,
+    own: &Levels,
     sharpening: Option<Sharpening>,
     sigma: f64,
     options: &DetectOptions,
@@ -287,8 +290,13 @@ fn pass_softened<T: Sample>(
     let soft = Softened::of(plane, sharpening, sigma);
     let levels = noise::levels_at(&soft.plane(), APART);
     // a mean has no end of the scale, and no noise less than that of rounding
-    let levels =
-        Levels { saturation: f64::from(u16::MAX), noise: levels.noise.max(0.3 * soft.scale), stairs: false, ..levels };
+    let levels = Levels {
+        saturation: f64::from(u16::MAX),
+        noise: levels.noise.max(0.3 * soft.scale),
+        stairs: false,
+        developed: own.developed,
+        ..levels
+    };
     let mut passed = pass::pass(soft.plane(), levels, options, true, true, known);
     for target in passed.detection.targets.iter_mut().chain(&mut passed.grounds) {
         target.contrast /= soft.scale;

@@ -213,6 +213,9 @@ pub(crate) mod look {
         STEP: f32 = 0.4, Judged "light, blur and noise change a step by less";
         /// Difference from the inside's level, as a share of the typical step, that is the inside going on.
         OWN: f32 = 0.3, Judged "less than the least step";
+        /// Directions in which the inside may be darker than elsewhere, and as many in which it may be brighter: of a blob, and of one of which a sector
+        /// is covered.
+        STRANGE: [usize; 2] = [2, 3], Measured "a cable as bright as paper across the middle: of 600 discs behind cables 6 more are found or told as hidden";
         /// Spread of the inside, as a share of the typical step.
         EVEN: f32 = 0.8, Judged "a spot or a shadow takes less";
         /// Difference from both levels, as a share of the contrast, of what lies in front of a target.

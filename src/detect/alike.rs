@@ -229,6 +229,7 @@ impl<T: Sample> Measure<'_, T> {
                 strip: None,
                 saturation: self.levels.saturation,
                 stairs: false,
+                developed: self.levels.developed,
                 prior: Some(prior),
             };
             let fit = fit::fit(&self.plane, &region, alike.blur[0], CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;

@@ -241,6 +241,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             strip: strip(&found.ellipse.outline, &found.kept, found.blur),
             saturation: self.levels.saturation,
             stairs: self.levels.stairs,
+            developed: self.levels.developed,
             prior: self.prior,
         };
         let (plane, work) = (&self.plane, &mut self.work);

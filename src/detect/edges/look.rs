@@ -34,7 +34,7 @@ struct Look {
     pub gaps: u32,
     /// Directions in which the inside goes on outside.
     pub open: u32,
-    /// Whether the inside has one level, but for two fifths of the outline that something may hide.
+    /// Whether the inside has one level, but for the directions in which something may lie before it.
     pub even: bool,
 }
 
@@ -111,6 +111,8 @@ fn look<T: Sample>(plane: &Plane<T>, outline: &Outline, bright: bool, threshold:
     let least = (limits::STEP * typical).max(threshold);
     let own = |level: f32| (level - levels[8]).abs() < limits::OWN * typical;
     let open = steps.iter().zip(insides).filter(|(step, inside)| own(**inside) && own(**inside - sign * **step));
+    // darker and brighter ones
+    let strange = limits::STRANGE[usize::from(missing >= limits::COVERED)];
     let missing = (0..).zip(steps).filter(|(_, step)| **step <= least);
     let missing: u32 = missing.map(|(k, _)| 1 << (AROUND[k / 4] + 4 * (k % 4))).sum();
     Some(Look {
@@ -118,7 +120,7 @@ fn look<T: Sample>(plane: &Plane<T>, outline: &Outline, bright: bool, threshold:
         gaps: (missing & !(missing << 1 | missing >> (DIRECTIONS - 1))).count_ones(),
         step: sorted[4..].iter().sum::<f32>() / 12.0,
         open: open.count() as u32,
-        even: levels[13] - levels[2] < limits::EVEN * typical,
+        even: levels[levels.len() - 1 - strange] - levels[strange] < limits::EVEN * typical,
     })
 }
 
@@ -252,7 +254,7 @@ mod tests {
 
     #[test]
     fn a_cable_may_cross_a_disc_and_a_star_is_none() {
-        let levels = Levels { noise: 1.0, range: 160.0, saturation: 255.0, stairs: false };
+        let levels = Levels { noise: 1.0, range: 160.0, saturation: 255.0, stairs: false, developed: false };
         let first = |samples: &[u8]| stands_out(&Plane::new(SIZE, SIZE, samples), &levels, &disc(), true, 7, 5);
         let crossed = picture(|x, y| x.hypot(y) < 10.0 && (x - y).abs() > 2.5);
         assert_eq!(first(&crossed), Ok(()));

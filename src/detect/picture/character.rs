@@ -63,9 +63,13 @@ impl Character {
 
     /// Whether it is no picture of a laboratory.
     pub fn is_processed(&self, levels: &Levels) -> bool {
-        let hidden =
-            self.noise > limits::NOISY || self.undershoot > limits::SHARPENED || self.clipped[1] > limits::OVEREXPOSED;
+        let hidden = self.noise > limits::NOISY || self.undershoot > limits::SHARPENED || self.is_clipped();
         !levels.stairs && (self.is_compressed() || hidden)
+    }
+
+    /// Whether paper, lamps or sky are brighter than the scale.
+    pub fn is_clipped(&self) -> bool {
+        self.clipped[1] > limits::OVEREXPOSED
     }
 
     /// Whether a compression has passed over it, and neighbouring samples share their noise.

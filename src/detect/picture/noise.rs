@@ -20,6 +20,8 @@ pub(crate) struct Levels {
     pub saturation: f64,
     /// Whether it is a drawing of few grey levels, whose edges are the stairs of its pixels.
     pub stairs: bool,
+    /// Whether a camera has sharpened or compressed it, while its edges do not end at the end of the scale.
+    pub developed: bool,
 }
 
 impl Levels {
@@ -72,7 +74,7 @@ pub(crate) fn levels_at<T: Sample>(plane: &Plane<T>, apart: usize) -> Levels {
     let stairs = noise < limits::DRAWN && count <= limits::FEW;
     // nothing is clipped where there is nothing between the levels
     let saturation = if stairs { bins as f64 } else { f64::from(end) };
-    Levels { noise, range: range.max(0.0), saturation, stairs }
+    Levels { noise, range: range.max(0.0), saturation, stairs, developed: false }
 }
 
 /// Quantile of a histogram of integers; a value stands for the interval of half a step to both sides (from 0 on for 0).

@@ -39,6 +39,8 @@ pub(crate) struct Region<'a> {
     pub saturation: f64,
     /// Whether edges are the stairs of the pixels.
     pub stairs: bool,
+    /// Whether what is left all around is what a camera does to edges.
+    pub developed: bool,
     /// What is known of blur and contrast, if anything.
     pub prior: Option<Prior>,
 }
@@ -93,7 +95,7 @@ pub(crate) struct Band {
     pub(super) share: Vec<f32>,
     /// After u, v and s as rendered, then after p, q and r.
     pub(super) derivatives: [Vec<f32>; 2 * DERIVATIVES],
-    residual: Vec<f32>,
+    pub(super) residual: Vec<f32>,
     sizes: Vec<u32>,
 }
 

@@ -105,6 +105,40 @@ impl Correlation {
 }
 
 impl Band {
+    /// Takes their mean profile across the rim off the residuals; how many values it has.
+    pub fn take_profile(&mut self, outline: &Outline, origin: [f64; 2]) -> usize {
+        let (profile, values) = self.profile(outline, origin);
+        let counted = self.residual.iter_mut().zip(&self.kept).filter(|(_, kept)| **kept > 0.0);
+        counted.zip(profile).for_each(|((residual, _), mean)| *residual -= mean);
+        values
+    }
+
+    /// Mean profile across the rim at the pixels that count, and how many values it has: means of half a pixel, with straight lines between.
+    fn profile(&self, outline: &Outline, origin: [f64; 2]) -> (Vec<f32>, usize) {
+        let near = Outline { u: outline.u - origin[0], v: outline.v - origin[1], ..*outline };
+        let counted = self.x.iter().zip(&self.y).zip(&self.residual).zip(&self.kept).filter(|(_, kept)| **kept > 0.0);
+        let place = |((x, y), residual): ((&f32, &f32), &f32)| {
+            let distance = near.distance(f64::from(*x), f64::from(*y));
+            ((2.0 * distance + BINS as f64 / 2.0).clamp(0.0, BINS as f64 - 1.0), f64::from(*residual))
+        };
+        let places: Vec<(f64, f64)> = counted.map(|(pixel, _)| place(pixel)).collect();
+        let mut bins = [[0.0; 3]; BINS];
+        for (place, residual) in &places {
+            let [sum, at, count] = &mut bins[*place as usize];
+            (*sum, *at, *count) = (*sum + residual, *at + place, *count + 1.0);
+        }
+        let means: Vec<[f64; 2]> =
+            bins.iter().filter(|bin| bin[2] > 0.0).map(|[sum, at, n]| [at / n, sum / n]).collect();
+        let between = |place: f64| {
+            let after = means.partition_point(|[at, _]| *at < place).clamp(1, means.len().max(2) - 1);
+            match means[after - 1..] {
+                [[from, low], [to, high], ..] => low + (high - low) * ((place - from) / (to - from)).clamp(0.0, 1.0),
+                _ => 0.0,
+            }
+        };
+        (places.iter().map(|(place, _)| between(*place) as f32).collect(), means.len())
+    }
+
     /// Products of neighbours, from the residuals, the columns and the cofactors of a fit.
     pub fn colour(
         &self,
@@ -121,26 +155,14 @@ impl Band {
         let moved = |which: usize, k: usize| -> f64 {
             factors[which].iter().zip(columns).map(|(factor, column)| factor * f64::from(column[k])).sum()
         };
-        let near = Outline { u: outline.u - origin[0], v: outline.v - origin[1], ..*outline };
-        let bin = |k: usize| {
-            let distance = near.distance(f64::from(self.x[k]), f64::from(self.y[k]));
-            (2.0 * distance + BINS as f64 / 2.0).clamp(0.0, BINS as f64 - 1.0) as usize
-        };
-        let residuals = self.residuals();
-        let mut profile = [[0.0; 2]; BINS];
-        let count: usize = self.spans.iter().map(|span| span.2).sum();
-        let bins: Vec<usize> = (0..count).map(bin).collect();
-        for k in (0..count).filter(|k| self.kept[*k] > 0.0) {
-            let sum = &mut profile[bins[k]];
-            *sum = [sum[0] + f64::from(residuals[k]), sum[1] + 1.0];
-        }
+        let mut profile = self.profile(outline, origin).0.into_iter();
         let mut grid = vec![[0f32; 4]; field.width * field.height];
         let mut k = 0;
         for &(row, column, length) in &self.spans {
             for pixel in &mut grid[row * field.width + column..][..length] {
                 if self.kept[k] > 0.0 {
-                    let [sum, n] = profile[bins[k]];
-                    *pixel = [moved(0, k) as f32, moved(1, k) as f32, residuals[k] - (sum / n) as f32, 1.0];
+                    let mean = profile.next().unwrap_or_default();
+                    *pixel = [moved(0, k) as f32, moved(1, k) as f32, self.residual[k] - mean, 1.0];
                 }
                 k += 1;
             }
@@ -169,5 +191,40 @@ impl Band {
             }
         }
         colour
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    #[test]
+    fn what_is_left_all_around_is_taken_off_and_what_lies_in_a_place_is_not() {
+        let outline = Outline::from_axes(103.2, 81.7, 14.0, 9.0, 0.4);
+        let [u, v] = [100.0, 80.0];
+        let mut band = Band::default();
+        for (y, x) in (0..50).flat_map(|y| (0..50).map(move |x| (f64::from(y) - 23.5, f64::from(x) - 23.5))) {
+            if outline.distance(x + u, y + v).abs() < 3.0 {
+                band.x.push(x as f32);
+                band.y.push(y as f32);
+                band.kept.push(1.0);
+            }
+        }
+        let ring = |x: f32, y: f32| (1.5 * outline.distance(f64::from(x) + u, f64::from(y) + v)).sin() as f32;
+        let places: Vec<(f32, f32)> = band.x.iter().copied().zip(band.y.iter().copied()).collect();
+        let square = |band: &Band| band.residual.iter().map(|r| r * r).sum::<f32>() / band.residual.len() as f32;
+        band.residual = places.iter().map(|(x, y)| 10.0 * ring(*x, *y)).collect();
+        let before = square(&band);
+        let values = band.take_profile(&outline, [u, v]);
+        assert!((10..=14).contains(&values), "{values}");
+        assert!(square(&band) < 0.02 * before, "{} {before}", square(&band));
+        // on one side alone: half of it is common to both
+        band.residual = places.iter().map(|(x, y)| if *x > 3.2 { 10.0 * ring(*x, *y) } else { 0.0 }).collect();
+        let before = square(&band);
+        band.take_profile(&outline, [u, v]);
+        assert!(square(&band) > 0.4 * before, "{} {before}", square(&band));
     }
 }

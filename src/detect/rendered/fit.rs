@@ -184,25 +184,31 @@ pub(crate) fn fit<T: Sample>(
         return None;
     }
     let cofactors = invert(&normal)?;
-    let mut covariance = scatter::covariance(&cofactors, &work.band.lights(&cofactors, state.contrast), &flats);
+    let (rms, uneven) = (variance.sqrt(), work.band.unevenness());
+    let noise = region.surround.noise.powi(2).max(1.0 / 12.0);
+    let beyond = variance > limits::UNEXPLAINED * noise;
+    // What a camera does to edges it does on either side alike, which moves no centre. Where the scale ends, along stairs and at drawn
+    // edges, which no lens has softened, it depends on where the pixels lie.
+    let all_around = region.whole && region.developed && (work.coloured || beyond);
+    let values = if all_around { work.band.take_profile(&state.outline, work.origin) } else { 0 };
+    let lights = work.band.lights(&cofactors, state.contrast).of_profile(values);
+    let mut covariance = scatter::covariance(&cofactors, &lights, &flats);
     // what is left around a disturbance follows no light: the mean of all may tell more of it
     let mean = cofactors[(0, 0)] + cofactors[(1, 1)];
+    let variance = lights.variance();
     if dropped > 0 && mean * variance > covariance[0] + covariance[2] {
         covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
     }
     let Workspace { band, field, origin, coloured, .. } = work;
-    let noise = region.surround.noise.powi(2).max(1.0 / 12.0);
-    let beyond = variance > limits::UNEXPLAINED * noise;
     let mut colour =
         (*coloured || beyond).then(|| band.colour(field, &cofactors, state.contrast, &state.outline, *origin));
     if !*coloured && let Some(colour) = colour.take() {
         // what is left beyond the noise and shared by neighbours is a shape that the model does not have: a moved camera's
         if colour.shared() > limits::SHARED {
-            let share = 1.0 - noise / variance;
+            let share = (1.0 - noise / variance).max(0.0);
             covariance = covariance.map(|value| value * (1.0 + share * (limits::MOVED_TOGETHER - 1.0)));
         }
     }
-    let (rms, uneven) = (variance.sqrt(), work.band.unevenness());
     let mut outline = state.outline;
     let reach = region.half_band.min(region.surround.outer.max(1.0)) + 0.3;
     if let Some(neighbours) = Neighbours::of(plane, &outline, state.blur, state.contrast, reach, rms) {

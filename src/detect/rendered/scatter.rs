@@ -26,6 +26,19 @@ pub(crate) struct Lights {
     pub lit: [f64; 3],
 }
 
+impl Lights {
+    /// Of residuals from which a profile of so many values was taken: each has taken the square of one.
+    pub fn of_profile(self, values: usize) -> Self {
+        let free = (self.powers[0] - values as f64).max(0.5 * self.powers[0]);
+        Self { squares: self.squares.map(|sum| sum * self.powers[0] / free), ..self }
+    }
+
+    /// Mean square of the residuals.
+    pub fn variance(&self) -> f64 {
+        self.squares[0] / self.powers[0]
+    }
+}
+
 /// Covariance (uu, uv, vv) of the centre with the cofactors of all unknowns.
 pub(crate) fn covariance(cofactors: &Normal, band: &Lights, flats: &Flats) -> [f64; 3] {
     let [ground, growth] = line(band.powers, band.squares);

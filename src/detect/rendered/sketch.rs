@@ -98,6 +98,7 @@ mod tests {
                 strip: None,
                 saturation: 255.0,
                 stairs: false,
+                developed: false,
                 prior: None,
             };
             field.place(&outline, blur, half_band);
