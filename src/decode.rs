@@ -73,13 +73,21 @@ pub fn packed(bytes: &[u8]) -> Option<&'static str> {
 /// [`Error::UnknownImageFormat`], [`Error::BrokenImage`], [`Error::ImageSize`].
 pub fn size(bytes: &[u8]) -> Result<Size> {
     if signature(bytes) == Signature::Jpeg {
-        let frame = jpeg::header(bytes).map_err(refused)?;
-        return Ok(Size { width: frame.width as u32, height: frame.height as u32, bits: 8 });
+        return jpeg_size(bytes);
     }
     let bytes = prepared(bytes)?;
     let decoder = open::decoder(&bytes)?;
     let (width, height) = decoder.dimensions();
     Ok(Size { width, height, bits: bits(decoder.color_type())? })
+}
+
+/// The same of a JPEG, for decoders outside the engine that have one inside their files.
+///
+/// # Errors
+/// As [`size`].
+pub fn jpeg_size(bytes: &[u8]) -> Result<Size> {
+    let frame = jpeg::header(bytes).map_err(refused)?;
+    Ok(Size { width: frame.width as u32, height: frame.height as u32, bits: 8 })
 }
 
 /// One channel of a picture; 16 bits stay 16 bits. Opacity is ignored, palettes are resolved.

@@ -27,6 +27,8 @@ use colour::Matrix;
 
 /// Pixels that a byte describes at most: a block of 64 x 64 without detail takes more than a byte.
 const MOST_FROM_A_BYTE: u64 = 4096;
+/// Side of the largest block, to whose multiple a coded picture is filled up at most.
+const BLOCK: u64 = 64;
 /// Deepest nesting of pictures that are made of others.
 const DEPTH: u32 = 4;
 
@@ -189,16 +191,14 @@ fn assembled(file: &HeifFile, source: &Source, coloured: bool) -> Result<Planes>
         full_range: false,
         matrix: 2,
     };
-    let options = DecodeOptions { max_pixels: limits::PIXELS, ..DecodeOptions::default() };
     let mut reason = None;
     let mut whole = 0;
     for (k, id) in source.tiles.iter().enumerate() {
         let place = [k % source.columns, k / source.columns];
         let corner = [0, 1].map(|axis| place[axis] * source.tile[axis] as usize);
-        let decoded = file
-            .hevc_bitstream(*id)
-            .map_err(|error| said(&error))
-            .and_then(|stream| decode_picture(&stream, options).map_err(|error| said(&error)));
+        let decoded = file.hevc_bitstream(*id).map_err(|error| said(&error)).and_then(|stream| {
+            decode_picture(&stream, options(source.tile, stream.len())).map_err(|error| said(&error))
+        });
         match decoded.and_then(|frame| planes.put(&frame, corner, source, coloured)) {
             Ok(()) => whole += 1,
             Err(error) => {
@@ -212,6 +212,15 @@ fn assembled(file: &HeifFile, source: &Source, coloured: bool) -> Result<Planes>
         Some(error) if whole == 0 => Err(error),
         _ => Ok(planes),
     }
+}
+
+/// A tile's stream states the size that is coded, of which a part is cut away: what fills the last blocks, or whatever the encoder was asked to
+/// leave out. Memory is taken for that size, so it is at most what the tile needs, or what that many bytes can describe.
+fn options(tile: [u32; 2], bytes: usize) -> DecodeOptions {
+    let [across, down] = tile.map(|side| u64::from(side).next_multiple_of(BLOCK));
+    let described = (bytes as u64).saturating_mul(MOST_FROM_A_BYTE);
+    let max_pixels = across.saturating_mul(down).max(described).min(limits::PIXELS);
+    DecodeOptions { max_pixels, ..DecodeOptions::default() }
 }
 
 impl Planes {

@@ -203,6 +203,89 @@ fn without_property(file: &[u8], item: u16, place: usize) -> Vec<u8> {
     file
 }
 
+/// A stream's bits from its highest on.
+fn bits_of(bytes: &[u8]) -> Vec<bool> {
+    bytes.iter().flat_map(|byte| (0..8).rev().map(move |bit| byte >> bit & 1 == 1)).collect()
+}
+
+/// A number without sign as HEVC writes it (H.265, 9.2): as many zeros as bits follow the first one.
+fn exp_golomb(value: u32) -> Vec<bool> {
+    let length = 32 - (value + 1).leading_zeros();
+    [vec![false; length as usize - 1], (0..length).rev().map(|bit| (value + 1) >> bit & 1 == 1).collect()].concat()
+}
+
+/// A sequence parameter set that claims another size (H.265, 7.3.2.2).
+fn resized(unit: &[u8], width: u32, height: u32) -> Vec<u8> {
+    let mut plain = Vec::new();
+    for byte in unit {
+        // a three after two zeros keeps start codes out
+        if !(*byte == 3 && plain.ends_with(&[0, 0])) {
+            plain.push(*byte);
+        }
+    }
+    let bits = bits_of(&plain);
+    // two bytes of header, identifiers of a byte, and twelve of profile and level
+    let mut at = 8 * 15;
+    assert_eq!(plain[2] >> 1 & 7, 0, "one layer");
+    let skip = |at: &mut usize| {
+        let zeros = bits[*at..].iter().take_while(|bit| !**bit).count();
+        *at += 2 * zeros + 1;
+    };
+    skip(&mut at); // its number
+    skip(&mut at); // kind of chroma
+    let kept = at;
+    skip(&mut at);
+    skip(&mut at);
+    let last = bits.iter().rposition(|bit| *bit).expect("a last one");
+    let mut new = [&bits[..kept], &exp_golomb(width), &exp_golomb(height), &bits[at..=last]].concat();
+    new.resize(new.len().next_multiple_of(8), false);
+    let mut unit: Vec<u8> = Vec::new();
+    for byte in new.chunks(8).map(|bits| bits.iter().fold(0, |byte, bit| byte << 1 | u8::from(*bit))) {
+        if byte <= 3 && unit.ends_with(&[0, 0]) {
+            unit.push(3);
+        }
+        unit.push(byte);
+    }
+    unit
+}
+
+/// The decoder takes memory for what the stream of a tile claims, not for the size that its item has.
+#[test]
+fn the_size_in_the_stream_is_held_against_the_bytes() {
+    let file = heic(&Canvas::new(64, 48, 99.0).expose(3.0, 1), 50);
+    let (extent, sets, data) = {
+        let parsed = HeifFile::parse(&file).expect("boxes");
+        let config = parsed.hevc_config(parsed.primary_id).expect("an item").expect("parameter sets");
+        assert_eq!(config.nal_length_size, 4);
+        let extent = parsed.item(parsed.primary_id).expect("an item").location.as_ref().expect("a place").extents[0];
+        let data = parsed.item_data(parsed.primary_id).expect("data").into_owned();
+        (extent, config.nal_units.clone(), data)
+    };
+    let [sequence, picture] = [33, 34].map(|kind| sets.iter().find(|set| set[0] >> 1 == kind).expect("a set"));
+    // sets that come again with the data replace those before
+    let claiming = |width, height| {
+        let mut new = Vec::new();
+        for set in [&resized(sequence, width, height), picture] {
+            new.extend((set.len() as u32).to_be_bytes());
+            new.extend(set);
+        }
+        new.extend(&data);
+        let place = [(extent.offset as u32).to_be_bytes(), (extent.length as u32).to_be_bytes()].concat();
+        let entry = file.windows(8).position(|bytes| bytes == place).expect("its entry");
+        let mut file = file.clone();
+        file.extend((new.len() as u32 + 8).to_be_bytes());
+        file.extend(b"mdat");
+        let at = file.len() as u32;
+        file[entry..entry + 8].copy_from_slice(&[at.to_be_bytes(), (new.len() as u32).to_be_bytes()].concat());
+        file.extend(new);
+        unpack(&file, WHOLE)
+    };
+    let same = claiming(64, 48).expect("as before");
+    assert_eq!(same.samples, unpack(&file, WHOLE).expect("a picture").samples);
+    let error = claiming(16_000, 15_616).expect_err("more than the bytes hold").to_string();
+    assert!(error.contains("size limit"), "{error}");
+}
+
 #[test]
 fn a_tile_that_is_lost_costs_its_rows() {
     let (canvas, spots) = scene();

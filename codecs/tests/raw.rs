@@ -449,6 +449,46 @@ fn damage_is_told_and_nothing_else_happens() {
     assert!(whole.iter().all(|spot| nearest(&found.targets, spot).is_some()));
 }
 
+/// A directory's claims and those of the JPEG that shows the picture, which may hide from who only looks for its frame.
+#[test]
+fn headers_are_held_against_the_bytes() {
+    let wanted = Wanted { channel: Channel::Grey, samples: true, max_side: 64 };
+    let whole = exposed(&Canvas::new(96, 64, 0.3), TWELVE, "RGGB", 1);
+    for lossless_jpeg in [false, true] {
+        let mut file = Dng { lossless_jpeg, ..whole.clone() }.file();
+        for (tag, value) in [(256u16, 16_000u32), (257, 15_600)] {
+            // a long, one of it
+            let entry = [tag.to_le_bytes(), 4u16.to_le_bytes(), 1u16.to_le_bytes(), [0; 2]].concat();
+            let at = file.windows(8).position(|bytes| bytes == entry).expect("an entry") + 8;
+            file[at..at + 4].copy_from_slice(&value.to_le_bytes());
+        }
+        for samples in [false, true] {
+            let error = unpack(&file, Wanted { samples, ..wanted }).expect_err("more than the bytes hold");
+            assert!(error.code() == "broken_image" && error.to_string().contains("16000 x 15600"), "{error}");
+        }
+    }
+    let mut preview = Vec::new();
+    let encoder = jpeg_encoder::Encoder::new(&mut preview, 90);
+    encoder.encode(&[90; 3 * 32 * 16], 32, 16, jpeg_encoder::ColorType::Rgb).expect("a JPEG");
+    let shown = |preview: &[u8]| {
+        let file = Dng { preview: preview.to_vec(), ..whole.clone() }.file();
+        let unpacked = unpack(&file, wanted).expect("a photo");
+        assert_eq!(unpacked.samples, Samples::U16(whole.samples.clone()));
+        unpacked.header.small
+    };
+    for hidden in [false, true] {
+        if hidden {
+            preview.splice(2..2, [0xff, 0]);
+        }
+        assert_eq!(shown(&preview), [32, 16]);
+        let mut vast = preview.clone();
+        let frame = vast.windows(2).position(|marker| marker == [0xff, 0xc0]).expect("a frame");
+        // 15600 rows of 16000 pixels
+        vast[frame + 5..frame + 9].copy_from_slice(&[0x3c, 0xf0, 0x3e, 0x80]);
+        assert_eq!(shown(&vast), [0, 0]);
+    }
+}
+
 #[test]
 fn codes_are_read_as_in_grey() {
     for name in sample::files().into_iter().take(3) {

@@ -93,8 +93,7 @@ pub fn most_from_a_byte(file: &[u8]) -> u64 {
     const DEFLATE: u64 = 1032;
     match file {
         [0x89, b'P', ..] => DEFLATE,
-        // runs of 255 pixels of three bytes from two bytes; eight pixels from one byte without them
-        [b'B', b'M', ..] => 384,
+        [b'B', b'M', ..] => most_of_bmp(file),
         [b'I' | b'M', ..] => {
             let Some(reader) = Reader::tiff(file) else { return DEFLATE };
             let entries = reader.entries();
@@ -112,6 +111,21 @@ pub fn most_from_a_byte(file: &[u8]) -> u64 {
             }
         }
         _ => 8192,
+    }
+}
+
+/// The same of a BMP file, by the bits of a pixel and the compression in its header, which is OS/2's of 12 bytes or begins as Windows' of 40.
+fn most_of_bmp(file: &[u8]) -> u64 {
+    let reader = Reader { bytes: file, little: true, big_tiff: false };
+    let (bits, compression) = match reader.number(14, 4) {
+        Some(12) => (reader.number(24, 2), None),
+        _ => (reader.number(28, 2), reader.number(30, 4)),
+    };
+    match compression {
+        // runs of 255 pixels of three bytes from two bytes
+        Some(1 | 2) => 384,
+        // a pixel of so many bits is three bytes, or four with its opacity
+        _ => 32 / bits.unwrap_or(1).clamp(1, 32),
     }
 }
 

@@ -1,8 +1,10 @@
 // Targets from pixels and from files.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { crc32, deflateSync } from 'node:zlib';
 
 import { data, sightline, skip, thrown } from './engine.mjs';
+import { bmp, paletteTiff } from './tiff.mjs';
 
 /** A bright disc on dark ground, its edge averaged over 16 x 16 places a pixel. */
 function disc(width, height, u, v, radius, depth) {
@@ -39,6 +41,65 @@ test('a disc is measured where it is, in 8 and in 16 bits, by every method', () 
   const dark = disc(80, 60, 41.3, 28.8, 9.5, 8).map((value) => 255 - value);
   assert.equal(sightline.detectGray(80, 60, dark).targets[0].polarity, 'dark');
   assert.equal(sightline.detectGray(80, 60, dark, { polarity: 'bright' }).targets.length, 0);
+});
+
+test('a disc is found in a BMP and in a TIFF with a palette, of every depth', () => {
+  const samples = disc(80, 60, 41.3, 28.8, 9.5, 8);
+  const files = [bmp(80, 60, samples), ...[1, 2, 4, 8].map((bits) => paletteTiff(80, 60, samples, bits))];
+  // Pixels of two levels alone stand up to half a pixel off.
+  [0.01, 0.2, 0.1, 0.05, 0.01].forEach((tolerance, i) => {
+    const { width, height, bits } = sightline.photoInfo(files[i]);
+    assert.deepEqual([width, height, bits], [80, 60, 8]);
+    const { targets } = sightline.detect(files[i]);
+    assert.equal(targets.length, 1, `file ${i}`);
+    assert.ok(Math.hypot(targets[0].u - 41.3, targets[0].v - 28.8) < tolerance, `file ${i}: ${targets[0].u}, ${targets[0].v}`);
+  });
+});
+
+/** A PNG of 8 or 16 bits a sample, of one or of four, with the chunks before its data. */
+function png(width, height, bits, samples, rows, before = []) {
+  const chunk = (kind, content) => {
+    const named = Buffer.concat([Buffer.from(kind, 'latin1'), content]);
+    const file = Buffer.alloc(named.length + 8);
+    file.writeUInt32BE(content.length, 0);
+    file.set(named, 4);
+    file.writeUInt32BE(crc32(named), named.length + 4);
+    return file;
+  };
+  const head = Buffer.alloc(13);
+  head.writeUInt32BE(width, 0);
+  head.writeUInt32BE(height, 4);
+  head.set([bits, samples === 4 ? 6 : 0], 8);
+  const chunks = [['IHDR', head], ...before, ['IDAT', deflateSync(rows)], ['IEND', Buffer.alloc(0)]];
+  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), ...chunks.map(([kind, content]) => chunk(kind, content))]);
+}
+
+test('small files that claim much are refused, and profiles are not unpacked, before memory is taken', () => {
+  const memory = () => sightline.initSync().memory.buffer.byteLength;
+  const samples = disc(80, 60, 41.3, 28.8, 9.5, 8);
+  sightline.detectGray(80, 60, samples);
+  const before = memory();
+  // 15600 rows of 16000 pixels, baseline, grey, in 2.4 kB.
+  const jpeg = Buffer.alloc(2400, 0x55);
+  jpeg.set(Buffer.from('ffd8ffc0000b083cf03e8001011100ffda0008010100003f00', 'hex'));
+  const vast = png(15800, 15800, 16, 4, Buffer.alloc(0));
+  assert.ok(vast.length < 100);
+  for (const file of [jpeg, vast]) {
+    for (const action of [() => sightline.photoInfo(file), () => sightline.detect(file)]) {
+      const error = thrown(action);
+      assert.equal(error.code, 'broken_image', error.message);
+      assert.match(error.message, /1(6000 x 15600|5800 x 15800)/);
+    }
+  }
+  const rows = Buffer.alloc(81 * 60);
+  for (let y = 0; y < 60; y++) rows.set(samples.subarray(80 * y, 80 * (y + 1)), 81 * y + 1);
+  const profile = Buffer.concat([Buffer.from('name\0\0', 'latin1'), deflateSync(Buffer.alloc(1 << 28))]);
+  const bomb = png(80, 60, 8, 1, rows, [['iCCP', profile]]);
+  const { width, height, bits } = sightline.photoInfo(bomb);
+  assert.deepEqual([width, height, bits], [80, 60, 8]);
+  const [target] = sightline.detect(bomb).targets;
+  assert.ok(Math.hypot(target.u - 41.3, target.v - 28.8) < 0.01, `${target.u}, ${target.v}`);
+  assert.ok(memory() - before < 16 << 20, `${(memory() - before) >> 20} MB`);
 });
 
 test('what is rejected is shown where it is, with its reason', () => {

@@ -209,6 +209,10 @@ fn links_no_engine() -> Outcome {
     let engine = [
         "9sightline6detect",
         "9sightline6decode",
+        "9sightline6adjust5solve",
+        "9sightline6adjust6linear",
+        "9sightline6adjust7problem",
+        "9sightline6adjust9equations",
         "9sightline6orient5block",
         "9sightline7initial",
         "9sightline8exchange7package",

@@ -2,11 +2,13 @@
 
 use flashraw::{FlashRaw, PreviewEncoding, PreviewInfo};
 
+use sightline::decode;
+
 use crate::damage::check_size;
 use crate::small;
 
-/// Pixels that a byte of an embedded JPEG describes at most.
-const MOST_FROM_A_BYTE: u64 = 1024;
+/// Pixels that a byte of a JPEG describes at most: a block of 64 takes a bit at least.
+const MOST_FROM_A_BYTE: u64 = 512;
 
 /// The smallest embedded picture that is no smaller than wanted, else the largest, reduced.
 pub fn small(raw: &FlashRaw, max_side: u32) -> Option<([u32; 2], Vec<u8>)> {
@@ -17,7 +19,11 @@ pub fn small(raw: &FlashRaw, max_side: u32) -> Option<([u32; 2], Vec<u8>)> {
     // what does not decode leaves it to the next larger one, then to the smaller ones
     let (smaller, larger) = all.split_at(first);
     larger.iter().chain(smaller.iter().rev()).find_map(|preview| {
-        check_size([preview.width.max(1), preview.height.max(1)], preview.length as usize, MOST_FROM_A_BYTE).ok()?;
+        if preview.encoding == PreviewEncoding::Jpeg {
+            // memory is taken for what the JPEG itself claims, whatever the directory around it says
+            let size = decode::jpeg_size(raw.preview_bytes(preview).ok()?).ok()?;
+            check_size([size.width, size.height], preview.length as usize, MOST_FROM_A_BYTE).ok()?;
+        }
         let picture = raw.decode_preview_rgb(preview).ok()?;
         let [width, height] = [picture.width, picture.height].map(|side| side as usize);
         if width == 0 || height == 0 || picture.rgb.len() < 3 * width * height {

@@ -159,6 +159,40 @@ fn a_header_is_held_against_the_bytes() {
     assert_eq!(grey(&large, Channel::Grey).expect_err("15000 x 15000").code(), "broken_image");
 }
 
+/// Of a BMP without compression every byte is told by its header; runs stand for more.
+#[test]
+fn a_bmp_s_header_is_held_against_the_bytes() {
+    let mut bmp = encoded(&RgbImage::new(900, 700).into(), ImageFormat::Bmp);
+    assert_eq!(bmp[28], 24);
+    assert!(size(&bmp).is_ok());
+    let claims = |file: &[u8], width: u32, height: u32| {
+        let mut file = file.to_vec();
+        file[18..22].copy_from_slice(&width.to_le_bytes());
+        file[22..26].copy_from_slice(&height.to_le_bytes());
+        [size(&file).err(), grey(&file, Channel::Grey).err()].map(|error| error.map(|error| error.to_string()))
+    };
+    // two rows more than there are, and 750 MB in 2
+    for [width, height] in [[900, 702], [16_000, 15_600]] {
+        for error in claims(&bmp, width, height) {
+            let named = error.is_some_and(|error| error.contains(&format!("{width} x {height}")));
+            assert!(named, "{width} x {height}");
+        }
+    }
+    bmp.truncate(54);
+    // places of 8 bits in a palette of two colours, in two bytes a run of 255
+    bmp[28] = 8;
+    bmp[30] = 1;
+    bmp[46] = 2;
+    bmp[10] = 62;
+    bmp.extend([0, 0, 0, 0, 200, 200, 200, 0]);
+    for _ in 0..200 {
+        bmp.extend([255, 1, 255, 1, 0, 0]);
+    }
+    bmp.extend([0, 1]);
+    assert_eq!(claims(&bmp, 510, 200), [None, None]);
+    assert!(claims(&bmp, 5_100, 2_000).iter().all(Option::is_some));
+}
+
 #[test]
 fn profiles_of_png_are_not_unpacked() {
     let png = encoded(&coloured(), ImageFormat::Png);

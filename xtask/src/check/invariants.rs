@@ -119,8 +119,9 @@ fn paths(text: &str) -> impl Iterator<Item = &str> {
 /// Rust and JavaScript sources that are ours, relative to the root.
 fn sources(root: &Path) -> Outcome<Vec<String>> {
     let mut found = Vec::new();
-    let mut folders: Vec<PathBuf> =
-        ["src", "face", "web", "xtask", "tests", "benches", "examples", "e2e"].map(|name| root.join(name)).into();
+    let mut folders: Vec<PathBuf> = ["src", "codecs", "face", "web", "xtask", "tests", "benches", "examples", "e2e"]
+        .map(|name| root.join(name))
+        .into();
     while let Some(folder) = folders.pop() {
         let Ok(entries) = fs::read_dir(&folder) else { continue };
         for entry in entries {
