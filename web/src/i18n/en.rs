@@ -496,7 +496,7 @@ declare! { desk {
     key_yes: "yes: take the target that is asked for";
     key_no: "no; or the next photo of the point";
     key_doubtful: "next doubtful";
-    key_exclude: "exclude or restore the chosen observation";
+    key_exclude: "exclude or restore the chosen observation; in the table of points too";
     key_photos: "next and previous photo";
     key_arrows: "move what is chosen by 1 px, Shift 10, Alt 0.1; else the cross";
     key_enter: "measure at the cross";

@@ -486,7 +486,7 @@ translate! { Korean desk {
     key_yes: "예: 질문한 표적을 받아들임";
     key_no: "아니요, 또는 이 점의 다음 사진";
     key_doubtful: "다음 의심점";
-    key_exclude: "선택한 관측값 제외 또는 복원";
+    key_exclude: "선택한 관측값 제외 또는 복원. 점 표에서도 됨";
     key_photos: "다음 사진, 이전 사진";
     key_arrows: "선택한 것을 1 px, Shift 10, Alt 0.1만큼 옮김. 없으면 십자선을 옮김";
     key_enter: "십자선 위치에서 측정";
