@@ -1,7 +1,7 @@
 //! Step 2: targets found in the photos, shown as what they are, each with its centre, sigma and outline.
 
 use leptos::prelude::*;
-use sightline::detection::{Channel, CodeNote, Codes, Method, PictureReport, Polarity, PolarityChoice, Reason, Target};
+use sightline::detection::{Channel, CodeNote, Codes, Method, Polarity, PolarityChoice, Reason, Target};
 use sightline::ring_code::Family;
 
 use super::apart::ColoursApart;
@@ -300,8 +300,8 @@ fn PictureNote() -> impl IntoView {
     let sentence = move || {
         let Some(d) = current(desk) else { return String::new() };
         let measured = match &d.measured {
-            Some(measured) => super::measured::sentence(measured),
-            None => picture_sentence(&d.picture),
+            Some(measured) => super::measured::sentence(measured, &d.picture),
+            None => super::measured::picture_sentence(&d.picture),
         };
         let photo = desk.selection.with(|s| s.photo.clone());
         let corrections = desk.files.with(|files| {
@@ -318,32 +318,6 @@ fn PictureNote() -> impl IntoView {
         <Show when=move || !sentence().is_empty()>
             <p class="note" data-result="picture">{sentence}</p>
         </Show>
-    }
-}
-
-/// Shares below this are not worth a word.
-const WORTH: f64 = 0.005;
-/// Growth of standard errors that is worth one.
-const GROWN: f64 = 1.05;
-
-/// One sentence; none for a photo of which nothing is known.
-fn picture_sentence(picture: &PictureReport) -> String {
-    if picture.noise <= 0.0 && !picture.softened {
-        return String::new();
-    }
-    let percent = |share: f64| format::fixed(100.0 * share, 0);
-    let parts = [
-        (picture.sharpening > 0.0)
-            .then(|| text::picture_sharpened(percent(picture.sharpening), format::fixed(picture.sharpening_radius, 1))),
-        (picture.clipped_bright > WORTH).then(|| text::picture_overexposed(percent(picture.clipped_bright))),
-        (picture.clipped_dark > WORTH).then(|| text::picture_black(percent(picture.clipped_dark))),
-        (picture.softened && picture.compression > 0.0).then(|| text::picture_compressed().to_owned()),
-        Some(text::picture_noise(format::fixed(picture.noise, 1))),
-    ];
-    let what = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
-    match picture.noise_correlation {
-        factor if factor > GROWN => text::picture_shared(what, format::fixed(factor, 1)),
-        _ => text::picture_plain(what),
     }
 }
 
