@@ -1,7 +1,7 @@
 //! Step 2: targets found in the photos, shown as what they are, each with its centre, sigma and outline.
 
 use leptos::prelude::*;
-use sightline::detection::{Channel, CodeNote, Codes, Method, Polarity, PolarityChoice, Reason, Target};
+use sightline::detection::{Channel, CodeNote, Codes, Detection, Method, Polarity, PolarityChoice, Reason, Target};
 use sightline::ring_code::Family;
 
 use super::apart::ColoursApart;
@@ -73,7 +73,7 @@ pub fn Targets() -> impl IntoView {
     }
 }
 
-fn current(desk: Desk) -> Option<std::sync::Arc<sightline::detection::Detection>> {
+fn current(desk: Desk) -> Option<std::sync::Arc<Detection>> {
     let photo = desk.selection.with(|s| s.photo.clone())?;
     desk.document.with(|d| d.detections.get(&photo).cloned())
 }
@@ -92,7 +92,22 @@ fn target_marks(desk: Desk) -> Vec<Mark> {
         strong: t.code.is_some(),
         style: if Some(t.id) == chosen { Style::Selected } else { Style::Measured },
     };
-    detection.targets.iter().map(mark).chain(spot_mark(desk)).collect()
+    detection.targets.iter().map(mark).chain(hidden_marks(&detection)).chain(spot_mark(desk)).collect()
+}
+
+/// Places at which something hides too much of a target to measure it.
+fn hidden_marks(detection: &Detection) -> impl Iterator<Item = Mark> {
+    let hidden = detection.rejected_blobs.iter().filter(|blob| blob.reason == Reason::Occluded);
+    hidden.map(|blob| Mark {
+        u: blob.u,
+        v: blob.v,
+        major: blob.diameter,
+        minor: blob.diameter,
+        angle: 0.0,
+        label: None,
+        strong: false,
+        style: Style::Hidden,
+    })
 }
 
 /// A choice among named values.
@@ -362,5 +377,22 @@ fn reason_words(reason: Reason) -> &'static str {
         Reason::Occluded => text::reason_occluded(),
         Reason::CodeRing => text::reason_code_ring(),
         Reason::NoFit => text::reason_no_fit(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sightline::detection::Rejected;
+
+    use super::*;
+
+    #[test]
+    fn of_what_was_rejected_the_hidden_targets_are_marked_at_their_places() {
+        let blob = |u: f64, reason| Rejected { u, v: 20.0, diameter: 14.0, reason };
+        let rejected_blobs =
+            vec![blob(1.0, Reason::NotAnEllipse), blob(5.0, Reason::Occluded), blob(9.0, Reason::CodeRing)];
+        let marks = hidden_marks(&Detection { rejected_blobs, ..Detection::default() }).collect::<Vec<_>>();
+        let [mark] = &marks[..] else { panic!("{marks:?}") };
+        assert_eq!((mark.u, mark.v, mark.major, mark.minor, mark.style), (5.0, 20.0, 14.0, 14.0, Style::Hidden));
     }
 }
