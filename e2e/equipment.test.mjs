@@ -140,9 +140,9 @@ test('equipment goes out and comes in as one file, and what was removed can be h
     assert.equal(await page.locator('[data-bar]').count(), 2);
     for (const name of ['Bar A', 'Bar B']) await page.getByRole('button', { name: `Remove the scale bar ${name}` }).click();
     assert.equal(await page.locator('[data-bar]').count(), 0);
-    // Dropped anywhere, it is known by what is in it.
+    // Dropped anywhere, it is known by what is in it, in UTF-16 too.
     await page.click('.mark');
-    await drop(page, [scratch('shop.json', text)]);
+    await drop(page, [scratch('shop.json', Buffer.from(`\ufeff${text}`, 'utf16le'))]);
     await page.waitForSelector('[data-bar="Bar B"]');
     assert.match(await notice(page), /shop\.json: 0 new cameras, 0 calibrations, 2 scale bars/);
     await drop(page, [scratch('newer.json', text.replace('"version": 1', '"version": 9'))]);

@@ -68,21 +68,30 @@ test('keys act where the focus is', longer, async () => {
     assert.equal(await page.inputValue('[name=point-name]'), '11');
     assert.deepEqual(await places(page), before);
     assert.ok(await unchanged(page));
-    // On a button neither.
+    // On a button neither, nor is what was measured left out.
     await page.locator('.section-head .link').first().focus();
-    for (const key of ['ArrowRight', 'Backspace']) await page.keyboard.press(key);
-    assert.ok(await unchanged(page));
+    for (const key of ['ArrowRight', 'Backspace', 'x']) await page.keyboard.press(key);
+    const taken = () => page.isChecked('.panel.point tr.chosen input[type=checkbox]');
+    assert.ok((await unchanged(page)) && (await taken()));
+    await page.locator('.columns table[role=grid]').focus();
+    await page.keyboard.press('x');
+    assert.ok(!(await unchanged(page)) && !(await taken()));
+    await page.keyboard.press('Control+z');
+    assert.ok((await unchanged(page)) && (await taken()));
     // In the photo they move what is chosen there, and take it away.
     await showPhoto(page, 'sample-1');
     await clickPhoto(page, [before['sample-1'].u, before['sample-1'].v]);
+    await page.keyboard.press('x');
+    assert.ok(!(await taken()));
+    await page.keyboard.press('x');
+    assert.ok(await taken());
     await page.keyboard.press('ArrowRight');
     const moved = (await places(page))['sample-1'];
     assert.ok(Math.abs(moved.u - before['sample-1'].u - 1) < 1e-3 && moved.v === before['sample-1'].v);
     assert.equal(moved.sigma, 0.5);
     await page.keyboard.press('Backspace');
     assert.ok(!('sample-1' in (await places(page))));
-    await page.keyboard.press('Control+z');
-    await page.keyboard.press('Control+z');
+    for (let edit = 0; edit < 4; edit++) await page.keyboard.press('Control+z');
     assert.ok(await unchanged(page));
     assert.deepEqual(errors, []);
   } finally {

@@ -139,7 +139,7 @@ test('photos that do not fit are told, and stay in use', { timeout: 600_000 }, a
     // document, and not for all that is missing of the photos.
     await room(2_500_000);
     // It stands there for as long as it is so, whatever else is told.
-    await storageLine(page, '\\d photos? (is|are) not copied .*saved with photos');
+    await storageLine(page, '\\d photos? (is|are) not copied .*\\(no room\\).*saved with photos');
     await page.waitForFunction(() => /saved \S+( [AP]M)?, \d photos? not/.test(document.querySelector('.project span')?.textContent));
     await room(400_000);
     await go(page, 'targets');

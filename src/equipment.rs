@@ -73,7 +73,9 @@ impl Equipment {
     /// Whether the beginning of a file claims to be equipment, whole or damaged: its format stands there, where it is written.
     pub fn is_claimed_by(beginning: &[u8]) -> bool {
         let wanted = format!("\"{FORMAT}\"");
-        beginning.windows(wanted.len()).take(HEAD).any(|bytes| bytes == wanted.as_bytes())
+        // Without its zeros the beginning of a JSON in UTF-16 reads as it does in UTF-8, and may be cut anywhere.
+        let beginning: Vec<u8> = beginning.iter().copied().take(HEAD).filter(|byte| *byte != 0).collect();
+        beginning.windows(wanted.len()).any(|bytes| bytes == wanted.as_bytes())
     }
 
     /// From its JSON.

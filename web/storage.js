@@ -652,7 +652,7 @@ async function keep({ keys }, extras) {
       }
     } catch (error) {
       missed.push(key);
-      failure ??= `${error.name}: ${error.message}`;
+      failure ??= { name: error.name, detail: error.message };
     }
     if (bitmap && !(await backend.small(key).catch(() => null))) await putSmall(key, bitmap).catch(() => {});
     bitmap?.close?.();

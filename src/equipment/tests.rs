@@ -61,6 +61,11 @@ fn what_is_written_is_read_again() {
     let text = equipment().write().unwrap();
     assert!(Equipment::is_claimed_by(text.as_bytes()));
     assert_eq!(Equipment::read(&text).unwrap(), equipment());
+    let utf16 =
+        |bytes: fn(u16) -> [u8; 2]| format!("\u{feff}{text}").encode_utf16().flat_map(bytes).collect::<Vec<_>>();
+    for encoded in [utf16(u16::to_le_bytes), utf16(u16::to_be_bytes)] {
+        assert!(Equipment::is_claimed_by(&encoded[..HEAD.min(encoded.len())]));
+    }
     assert!(!Equipment::is_claimed_by(b"{\"format\":\"sightline\"}") && !Equipment::is_claimed_by(b"no"));
 }
 

@@ -1,7 +1,7 @@
 //! Ordinary photos: a sharpened webcam before grids of dots, and pictures without targets.
 
 use sightline::detect::{detect, measure_at};
-use sightline::detection::{Codes, DetectOptions, Detection};
+use sightline::detection::{Codes, DetectOptions, Detection, PictureReport};
 use sightline::image::Grey;
 use sightline::{decode, image};
 
@@ -103,13 +103,25 @@ fn pictures_without_targets_have_hardly_any() {
     assert!(all <= 2, "{all}");
 }
 
+/// Share of a picture's samples that have a level.
+fn share_of(picture: &Grey, level: u8) -> f64 {
+    let image::Samples::U8(samples) = &picture.samples else { panic!("a picture of 8 bits") };
+    samples.iter().filter(|sample| **sample == level).count() as f64 / samples.len() as f64
+}
+
 #[test]
 fn cameras_drawn_at_random_are_told_by_their_sigmas_and_show_nothing_false() {
     let mut tally = Tally::default();
     for seed in 0..20 {
         let camera = Camera::drawn(seed);
         let (picture, spots) = camera.picture(seed);
-        tally.add(&camera, &camera_model::score(&detected(&picture, &DetectOptions::default()), &spots));
+        let detection = detected(&picture, &DetectOptions::default());
+        tally.add(&camera, &camera_model::score(&detection, &spots));
+        // of every ninth row
+        let told = [detection.picture.clipped_dark, detection.picture.clipped_bright];
+        let off =
+            [0, 255].map(|level| share_of(&picture, level)).into_iter().zip(told).map(|(is, told)| (is - told).abs());
+        assert!(off.fold(0.0, f64::max) < 0.002, "{camera}: {told:?}");
     }
     let all = tally.all();
     assert!(all.others <= 6 && all.hits as f64 > 0.97 * all.targets as f64, "{tally}");
@@ -157,5 +169,69 @@ fn targets_are_found_under_the_conditions_of_a_day() {
             _ => 0.0,
         };
         assert!(share(all.hits + hidden) >= told, "{name}: {all}, {hidden} said to be hidden");
+    }
+}
+
+/// A laboratory's; what is changed of it is what its report has to say.
+const PLAIN: Camera =
+    Camera { sharpening: 0.0, radius: 1.0, exposure: 1.0, gamma: 1.0, quality: 100, noise: 2.0, blur: 0.8 };
+/// Both show dark targets on paper.
+const SEEDS: [u64; 2] = [3, 4];
+
+fn reports(camera: Camera) -> [PictureReport; 2] {
+    SEEDS.map(|seed| detected(&camera.picture(seed).0, &DetectOptions::default()).picture)
+}
+
+#[test]
+fn a_report_tells_how_much_a_camera_sharpened() {
+    for (sharpening, radius) in [(0.5, 1.0), (1.0, 1.0), (1.5, 1.0), (2.0, 1.0), (1.0, 0.6), (1.0, 1.5)] {
+        for report in reports(Camera { sharpening, radius, ..PLAIN }) {
+            let [amount, sigma] = [report.sharpening, report.sharpening_radius];
+            // An edge is steepened by amount x radius^2 to first order: only where it is much, or wide, it tells one from the other.
+            let strength = amount * sigma * sigma / (sharpening * radius * radius);
+            assert!((0.9..1.3).contains(&strength), "{sharpening} {radius}: {report:?}");
+            if sharpening * radius >= 1.5 {
+                let off = ((amount / sharpening - 1.0).abs(), (sigma - radius).abs());
+                assert!(off.0 < 0.05 && off.1 < 0.05, "{sharpening} {radius}: {report:?}");
+            }
+            assert!(report.softened && report.compression == 0.0, "{report:?}");
+        }
+    }
+}
+
+#[test]
+fn a_report_tells_noise_and_what_was_not_done() {
+    for noise in [1.0, 2.0, 5.0, 20.0] {
+        for report in reports(Camera { noise, ..PLAIN }) {
+            // of the paper, whose level is 190; the least noise is hardly more than the steps of its levels
+            let ratio = report.noise / (noise * (0.5f64 + 0.5 * 190.0 / 255.0).sqrt());
+            assert!((0.8..1.05).contains(&ratio), "{noise}: {report:?}");
+            assert_eq!((report.sharpening, report.compression), (0.0, 0.0), "{noise}: {report:?}");
+            if noise < 5.0 {
+                assert!(!report.softened && report.noise_correlation == 1.0, "{noise}: {report:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_report_tells_compression_and_the_noise_that_pixels_share() {
+    for quality in [90, 70, 50, 30] {
+        for report in reports(Camera { quality, ..PLAIN }) {
+            assert!(report.compression > 0.4 && report.softened, "{quality}: {report:?}");
+            // the coarser the steps of the coefficients the fewer of them carry the noise, and the wider they are
+            let least = if quality < 60 { 2.3 } else { 1.5 };
+            assert!((least..4.0).contains(&report.noise_correlation), "{quality}: {report:?}");
+        }
+    }
+}
+
+#[test]
+fn a_report_tells_what_is_over_exposed() {
+    for seed in SEEDS {
+        let (picture, _) = Camera { exposure: 1.5, ..PLAIN }.picture(seed);
+        let report = detected(&picture, &DetectOptions::default()).picture;
+        let is = share_of(&picture, 255);
+        assert!(is > 0.9 && (report.clipped_bright - is).abs() < 0.002 && report.clipped_dark == 0.0, "{report:?}");
     }
 }

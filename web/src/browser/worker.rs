@@ -49,17 +49,17 @@ impl Worker {
         let wanted = Rc::new(Cell::new(true));
         let still_wanted = wanted.clone();
         let on_message = Closure::new(move |event: MessageEvent| {
-            if let Some(life) = field(&event.data(), "held").as_string() {
+            let data = event.data();
+            if let Some(life) = field(&data, "held").as_string() {
                 let (listener, wanted) = (for_its_end.clone(), still_wanted.clone());
                 when_free(&life, move || {
                     if wanted.get() {
                         (listener.borrow_mut())(Message::Crashed("it ended without a word".into()));
                     }
                 });
+                return;
             }
-            if let Some(message) = read_message(&event.data()) {
-                (listener.borrow_mut())(message);
-            }
+            (listener.borrow_mut())(read_message(&data));
         });
         let on_error = Closure::new(move |event: ErrorEvent| {
             (for_errors.borrow_mut())(Message::Crashed(error_words(&event)));
@@ -180,16 +180,19 @@ async fn compile() -> Result<JsValue, JsValue> {
     }
 }
 
-fn read_message(data: &JsValue) -> Option<Message> {
+/// What a worker has posted. What is none of its words is a loss: nobody would hear of its task again.
+fn read_message(data: &JsValue) -> Message {
     if let Some(reason) = field(data, "crashed").as_string() {
-        return Some(Message::Crashed(reason));
+        return Message::Crashed(reason);
     }
     if field(data, "ready").is_truthy() {
-        return Some(Message::Ready);
+        return Message::Ready;
     }
-    let body = field(data, "body").dyn_into::<Uint8Array>().ok()?.to_vec();
+    let Ok(body) = field(data, "body").dyn_into::<Uint8Array>() else {
+        return Message::Crashed("it said what is no answer".into());
+    };
     let bytes = Array::from(&field(data, "bytes")).iter().map(|b| Bytes(b.unchecked_into())).collect();
-    Some(Message::Said(body, bytes, field(data, "memory").as_f64().unwrap_or_default()))
+    Message::Said(body.to_vec(), bytes, field(data, "memory").as_f64().unwrap_or_default())
 }
 
 /// Words of an error of a worker: there are none where its script could not be fetched.

@@ -11,6 +11,9 @@ use sightline::ring_code::Family;
 use super::points::{target_of, tidy};
 use crate::store::document::Document;
 
+#[cfg(test)]
+mod edits;
+
 /// How far a name follows its target when the photo is measured again, in pixels.
 const FOLLOW: f64 = 2.0;
 /// Two measurements of one target lie nearer to each other than this, in pixels.

@@ -232,14 +232,14 @@ declare! { desk {
     code_other_family: "its sectors may be those of another family";
     code_uncertain: "its ring may look like a code by chance: it is small, blurred or a single arc";
     code_several_families: "it is a code of several families";
-    picture_sharpened(percent, radius): "sharpened by {percent} % (radius {radius} px)";
-    picture_overexposed(percent): "{percent} % over-exposed";
-    picture_black(percent): "{percent} % without light";
-    picture_compressed: "compressed";
-    picture_noise(noise): "noise {noise} grey levels";
-    picture_shared(what, factor):
-        "This photo: {what}. Neighbouring pixels share their noise; the standard errors are {factor} times as large for it.";
-    picture_plain(what): "This photo: {what}. The standard errors are those of this noise.";
+    picture_sharpened(percent, radius): "sharpened by {percent} % (radius {radius} px), undone where that hides targets";
+    picture_overexposed(percent): "{percent} % over-exposed, left out of the fits";
+    picture_black(percent): "{percent} % without light, where nothing shows";
+    picture_compressed(percent): "compressed (borders of blocks {percent} % stronger), its traces counted as noise";
+    picture_noise(noise): "noise {noise} grey levels, from which the standard errors follow";
+    picture_shared_noise(noise, factor):
+        "noise {noise} grey levels, shared by neighbouring pixels, which makes the standard errors {factor} times as large";
+    picture_sentence(what): "This photo: {what}.";
     measured_on_sites(format, colour, pattern, bits):
         "{format}, {bits} bits: measured on the sensor's own {colour} sites ({pattern}), each by itself.";
     measured_between_sites(format, colour, pattern, bits):
@@ -247,6 +247,7 @@ declare! { desk {
     measured_noise(read, gain): "Noise estimated from the photo: {read} without light, its variance growing by {gain} per unit of light.";
     measured_light_noise(gain): "Noise estimated from the photo: its variance grows by {gain} per unit of light; without light it cannot be seen here.";
     measured_read_noise(read): "Noise estimated from the photo: {read} in every light.";
+    measured_overexposed(percent): "{percent} % over-exposed, left out of the fits.";
     measured_hot(count): "{count} hot sites left out.";
     measured_corrections(names):
         "The file names corrections of its lens ({names}). None was made here: a camera calibrated in corrected pictures is another camera.";
@@ -496,7 +497,7 @@ declare! { desk {
     key_yes: "yes: take the target that is asked for";
     key_no: "no; or the next photo of the point";
     key_doubtful: "next doubtful";
-    key_exclude: "exclude or restore the chosen observation";
+    key_exclude: "exclude or restore the chosen observation; in the table of points too";
     key_photos: "next and previous photo";
     key_arrows: "move what is chosen by 1 px, Shift 10, Alt 0.1; else the cross";
     key_enter: "measure at the cross";

@@ -225,13 +225,13 @@ translate! { Korean desk {
     code_other_family: "다른 코드 종류의 구획일 수 있음";
     code_uncertain: "링이 작거나 흐리거나 호 하나뿐이어서 우연히 코드처럼 보일 수 있음";
     code_several_families: "여러 종류의 코드에 해당함";
-    picture_sharpened(percent, radius): "선명화 {percent} %(반경 {radius} px)";
-    picture_overexposed(percent): "밝은 쪽 포화 {percent} %";
-    picture_black(percent): "어두운 쪽 포화 {percent} %";
-    picture_compressed: "압축됨";
-    picture_noise(noise): "잡음 {noise} 계조";
-    picture_shared(what, factor): "이 사진: {what}. 이웃 화소의 잡음이 서로 상관되어 표준오차가 {factor}배로 커집니다.";
-    picture_plain(what): "이 사진: {what}. 표준오차는 이 잡음에 따른 값입니다.";
+    picture_sharpened(percent, radius): "선명화 {percent} %(반경 {radius} px), 이 때문에 표적이 가려지는 곳은 되돌려 측정함";
+    picture_overexposed(percent): "밝은 쪽 포화 {percent} %, 적합에서 제외함";
+    picture_black(percent): "어두운 쪽 포화 {percent} %, 그곳에서는 아무것도 보이지 않음";
+    picture_compressed(percent): "압축(블록 경계의 차이가 {percent} % 큼), 그 흔적은 잡음으로 계산함";
+    picture_noise(noise): "잡음 {noise} 계조, 표준오차는 이 잡음에 따른 값임";
+    picture_shared_noise(noise, factor): "잡음 {noise} 계조, 이웃 화소끼리 상관되어 표준오차가 {factor}배로 커짐";
+    picture_sentence(what): "이 사진: {what}.";
     measured_on_sites(format, colour, pattern, bits):
         "{format}, {bits}비트: 센서의 {colour} 화소({pattern})만을 보간 없이 하나하나 써서 측정했습니다.";
     measured_between_sites(format, colour, pattern, bits):
@@ -239,6 +239,7 @@ translate! { Korean desk {
     measured_noise(read, gain): "사진에서 추정한 잡음: 빛이 없을 때 {read}, 분산은 빛 한 단위마다 {gain}씩 커집니다.";
     measured_light_noise(gain): "사진에서 추정한 잡음: 분산은 빛 한 단위마다 {gain}씩 커집니다. 빛이 없을 때의 잡음은 이 사진에서 알 수 없습니다.";
     measured_read_noise(read): "사진에서 추정한 잡음: 밝기와 무관하게 {read}.";
+    measured_overexposed(percent): "밝은 쪽 포화 {percent} %, 적합에서 제외했습니다.";
     measured_hot(count): "핫픽셀 {count}개는 제외했습니다.";
     measured_corrections(names):
         "파일에 렌즈 보정({names})이 적혀 있으나 여기서는 적용하지 않았습니다. 보정된 영상에서 검정한 카메라는 이와 다른 카메라입니다.";
@@ -486,7 +487,7 @@ translate! { Korean desk {
     key_yes: "예: 질문한 표적을 받아들임";
     key_no: "아니요, 또는 이 점의 다음 사진";
     key_doubtful: "다음 의심점";
-    key_exclude: "선택한 관측값 제외 또는 복원";
+    key_exclude: "선택한 관측값 제외 또는 복원. 점 표에서도 됨";
     key_photos: "다음 사진, 이전 사진";
     key_arrows: "선택한 것을 1 px, Shift 10, Alt 0.1만큼 옮김. 없으면 십자선을 옮김";
     key_enter: "십자선 위치에서 측정";

@@ -74,6 +74,16 @@ pub fn set_language(language: Language) {
     LANGUAGE.with(|l| l.set(language));
 }
 
+/// What is said in a language, for tests.
+#[cfg(test)]
+pub fn in_language<T>(other: Language, said: impl FnOnce() -> T) -> T {
+    let before = language();
+    LANGUAGE.with(|l| l.set(other));
+    let said = said();
+    LANGUAGE.with(|l| l.set(before));
+    said
+}
+
 /// Takes the language chosen last, or the browser's.
 pub fn restore_language() {
     let tag = page::preference("language").unwrap_or_else(page::preferred_language);

@@ -10,7 +10,7 @@ use super::keeping::{Copied, Keys, uncopied_words};
 use super::{Desk, PhotoFile, Until};
 use crate::browser::file::Blob;
 use crate::browser::page;
-use crate::browser::storage::{Extra, LOST};
+use crate::browser::storage::{Extra, Fault, LOST};
 
 /// Time, in milliseconds, after which photos that found no room are tried again.
 const AGAIN_MS: f64 = 60_000.0;
@@ -33,7 +33,7 @@ impl Desk {
                     Ok((Copied { missed, failure }, _)) => (!missed.is_empty()).then(|| failure.unwrap_or_default()),
                     // Its place is taken by another worker, which copies all of them.
                     Err(fault) if fault.name == LOST => break,
-                    Err(fault) => Some(fault.detail),
+                    Err(fault) => Some(fault),
                 };
                 self.keeper.update_value(|keeper| {
                     keeper.photos.insert(key.clone());
@@ -90,7 +90,7 @@ impl Desk {
     }
 
     /// How many photos of the project are in this page alone, and why.
-    pub fn not_copied(self) -> Option<(usize, String)> {
+    pub fn not_copied(self) -> Option<(usize, Fault)> {
         let uncopied = self.uncopied.get();
         let missed = self
             .files

@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde::de::IgnoredAny;
 use sightline::adjustment::AdjustedCamera;
 use sightline::equipment::{Calibration, Equipment, HEAD, KnownCamera, ScaleBar, Use, bars_in};
+use sightline::exchange::encoding;
 use sightline::exif::PhotoInfo;
 
 use super::document::Change;
@@ -239,7 +240,7 @@ impl Desk {
                 Ok(bytes) => bytes,
                 Err(detail) => return self.say(true, Until::NextWork, move || text::unreadable(&detail)),
             };
-            match Equipment::read(&String::from_utf8_lossy(&bytes)) {
+            match encoding::text(&bytes).and_then(|text| Equipment::read(&text)) {
                 Ok(read) => {
                     let mut joined = Default::default();
                     self.change_equipment(|all| joined = all.join(read));

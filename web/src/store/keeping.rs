@@ -119,7 +119,7 @@ struct Opened {
 #[derive(Deserialize)]
 pub(super) struct Copied {
     pub(super) missed: Vec<String>,
-    pub(super) failure: Option<String>,
+    pub(super) failure: Option<Fault>,
 }
 
 #[derive(Deserialize)]
@@ -561,9 +561,12 @@ pub fn unkept_words(name: &str, detail: &str) -> String {
 }
 
 /// The sentence for photos that are in this page alone, out of the browser's words for why.
-pub fn uncopied_words(photos: usize, why: &str) -> String {
-    // What browsers say of a full disk is for programmers, and in English.
-    text::photos_not_copied(photos, if why.starts_with("QuotaExceededError") { text::no_room() } else { why })
+pub fn uncopied_words(photos: usize, Fault { name, detail }: &Fault) -> String {
+    match name.as_str() {
+        // What browsers say of a full disk is for programmers, and in English.
+        "QuotaExceededError" => text::photos_not_copied(photos, text::no_room()),
+        _ => text::photos_not_copied(photos, format!("{name}: {detail}")),
+    }
 }
 
 fn data_fault(detail: String) -> Fault {

@@ -49,6 +49,7 @@ use sightline::orient::Note;
 use crate::browser::file::Blob;
 use crate::browser::page;
 use crate::browser::picture::Picture;
+use crate::browser::storage::Fault;
 use crate::edit::questions::Question;
 use crate::i18n::{Text, errors, text};
 use control::Pasted;
@@ -364,7 +365,7 @@ pub struct Desk {
     /// Photos whose copy is still to be made.
     pub to_copy: RwSignal<usize>,
     /// Photos that found no room in the browser's storage, by their keys, and why.
-    uncopied: RwSignal<HashMap<String, String>>,
+    uncopied: RwSignal<HashMap<String, Fault>>,
     /// Bytes used and in all, where the browser says so.
     pub space: RwSignal<Option<(f64, f64)>>,
     /// Whether the browser keeps what is stored when space runs short.

@@ -27,7 +27,7 @@ pub fn handle(desk: Desk, key: &Key) -> bool {
 /// Keys of a single letter, which can be switched off.
 fn single(desk: Desk, key: &Key) -> bool {
     let open = desk.document.with_untracked(|d| !d.is_empty());
-    if key.modifiers.control || key.modifiers.alt || !desk.single_keys.get_untracked() || desk.help.get_untracked() {
+    if !letters(desk, key) {
         return false;
     }
     if key.key == "?" {
@@ -38,7 +38,17 @@ fn single(desk: Desk, key: &Key) -> bool {
         desk.go(Step::Tables);
         return true;
     }
-    matches!(desk.step.get_untracked(), Step::Targets | Step::Identities | Step::Tables) && measuring(desk, key)
+    in_measuring(desk) && measuring(desk, key)
+}
+
+/// Whether keys of a single letter act now.
+fn letters(desk: Desk, key: &Key) -> bool {
+    !key.modifiers.control && !key.modifiers.alt && desk.single_keys.get_untracked() && !desk.help.get_untracked()
+}
+
+/// Whether this is a step in which photos are measured.
+fn in_measuring(desk: Desk) -> bool {
+    matches!(desk.step.get_untracked(), Step::Targets | Step::Identities | Step::Tables)
 }
 
 /// What is done with the chosen point and its photos.
@@ -51,7 +61,6 @@ fn measuring(desk: Desk, key: &Key) -> bool {
         "n" | "N" => return answer(desk, |desk| desk.next_place()),
         "p" | "P" if untrack(|| desk.in_series()) => desk.finish_point(),
         "m" | "M" => desk.switch_series(),
-        "x" | "X" => return exclude(desk),
         "f" | "F" | "0" => desk.view_verb.set(Some(ViewVerb::Fit)),
         "1" => desk.view_verb.set(Some(ViewVerb::OneToOne)),
         "+" | "=" => desk.view_verb.set(Some(ViewVerb::Nearer)),
@@ -61,7 +70,16 @@ fn measuring(desk: Desk, key: &Key) -> bool {
     true
 }
 
-fn exclude(desk: Desk) -> bool {
+/// The keys of a table of numbers, where it has the focus itself; true when the key was used up.
+pub fn in_table(desk: Desk, key: &Key) -> bool {
+    key.on_table && in_measuring(desk) && exclude(desk, key)
+}
+
+/// Excludes or restores the chosen observation: where it is seen, and from nowhere else.
+fn exclude(desk: Desk, key: &Key) -> bool {
+    if !matches!(key.key.as_str(), "x" | "X") || !letters(desk, key) {
+        return false;
+    }
     match untrack(|| desk.chosen_observation()) {
         Some(o) => {
             desk.switch_observation(&o.photo, &o.point, !o.enabled);
@@ -78,6 +96,7 @@ pub fn in_photo(desk: Desk, key: &Key) -> bool {
     }
     match key.key.as_str() {
         "Delete" | "Backspace" => return remove(desk),
+        "x" | "X" => return exclude(desk, key),
         "PageDown" => desk.next_photo(1),
         "PageUp" => desk.next_photo(-1),
         "ArrowLeft" => return nudge(desk, key, [-1.0, 0.0]),

@@ -1,12 +1,40 @@
-//! What a RAW was measured on, in a sentence or two.
+//! What a photo was measured in, in a sentence or two: a RAW's sites, or what the camera has done to the picture.
 
-use sightline::detection::{Colour, Measured, MeasuredOn};
+use sightline::detection::{Colour, Measured, MeasuredOn, PictureReport};
 
 use crate::format;
 use crate::i18n::text;
 
-/// Which sites, their noise, and what the file says of its lens.
-pub fn sentence(measured: &Measured) -> String {
+/// Shares below this are not worth a word.
+const WORTH: f64 = 0.005;
+/// Growth of standard errors that is worth one.
+const GROWN: f64 = 1.05;
+
+/// A share in percent, where it is worth a word.
+fn percent(share: f64) -> Option<String> {
+    (share > WORTH).then(|| format::fixed(100.0 * share, 0))
+}
+
+/// What the camera has done to the picture, each with what that means for the measurement; nothing of one of which nothing is known.
+pub fn picture_sentence(picture: &PictureReport) -> String {
+    let noise = format::fixed(picture.noise, 1);
+    let parts = [
+        percent(picture.sharpening)
+            .map(|percent| text::picture_sharpened(percent, format::fixed(picture.sharpening_radius, 1))),
+        percent(picture.clipped_bright).map(text::picture_overexposed),
+        percent(picture.clipped_dark).map(text::picture_black),
+        percent(picture.compression).map(text::picture_compressed),
+        (picture.noise > 0.0).then(|| match picture.noise_correlation {
+            factor if factor > GROWN => text::picture_shared_noise(&noise, format::fixed(factor, 1)),
+            _ => text::picture_noise(&noise),
+        }),
+    ];
+    let what = parts.into_iter().flatten().collect::<Vec<_>>().join("; ");
+    if what.is_empty() { what } else { text::picture_sentence(what) }
+}
+
+/// Which sites, their noise, how many are over-exposed, and what the file says of its lens.
+pub fn sentence(measured: &Measured, picture: &PictureReport) -> String {
     let colour = measured.colour.map_or("", colour);
     let pattern = measured.pattern.clone().unwrap_or_default();
     let on = match measured.on {
@@ -20,10 +48,12 @@ pub fn sentence(measured: &Measured) -> String {
         (None, Some(read)) => Some(text::measured_read_noise(format::fixed(read, 1))),
         _ => None,
     };
+    // Black is inside a sensor's scale: only at its bright end samples are clipped.
+    let overexposed = percent(picture.clipped_bright).map(text::measured_overexposed);
     let hot = measured.hot_sites.filter(|count| *count > 0).map(|count| text::measured_hot(format::count(count)));
     let corrections =
         (!measured.corrections.is_empty()).then(|| text::measured_corrections(measured.corrections.join(", ")));
-    [Some(on), noise, hot, corrections].into_iter().flatten().collect::<Vec<_>>().join(" ")
+    [Some(on), noise, overexposed, hot, corrections].into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
 fn colour(colour: Colour) -> &'static str {
@@ -36,5 +66,73 @@ fn colour(colour: Colour) -> &'static str {
         Colour::Yellow => text::site_yellow(),
         Colour::White => text::site_white(),
         Colour::Emerald => text::site_emerald(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::i18n::{Language, in_language};
+
+    fn told(picture: &PictureReport) -> [String; 2] {
+        [Language::English, Language::Korean].map(|language| in_language(language, || picture_sentence(picture)))
+    }
+
+    #[test]
+    fn all_that_a_camera_did_is_told_with_its_consequence_in_one_sentence() {
+        let picture = PictureReport {
+            sharpening: 0.8,
+            sharpening_radius: 1.04,
+            clipped_dark: 0.04,
+            clipped_bright: 0.031,
+            compression: 0.342,
+            noise: 2.06,
+            noise_correlation: 1.32,
+            softened: true,
+        };
+        let [english, korean] = told(&picture);
+        assert_eq!(
+            english,
+            "This photo: sharpened by 80 % (radius 1.0 px), undone where that hides targets; 3 % over-exposed, left out of the fits; \
+             4 % without light, where nothing shows; compressed (borders of blocks 34 % stronger), its traces counted as noise; \
+             noise 2.1 grey levels, shared by neighbouring pixels, which makes the standard errors 1.3 times as large."
+        );
+        assert_eq!(
+            korean,
+            "이 사진: 선명화 80 %(반경 1.0 px), 이 때문에 표적이 가려지는 곳은 되돌려 측정함; 밝은 쪽 포화 3 %, 적합에서 제외함; \
+             어두운 쪽 포화 4 %, 그곳에서는 아무것도 보이지 않음; 압축(블록 경계의 차이가 34 % 큼), 그 흔적은 잡음으로 계산함; \
+             잡음 2.1 계조, 이웃 화소끼리 상관되어 표준오차가 1.3배로 커짐."
+        );
+    }
+
+    #[test]
+    fn what_a_camera_did_not_do_is_not_told() {
+        let laboratory =
+            PictureReport { noise: 1.5, noise_correlation: 1.0, clipped_bright: 0.004, ..Default::default() };
+        assert_eq!(
+            told(&laboratory),
+            [
+                "This photo: noise 1.5 grey levels, from which the standard errors follow.",
+                "이 사진: 잡음 1.5 계조, 표준오차는 이 잡음에 따른 값임."
+            ]
+        );
+        // A picture that is not softened may have been compressed all the same; a drawing has no noise.
+        let compressed = PictureReport { compression: 0.08, ..PictureReport::default() };
+        assert_eq!(
+            told(&compressed),
+            [
+                "This photo: compressed (borders of blocks 8 % stronger), its traces counted as noise.",
+                "이 사진: 압축(블록 경계의 차이가 8 % 큼), 그 흔적은 잡음으로 계산함.",
+            ]
+        );
+        assert_eq!(told(&PictureReport::default()), ["", ""]);
+    }
+
+    #[test]
+    fn a_raw_is_told_how_much_of_it_is_over_exposed() {
+        let measured = Measured { format: "DNG".into(), bits: 12, colour: Some(Colour::Green), ..Measured::default() };
+        let told = |clipped_bright| sentence(&measured, &PictureReport { clipped_bright, ..PictureReport::default() });
+        assert!(told(0.12).ends_with(". 12 % over-exposed, left out of the fits."), "{}", told(0.12));
+        assert!(!told(0.001).contains("over-exposed"));
     }
 }

@@ -25,6 +25,8 @@ pub enum Style {
     Selected,
     Doubtful,
     Rejected,
+    /// Said to be hidden, and not measured: quiet, for nothing can be done with it.
+    Hidden,
 }
 
 /// Something drawn over the photo; places and sizes in its pixels.
@@ -414,6 +416,9 @@ pub fn PhotoView(
                 <span class="key selected"></span>{text::legend_selected}
                 <span class="key doubtful"></span>{text::legend_doubtful}
                 <span class="key rejected"></span>{text::legend_excluded}
+                <Show when=move || marks.with(|marks| marks.iter().any(|mark| mark.style == Style::Hidden))>
+                    <span class="key occluded"></span>{text::reason_occluded}
+                </Show>
                 <span class="gap"></span>
                 <span class="how">{text::click_measures}</span>
             </div>
@@ -451,6 +456,7 @@ fn draw_marks(surface: &Surface, placement: Placement, marks: &[Mark], layers: L
         Style::Selected => surface.pen(&surface.token("--p-accent"), 2.0, &[]),
         Style::Doubtful => surface.pen(&surface.token("--p-warn"), 2.0, &[]),
         Style::Rejected => surface.pen(&surface.token("--p-bad"), 1.5, &[3.0, 2.0]),
+        Style::Hidden => surface.pen(&surface.token("--photo-ink-2"), 1.25, &[2.0, 4.0]),
     };
     let visible = |x: f64, y: f64| x > -50.0 && y > -50.0 && x < surface.width + 50.0 && y < surface.height + 50.0;
     let on_screen = |mark: &&Mark| {
@@ -458,7 +464,7 @@ fn draw_marks(surface: &Surface, placement: Placement, marks: &[Mark], layers: L
         visible(x, y)
     };
     let shown = marks.iter().filter(on_screen).collect::<Vec<_>>();
-    for style in [Style::Measured, Style::Rejected, Style::Doubtful, Style::Selected] {
+    for style in [Style::Hidden, Style::Measured, Style::Rejected, Style::Doubtful, Style::Selected] {
         pen(style);
         let drawn = layers.ellipses || style == Style::Selected;
         for mark in shown.iter().filter(|m| drawn && m.style == style) {
@@ -491,7 +497,7 @@ fn draw_labels(surface: &Surface, placement: Placement, marks: &[&Mark]) {
     let order = |m: &&&Mark| match m.style {
         Style::Selected => 0,
         Style::Doubtful | Style::Rejected => 1,
-        Style::Measured => 2 + usize::from(!m.strong),
+        Style::Measured | Style::Hidden => 2 + usize::from(!m.strong),
     };
     let mut sorted = marks.iter().filter(|m| m.label.is_some()).collect::<Vec<_>>();
     sorted.sort_by_key(order);
@@ -514,7 +520,7 @@ fn draw_labels(surface: &Surface, placement: Placement, marks: &[&Mark]) {
             Style::Selected => surface.chip(label, at, &surface.token("--p-accent"), "#06262a"),
             Style::Doubtful => surface.label(label, at, true, &surface.token("--p-warn"), &outline),
             Style::Rejected => surface.label(label, at, false, &surface.token("--p-bad"), &outline),
-            Style::Measured => {
+            Style::Measured | Style::Hidden => {
                 let colour = if mark.strong { &ink } else { &quiet };
                 surface.label(label, at, mark.strong, colour, &outline);
             }

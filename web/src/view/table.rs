@@ -10,6 +10,7 @@ use leptos::html::Div;
 use leptos::prelude::*;
 
 use super::icon::{Glyph, Icon};
+use super::keys;
 use crate::browser::{event, page};
 use crate::edit::natural;
 use crate::format;
@@ -296,6 +297,9 @@ pub fn NumberTable(
         if let (true, "a" | "A", true, Some(kind)) = (key.on_table, key.key.as_str(), key.modifiers.control, kind) {
             e.prevent_default();
             desk.selection.update(|s| s.mark_all(kind, keys().into_iter().collect()));
+        }
+        if keys::in_table(desk, &key) {
+            e.prevent_default();
         }
     };
     let sort_by = move |column: usize| {

@@ -1,7 +1,7 @@
 //! Step 2: targets found in the photos, shown as what they are, each with its centre, sigma and outline.
 
 use leptos::prelude::*;
-use sightline::detection::{Channel, CodeNote, Codes, Method, PictureReport, Polarity, PolarityChoice, Reason, Target};
+use sightline::detection::{Channel, CodeNote, Codes, Detection, Method, Polarity, PolarityChoice, Reason, Target};
 use sightline::ring_code::Family;
 
 use super::apart::ColoursApart;
@@ -73,7 +73,7 @@ pub fn Targets() -> impl IntoView {
     }
 }
 
-fn current(desk: Desk) -> Option<std::sync::Arc<sightline::detection::Detection>> {
+fn current(desk: Desk) -> Option<std::sync::Arc<Detection>> {
     let photo = desk.selection.with(|s| s.photo.clone())?;
     desk.document.with(|d| d.detections.get(&photo).cloned())
 }
@@ -92,7 +92,22 @@ fn target_marks(desk: Desk) -> Vec<Mark> {
         strong: t.code.is_some(),
         style: if Some(t.id) == chosen { Style::Selected } else { Style::Measured },
     };
-    detection.targets.iter().map(mark).chain(spot_mark(desk)).collect()
+    detection.targets.iter().map(mark).chain(hidden_marks(&detection)).chain(spot_mark(desk)).collect()
+}
+
+/// Places at which something hides too much of a target to measure it.
+fn hidden_marks(detection: &Detection) -> impl Iterator<Item = Mark> {
+    let hidden = detection.rejected_blobs.iter().filter(|blob| blob.reason == Reason::Occluded);
+    hidden.map(|blob| Mark {
+        u: blob.u,
+        v: blob.v,
+        major: blob.diameter,
+        minor: blob.diameter,
+        angle: 0.0,
+        label: None,
+        strong: false,
+        style: Style::Hidden,
+    })
 }
 
 /// A choice among named values.
@@ -300,8 +315,8 @@ fn PictureNote() -> impl IntoView {
     let sentence = move || {
         let Some(d) = current(desk) else { return String::new() };
         let measured = match &d.measured {
-            Some(measured) => super::measured::sentence(measured),
-            None => picture_sentence(&d.picture),
+            Some(measured) => super::measured::sentence(measured, &d.picture),
+            None => super::measured::picture_sentence(&d.picture),
         };
         let photo = desk.selection.with(|s| s.photo.clone());
         let corrections = desk.files.with(|files| {
@@ -318,32 +333,6 @@ fn PictureNote() -> impl IntoView {
         <Show when=move || !sentence().is_empty()>
             <p class="note" data-result="picture">{sentence}</p>
         </Show>
-    }
-}
-
-/// Shares below this are not worth a word.
-const WORTH: f64 = 0.005;
-/// Growth of standard errors that is worth one.
-const GROWN: f64 = 1.05;
-
-/// One sentence; none for a photo of which nothing is known.
-fn picture_sentence(picture: &PictureReport) -> String {
-    if picture.noise <= 0.0 && !picture.softened {
-        return String::new();
-    }
-    let percent = |share: f64| format::fixed(100.0 * share, 0);
-    let parts = [
-        (picture.sharpening > 0.0)
-            .then(|| text::picture_sharpened(percent(picture.sharpening), format::fixed(picture.sharpening_radius, 1))),
-        (picture.clipped_bright > WORTH).then(|| text::picture_overexposed(percent(picture.clipped_bright))),
-        (picture.clipped_dark > WORTH).then(|| text::picture_black(percent(picture.clipped_dark))),
-        (picture.softened && picture.compression > 0.0).then(|| text::picture_compressed().to_owned()),
-        Some(text::picture_noise(format::fixed(picture.noise, 1))),
-    ];
-    let what = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
-    match picture.noise_correlation {
-        factor if factor > GROWN => text::picture_shared(what, format::fixed(factor, 1)),
-        _ => text::picture_plain(what),
     }
 }
 
@@ -388,5 +377,22 @@ fn reason_words(reason: Reason) -> &'static str {
         Reason::Occluded => text::reason_occluded(),
         Reason::CodeRing => text::reason_code_ring(),
         Reason::NoFit => text::reason_no_fit(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sightline::detection::Rejected;
+
+    use super::*;
+
+    #[test]
+    fn of_what_was_rejected_the_hidden_targets_are_marked_at_their_places() {
+        let blob = |u: f64, reason| Rejected { u, v: 20.0, diameter: 14.0, reason };
+        let rejected_blobs =
+            vec![blob(1.0, Reason::NotAnEllipse), blob(5.0, Reason::Occluded), blob(9.0, Reason::CodeRing)];
+        let marks = hidden_marks(&Detection { rejected_blobs, ..Detection::default() }).collect::<Vec<_>>();
+        let [mark] = &marks[..] else { panic!("{marks:?}") };
+        assert_eq!((mark.u, mark.v, mark.major, mark.minor, mark.style), (5.0, 20.0, 14.0, 14.0, Style::Hidden));
     }
 }
