@@ -208,7 +208,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
         _ => code::read(&plane, target, target.quality.edge_width, families),
     });
     let taken_back = left.len() - code::keep_ringed(&mut detection, left, family);
-    code::settle_grounds(&mut detection, found - taken_back);
+    code::settle_grounds(&mut detection, found - taken_back, family);
     code::drop_parts(&mut detection, family);
     detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
     let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);

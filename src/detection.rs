@@ -267,8 +267,8 @@ pub struct Target {
     /// Family of that code.
     #[serde(default)]
     pub code_family: Option<Family>,
-    /// What else the ring may be: every reading of a ring that is not safely one code, and under "auto" the readings of a ring
-    /// that is a code of several families. Empty otherwise.
+    /// What else the ring may be: every reading of a ring that is not safely one code, and under "auto" what other families read in it,
+    /// safely or in doubt: other photos may show that it is of theirs. Empty otherwise.
     #[serde(default)]
     pub code_candidates: Vec<CodeCandidate>,
     /// How good the image is.
@@ -289,7 +289,7 @@ impl Target {
         self.code_candidates.iter().find(safe).map(|c| c.number).or(own)
     }
 
-    /// Takes its code as one of this family, or as none; how else it was read stays among its candidates.
+    /// Takes its code as one of this family, or as none; how else it was read stays among its candidates, and is why it is none.
     pub fn settle_code(&mut self, family: Family) {
         let code = self.code_in(family);
         if let (Some(number), Some(own)) = (self.code, self.code_family.filter(|own| *own != family)) {
@@ -297,6 +297,7 @@ impl Target {
             if !self.code_candidates.iter().any(|c| c.family == own && c.number == number) {
                 self.code_candidates.push(CodeCandidate { family: own, number, margin });
             }
+            (self.quality.code_margin, self.quality.code_note) = (None, Some(CodeNote::OtherFamily));
         }
         if let Some(c) = self.code_candidates.iter().find(|c| c.family == family && c.margin > 0.0) {
             (self.quality.code_margin, self.quality.code_note) = (Some(c.margin), None);

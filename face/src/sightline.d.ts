@@ -658,7 +658,7 @@ export interface Target {
   code: number | null;
   /** Family of the code. */
   code_family: CodeFamily | null;
-  /** The codes that the ring may be where it is not safely one, and the readings of a ring that is a code of several families. */
+  /** The codes that the ring may be where it is not safely one, and under "auto" those of other families; margin 0 where in doubt. */
   code_candidates: CodeCandidate[];
   quality: Quality;
 }

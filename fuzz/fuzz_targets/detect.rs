@@ -6,6 +6,7 @@ use libfuzzer_sys::fuzz_target;
 use sightline::detect::{detect, detect_photo, measure_all, measure_at, measure_in_photo};
 use sightline::detection::{Channel, Codes, DetectOptions, Method, PolarityChoice, Target};
 use sightline::image::{GreyView, SamplesView};
+use sightline::ring_code::Family;
 
 /// The first bytes choose the options, the others are the picture.
 fn options(head: &[u8]) -> DetectOptions {
@@ -15,8 +16,11 @@ fn options(head: &[u8]) -> DetectOptions {
         method: [Method::LeastSquares, Method::Ellipse, Method::Intensity, Method::Gradient][usize::from(at(0) % 4)],
         polarity: [PolarityChoice::Auto, PolarityChoice::Bright, PolarityChoice::Dark][usize::from(at(1) % 3)],
         channel: [Channel::Grey, Channel::Red, Channel::Green, Channel::Blue][usize::from(at(2) % 4)],
-        codes: [Codes::None, Codes::Ring12, Codes::Ring14, Codes::Ring16, Codes::Ring20, Codes::Auto]
-            [usize::from(at(3) % 6)],
+        codes: match usize::from(at(3) % 10) {
+            0 => Codes::None,
+            1 => Codes::Auto,
+            family => Family::ALL[family - 2].into(),
+        },
         min_diameter: if at(4) & 1 == 0 { 5.0 } else { number(5) },
         max_diameter: if at(4) & 2 == 0 { 400.0 } else { number(9) },
         min_axis_ratio: if at(4) & 4 == 0 { 0.29 } else { f64::from(at(13)) / 255.0 },

@@ -43,14 +43,14 @@ fn reading(target: &Target, family: Family) -> Reading {
     }
 }
 
-/// The families that read, or leave in doubt, every ring that any family reads safely, and the number of such rings.
+/// The families that read, or leave in doubt, every ring that any family reads safely, one at least safely, and the number of such rings.
 fn explaining(photos: &[PhotoTargets]) -> (Vec<Family>, usize) {
     let safe = |target: &&Target| target.code.is_some() || target.code_candidates.iter().any(|c| c.margin > 0.0);
     let rings: Vec<&Target> = photos.iter().flat_map(|photo| &photo.targets).filter(safe).collect();
-    let named: BTreeSet<Family> = rings
-        .iter()
-        .flat_map(|ring| ring.code_family.into_iter().chain(ring.code_candidates.iter().map(|c| c.family)))
-        .collect();
+    let safely =
+        |ring: &Target| ring.code_candidates.iter().filter(|c| c.margin > 0.0).map(|c| c.family).collect::<Vec<_>>();
+    let named: BTreeSet<Family> =
+        rings.iter().flat_map(|ring| ring.code_family.into_iter().chain(safely(ring))).collect();
     let explains = |family: &Family| rings.iter().all(|ring| !matches!(reading(ring, *family), Reading::Nothing));
     (named.into_iter().filter(explains).collect(), rings.len())
 }
@@ -117,7 +117,7 @@ pub fn name_coded(photos: &[PhotoTargets], family: Option<Family>) -> Coded {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::detection::CodeCandidate;
+    use crate::detection::{CodeCandidate, CodeNote};
     use crate::matching::target;
     #[test]
     fn codes_name_targets_and_duplicates_are_doubtful() {
@@ -162,6 +162,23 @@ mod tests {
         assert_eq!(points, ["5", "9"]);
         assert_eq!((together.doubtful.len(), together.doubtful[0].reason), (1, Doubt::CodeUnclear));
         assert_eq!(together.doubtful[0].points, ["3", "4"]);
+    }
+
+    #[test]
+    fn a_family_in_which_every_ring_is_in_doubt_is_not_asked_about() {
+        use Family::{Ring12, Ring20};
+        let doubtful = [(Ring20, 70, 0.0), (Ring20, 77, 0.0)];
+        let mut read = Target { code: Some(5), code_family: Some(Ring12), ..ring(&doubtful) };
+        let alone = name_coded(&photos(vec![vec![read.clone()]]), None);
+        assert_eq!((alone.family, &alone.families[..]), (Some(Ring12), &[Ring12][..]));
+        // taken as one of 20 bits the ring is a question, and as one of 12 again a code
+        read.quality.code_margin = Some(0.7);
+        read.settle_code(Ring20);
+        assert_eq!((read.code, read.code_family, read.quality.code_margin), (None, None, None));
+        assert_eq!(read.quality.code_note, Some(CodeNote::OtherFamily));
+        read.settle_code(Ring12);
+        assert_eq!((read.code, read.code_family, read.quality.code_note), (Some(5), Some(Ring12), None));
+        assert_eq!(read.quality.code_margin, Some(0.7));
     }
 
     #[test]

@@ -3,7 +3,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use super::drawing::Shape;
 use super::*;
-use crate::ring_code::{distance, smallest_rotation};
+use crate::ring_code::distance;
 
 fn made(options: SheetOptions) -> Sheets {
     target_sheets(&options).expect("sheets")
@@ -56,7 +56,9 @@ fn codes_offered_first_keep_their_distance() {
     assert!(counts.windows(2).all(|pair| pair[0].distance > pair[1].distance && pair[0].count < pair[1].count));
 }
 
-/// The drawn sectors, read back from their angles, are the code; nothing but the target stands in its clear ground.
+/// The drawn sectors, read back from their angles, are the code, its least significant bit first counter-clockwise from three o'clock: a
+/// turned print is read the same, but it is not what its maker prints. A spot is where the design has one, and nothing but the target
+/// stands in its clear ground.
 #[test]
 fn what_is_drawn_is_the_code_and_has_clear_ground() {
     for family in Family::ALL {
@@ -67,6 +69,7 @@ fn what_is_drawn_is_the_code_and_has_clear_ground() {
             for target in &sheets.targets {
                 let page = &sheets.pages[target.sheet - 1];
                 let mut code = 0;
+                let mut spots = Vec::new();
                 for shape in &page.shapes {
                     let near = |at: &[f64; 2]| (at[0] - target.at[0]).hypot(at[1] - target.at[1]);
                     match shape {
@@ -75,6 +78,10 @@ fn what_is_drawn_is_the_code_and_has_clear_ground() {
                             let n = family.bits();
                             let [from, to] = turns.map(|turn| (turn * f64::from(n)).round() as u32);
                             (from..to).for_each(|k| code |= 1 << (n - 1 - k % n));
+                        }
+                        // what covers the dot
+                        Shape::Disc { at, radius, grey } if near(at) < 1e-9 && *radius < 3.0 => {
+                            spots.push([*radius / 3.0, *grey]);
                         }
                         Shape::Line { ends, .. } => {
                             assert!(ends.iter().all(|end| near(end) > ring[1] + CLEAR * 3.0 - 1e-9));
@@ -88,8 +95,11 @@ fn what_is_drawn_is_the_code_and_has_clear_ground() {
                         _ => {}
                     }
                 }
-                let read = family.number(smallest_rotation(code, family.bits()));
-                assert_eq!(read, target.number, "{family:?} {code:b}");
+                let number = target.number.expect("a code");
+                assert_eq!(code, family.codes()[number as usize - 1], "{family:?} {code:b}");
+                assert_eq!(code & 1, 1, "{family:?}: the first sector is set");
+                let (spot, paper) = (family.design().spot(), f64::from(u8::from(ground == Ground::Paper)));
+                assert_eq!(spots, if spot > 0.0 { vec![[spot, paper]] } else { Vec::new() }, "{family:?}");
             }
         }
     }

@@ -6,13 +6,20 @@ use super::outline_of;
 use crate::detect::acceptance::code::{BEYOND, SPOT};
 use crate::detect::outline::Outline;
 use crate::detect::search::census::forget_rejected;
-use crate::detection::{Detection, Reason, Rejected, Target};
+use crate::detection::{CodeCandidate, Detection, Reason, Rejected, Target};
 use crate::ring_code::{Design, Family};
 
 /// A dot with the ring around it, of a code that was read or of none: among codes of a family what has all of a ring but a number is one.
 fn ringed(target: &Target, family: Option<Family>) -> Option<(Outline, Design)> {
     let note = target.quality.code_note.and(family);
     target.code_family.or(note).map(|family| (outline_of(target), family.design()))
+}
+
+/// The families of which a target's ring is a code, or may be. Where the photo's codes are of one, doubts in another tell only what the
+/// photos together are.
+fn families(target: &Target, family: Option<Family>) -> impl Iterator<Item = Family> {
+    let counts = move |c: &&CodeCandidate| c.margin > 0.0 || family.is_none_or(|family| family == c.family);
+    target.code_family.into_iter().chain(target.code_candidates.iter().filter(counts).map(|c| c.family))
 }
 
 /// Takes out what lies within a ring, in a photo whose codes are of this family: nothing but its sectors and what they leave fits there.
@@ -36,7 +43,7 @@ pub(crate) fn drop_parts(detection: &mut Detection, family: Option<Family>) {
 
 /// Leaves of the targets in this range only those with a ring that is read, or may be, as a code; how many.
 pub(crate) fn keep_ringed(detection: &mut Detection, range: Range<usize>, family: Option<Family>) -> usize {
-    let is_ringed = |target: &Target| ringed(target, family).is_some() || !target.code_candidates.is_empty();
+    let is_ringed = |target: &Target| ringed(target, family).is_some() || families(target, family).next().is_some();
     let kept: Vec<Target> = detection.targets.drain(range.clone()).filter(is_ringed).collect();
     let count = kept.len();
     kept.iter().for_each(|target| forget_rejected(detection, target));
@@ -48,12 +55,9 @@ pub(crate) fn keep_ringed(detection: &mut Detection, range: Range<usize>, family
 ///
 /// Of concentric outlines detection takes the inner one. The outer ones of tiny ones come here as `grounds`: they were read
 /// together with the targets, which they follow from index `from` on.
-pub(crate) fn settle_grounds(detection: &mut Detection, from: usize) {
+pub(crate) fn settle_grounds(detection: &mut Detection, from: usize, family: Option<Family>) {
     let grounds = detection.targets.split_off(from.min(detection.targets.len()));
-    let has_spot = |target: &Target| {
-        let families = target.code_family.into_iter().chain(target.code_candidates.iter().map(|c| c.family));
-        families.into_iter().any(|family| family.design().spot() > 0.0)
-    };
+    let has_spot = |target: &Target| families(target, family).any(|family| family.design().spot() > 0.0);
     let (discs, others): (Vec<_>, Vec<_>) = grounds.into_iter().partition(has_spot);
     let targets = detection.targets.iter().filter(|target| has_spot(target));
     let outlines: Vec<_> = discs.iter().chain(targets).map(outline_of).collect();

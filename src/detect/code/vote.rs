@@ -83,7 +83,6 @@ fn enter(target: &mut Target, families: &[Family], readings: Vec<Reading>, chose
     target.code_candidates.clear();
     let several = readings.iter().filter(|reading| matches!(reading, Reading::Code { .. })).count() > 1;
     for (k, (family, reading)) in families.iter().zip(readings).enumerate() {
-        let mine = chosen.is_none_or(|chosen| chosen == k);
         match reading {
             Reading::Plain => {}
             Reading::Code { number, margin } => {
@@ -95,14 +94,15 @@ fn enter(target: &mut Target, families: &[Family], readings: Vec<Reading>, chose
                     target.code_candidates.push(CodeCandidate { family: *family, number, margin });
                 }
             }
-            // doubts in families that the photo's other rings rule out are none
-            Reading::Doubtful { numbers, margin, note } if mine => {
+            Reading::Doubtful { numbers, margin, note } => {
                 let candidate = |number| CodeCandidate { family: *family, number, margin: 0.0 };
                 target.code_candidates.extend(numbers.into_iter().map(candidate));
-                target.quality.code_margin = Some(margin);
-                target.quality.code_note = Some(note);
+                // what this photo rules out other photos may show to be the family of all; it explains nothing here
+                if chosen.is_none_or(|chosen| chosen == k) {
+                    target.quality.code_margin = Some(margin);
+                    target.quality.code_note = Some(note);
+                }
             }
-            Reading::Doubtful { .. } => {}
             Reading::NoCode { margin, note } => {
                 if chosen == Some(k) || families.len() == 1 {
                     target.quality.code_margin = Some(margin);
@@ -122,6 +122,7 @@ mod tests {
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
     use super::*;
+    use crate::matching::{PhotoTargets, name_coded};
 
     #[test]
     fn an_uncertain_ring_is_a_code_among_codes_if_it_is_the_only_one_of_its_number() {
@@ -141,5 +142,53 @@ mod tests {
         };
         assert_eq!(settled(COMPANY as u32), [true, false, false, false, false]);
         assert_eq!(settled(COMPANY as u32 - 1), [false; 5]);
+    }
+
+    /// A photo whose targets read like this, and the family that it shows.
+    fn photo(rings: &[&[(Family, Reading)]]) -> (Option<Family>, Vec<Target>) {
+        let mut targets: Vec<_> = rings.iter().map(|_| crate::matching::target(10.0, 20.0, Some(1))).collect();
+        let family = read_all(&mut targets, Codes::Auto, |k, _, families| {
+            let reading = |family: &Family| rings[k].iter().find(|(own, _)| own == family).map(|(_, r)| r.clone());
+            families.iter().map(|family| reading(family).unwrap_or(Reading::Plain)).collect()
+        });
+        (family, targets)
+    }
+
+    #[test]
+    fn doubts_in_families_that_a_photo_rules_out_count_among_all_photos() {
+        let code = |number| Reading::Code { number, margin: 0.9 };
+        let doubtful = |numbers| Reading::Doubtful { numbers, margin: 0.3, note: CodeNote::BetweenLevels };
+        for [own, other] in [[Family::Ring12, Family::Ring20], [Family::Metashape20, Family::Metashape12]] {
+            let both = [(own, code(5)), (other, doubtful(vec![70, 77]))];
+            let (family, first) = photo(&[&both, &[(other, doubtful(vec![80]))]]);
+            assert_eq!(family, Some(own));
+            let [ring, unclear] = &first[..] else { panic!("{first:?}") };
+            assert_eq!((ring.code, ring.code_family, ring.quality.code_note), (Some(5), Some(own), None));
+            assert_eq!(ring.quality.code_margin, Some(0.9));
+            let candidates: Vec<_> = ring.code_candidates.iter().map(|c| (c.family, c.number, c.margin)).collect();
+            assert_eq!(candidates, [(other, 70, 0.0), (other, 77, 0.0)]);
+            // the photo's own family sees no ring there
+            assert_eq!((unclear.code, unclear.quality.code_note, unclear.quality.code_margin), (None, None, None));
+            assert_eq!((unclear.code_candidates[0].family, unclear.code_candidates[0].number), (other, 80));
+
+            let (family, second) = photo(&[&[(other, code(9))]]);
+            assert_eq!(family, Some(other));
+            let named = |photos: &[&Vec<Target>]| {
+                let photo = |(k, targets): (usize, &&Vec<Target>)| PhotoTargets {
+                    photo: k.to_string(),
+                    targets: targets.to_vec(),
+                };
+                name_coded(&photos.iter().enumerate().map(photo).collect::<Vec<_>>(), None)
+            };
+            assert_eq!(named(&[&first]).family, Some(own));
+            let coded = named(&[&first, &second]);
+            assert_eq!((coded.family, coded.observations.len()), (Some(other), 1));
+            let asked: Vec<_> = coded.doubtful.iter().map(|d| d.points.join(" ")).collect();
+            assert_eq!(asked, ["70 77", "80"]);
+            // what is no ring of the other family is left unexplained
+            let (_, apart) = photo(&[&both, &[(own, code(6))]]);
+            let coded = named(&[&apart, &second]);
+            assert!(coded.family.is_none() && coded.families.is_empty(), "{coded:?}");
+        }
     }
 }

@@ -103,6 +103,8 @@ pub struct CodedPatch {
     pub family: Family,
     /// The number, where one is there: that of the code, or of one that another ring looks exactly like.
     pub number: Option<u32>,
+    /// Radii and arcs of the rings in the dot's colour that are not whole.
+    rings: Vec<([f64; 2], Vec<[f64; 2]>)>,
     pub size: usize,
     pub samples: Vec<u8>,
     /// Centre of the dot's ellipse, and its diameter as seen straight on.
@@ -123,6 +125,11 @@ pub struct CodedPatch {
 impl CodedPatch {
     pub fn view(&self) -> GreyView<'_> {
         GreyView::new(self.size, self.size, SamplesView::U8(&self.samples)).expect("a picture")
+    }
+
+    /// The number that one of its rings has as a code of a family, whoever drew it.
+    pub fn number_in(&self, family: Family) -> Option<u32> {
+        self.rings.iter().find_map(|(radii, arcs)| same_drawing(*radii, arcs, family))
     }
 
     /// The dot as a perfect measurement would report it.
@@ -420,6 +427,12 @@ pub fn coded_patch(kind: Kind, family: Family, curve: Curve, random: &mut Unifor
         kind,
         family,
         number,
+        rings: drawing
+            .bands
+            .into_iter()
+            .filter(|(_, _, level)| *level == 1.0)
+            .map(|(radii, arcs, _)| (radii, arcs))
+            .collect(),
         size,
         samples,
         u: u - sine * shift,

@@ -21,7 +21,7 @@ use crate::store::selection::observation_key;
 
 type Action = fn(&mut Document);
 
-fn target(id: u32, u: f64, v: f64) -> Target {
+pub fn target(id: u32, u: f64, v: f64) -> Target {
     Target {
         id,
         u,

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use leptos::prelude::*;
-use sightline::detection::{Codes, Target};
+use sightline::detection::Target;
 use sightline::exchange::mark_points;
 use sightline::matching::{Mark, Matching, Snapped, snap};
 use sightline::project::{Observation, Sigma};
@@ -74,10 +74,7 @@ impl Desk {
             return;
         };
         let mut options = self.detect_options.get_untracked();
-        // One ring may be a code of several families: its name is known only where the family is.
-        if options.codes == Codes::Auto {
-            options.codes = Codes::None;
-        }
+        options.codes = self.document.with_untracked(|d| targets::codes_of_one(options.codes, &d.rings));
         let photo = photo.to_owned();
         let on_outcome = move |outcome: Outcome<Measure>| match outcome {
             Outcome::Done(Some(target), _) => self.add_target(&photo, target),

@@ -14,7 +14,7 @@ use super::picking::{Question, chosen_target, pick, spot_mark};
 use super::shell::TitleBar;
 use super::strip::Strip;
 use crate::browser::event;
-use crate::edit::targets::Rings;
+use crate::edit::targets::{Rings, candidates};
 use crate::format;
 use crate::i18n::{Text, printing, text};
 use crate::store::{Desk, Step};
@@ -82,6 +82,7 @@ fn current(desk: Desk) -> Option<std::sync::Arc<Detection>> {
 fn target_marks(desk: Desk) -> Vec<Mark> {
     let Some(detection) = current(desk) else { return spot_mark(desk).into_iter().collect() };
     let chosen = chosen_target(desk).map(|t| t.id);
+    let rings = desk.document.with(|d| d.rings.clone());
     let mark = |t: &Target| Mark {
         u: t.u,
         v: t.v,
@@ -90,7 +91,11 @@ fn target_marks(desk: Desk) -> Vec<Mark> {
         angle: t.angle,
         label: t.code.map(|code| code.to_string()),
         strong: t.code.is_some(),
-        style: if Some(t.id) == chosen { Style::Selected } else { Style::Measured },
+        style: match t.id {
+            id if Some(id) == chosen => Style::Selected,
+            _ if !candidates(t, &rings).is_empty() => Style::Doubtful,
+            _ => Style::Measured,
+        },
     };
     detection.targets.iter().map(mark).chain(hidden_marks(&detection)).chain(spot_mark(desk)).collect()
 }
@@ -283,9 +288,8 @@ pub fn TargetDetails() -> impl IntoView {
                             Polarity::Bright => text::polarity_bright(),
                             Polarity::Dark => text::polarity_dark(),
                         }}</dd>
-                        {(t.code.is_none() && !t.code_candidates.is_empty()).then(|| {
-                            let numbers = t.code_candidates.iter().map(|c| c.number.to_string()).collect::<Vec<_>>();
-                            view! { <dt>{text::code_candidates}</dt><dd>{numbers.join(", ")}</dd> }
+                        {Some(candidates_words(&t, &desk.document.with(|d| d.rings.clone()))).filter(|words| !words.is_empty()).map(|words| {
+                            view! { <dt>{text::code_candidates}</dt><dd data-result="code-candidates">{words}</dd> }
                         })}
                         {t.quality.code_note.map(|note| view! { <dt>{text::code_not_read}</dt><dd data-result="code-note">{move || code_note(note)}</dd> })}
                         <dt>{text::edge_width}</dt><dd>{format!("{} px", format::fixed(t.quality.edge_width, 2))}</dd>
@@ -294,6 +298,15 @@ pub fn TargetDetails() -> impl IntoView {
             }
         }}
     }
+}
+
+/// What a ring may be, family by family; empty where a code was read, or there is no ring.
+fn candidates_words(target: &Target, rings: &Rings) -> String {
+    let of = |(family, numbers): (Family, Vec<u32>)| {
+        let numbers = numbers.iter().map(u32::to_string).collect::<Vec<_>>();
+        format!("{}: {}", family_words(family), numbers.join(", "))
+    };
+    candidates(target, rings).into_iter().map(of).collect::<Vec<_>>().join("; ")
 }
 
 fn code_note(note: CodeNote) -> &'static str {
