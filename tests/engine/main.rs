@@ -29,6 +29,7 @@ mod before {
 /// Pictures: what is found, how well, and what is not.
 mod detect {
     mod codes;
+    mod formats;
     mod ordinary;
     mod panel;
     mod photos;

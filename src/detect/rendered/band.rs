@@ -322,11 +322,6 @@ impl Band {
         self.right(contrast)
     }
 
-    /// The residuals.
-    pub(super) fn residuals(&self) -> &[f32] {
-        &self.residual
-    }
-
     /// Variance of the residuals of the pixels that count, and how many pixels they are.
     pub fn variance(&self) -> (f64, usize) {
         let used = self.kept.iter().filter(|kept| **kept > 0.0).count();
