@@ -7,7 +7,7 @@ use crate::detection::{DetectOptions, Detection, Target};
 use crate::error::{Error, Place, Reason, Result};
 use crate::image::{Grey, GreyView, Samples, SamplesView};
 
-/// Finds and measures the targets of a photo, in its whole rows.
+/// Finds and measures the targets of a photo, in its whole rows. How it was taken is what the largest part of them shows.
 ///
 /// # Errors
 /// As for [`detect`].
@@ -25,11 +25,16 @@ pub fn detect_photo(photo: &Photo, options: &DetectOptions) -> Result<Detection>
         damaged_rows: photo.damaged_rows.clone(),
         ..Detection::default()
     };
+    let mut largest = 0;
     for [first, last] in whole_rows(photo) {
         let mut part = detect(&rows(&photo.grey, first, last)?, options)?;
         let down = first as f64;
         part.targets.iter_mut().for_each(|target| target.v += down);
         part.rejected_blobs.iter_mut().for_each(|blob| blob.v += down);
+        if last - first > largest {
+            largest = last - first;
+            all.picture = part.picture;
+        }
         all.targets.append(&mut part.targets);
         all.rejected_blobs.append(&mut part.rejected_blobs);
         for (reason, count) in part.rejected {

@@ -1,11 +1,12 @@
-//! Photo files of real cameras.
+//! Photo files of real cameras, and what a damaged one still shows.
 
 use crate::support::data::data;
-use sightline::decode::{Size, grey, photo, picture, size};
-use sightline::detect::{detect_photo, measure_in_photo};
+use crate::support::painter::{Canvas, Spot};
+use sightline::decode::{Photo, Size, grey, photo, picture, size};
+use sightline::detect::{detect, detect_photo, measure_in_photo};
 use sightline::detection::{Channel, DetectOptions, Target};
 use sightline::exif;
-use sightline::image::Samples;
+use sightline::image::{Grey, Samples};
 
 #[test]
 fn a_camera_jpeg_with_exif() {
@@ -55,4 +56,33 @@ fn half_a_photo_gives_the_targets_of_its_half() {
         let gone = measure_in_photo(&photo(&bytes[..bytes.len() / 2], channel).unwrap(), 100.0, 1650.0, &options);
         assert_eq!(gone.unwrap_err().code(), "invalid");
     }
+}
+
+#[test]
+fn a_damaged_photo_is_reported_by_its_largest_whole_part() {
+    const WIDTH: usize = 320;
+    let part = |height: usize, noise: f64| {
+        let mut canvas = Canvas::new(WIDTH, height, 200.0);
+        for k in 0..12 {
+            let (u, v) = (40.0 + 80.0 * f64::from(k % 4), 30.0 + 45.0 * f64::from(k / 4));
+            canvas.add(&Spot { u, v, a: 9.0, b: 9.0, angle: 0.0, contrast: -150.0 }, 0.8);
+        }
+        canvas.expose(noise, 5)
+    };
+    let parts = [part(160, 2.0), part(48, 0.0), part(240, 5.0)];
+    let bytes = |grey: &Grey| match &grey.samples {
+        Samples::U8(samples) => samples.clone(),
+        Samples::U16(_) => Vec::new(),
+    };
+    let samples = Samples::U8(parts.iter().flat_map(bytes).collect());
+    let photo = Photo { grey: Grey { width: WIDTH, height: 448, samples }, damaged_rows: vec![[160, 208]] };
+    let options = DetectOptions::default();
+    let found = detect_photo(&photo, &options).unwrap();
+    assert_eq!(found.targets.len(), 24);
+    let [smaller, _, larger] = parts.map(|part| detect(&part.view().unwrap(), &options).unwrap().picture);
+    assert!(
+        (smaller.noise / 2.0 - 1.0).abs() < 0.25 && (larger.noise / 5.0 - 1.0).abs() < 0.25,
+        "{smaller:?} {larger:?}"
+    );
+    assert_eq!(found.picture, larger);
 }
