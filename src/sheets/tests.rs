@@ -81,7 +81,7 @@ fn what_is_drawn_is_the_code_and_has_clear_ground() {
                         }
                         // what covers the dot
                         Shape::Disc { at, radius, grey } if near(at) < 1e-9 && *radius < 3.0 => {
-                            spots.push([*radius / 3.0, *grey]);
+                            spots.push([*radius, *grey]);
                         }
                         Shape::Line { ends, .. } => {
                             assert!(ends.iter().all(|end| near(end) > ring[1] + CLEAR * 3.0 - 1e-9));
@@ -99,7 +99,7 @@ fn what_is_drawn_is_the_code_and_has_clear_ground() {
                 assert_eq!(code, family.codes()[number as usize - 1], "{family:?} {code:b}");
                 assert_eq!(code & 1, 1, "{family:?}: the first sector is set");
                 let (spot, paper) = (family.design().spot(), f64::from(u8::from(ground == Ground::Paper)));
-                assert_eq!(spots, if spot > 0.0 { vec![[spot, paper]] } else { Vec::new() }, "{family:?}");
+                assert_eq!(spots, if spot > 0.0 { vec![[spot * 3.0, paper]] } else { Vec::new() }, "{family:?}");
             }
         }
     }
