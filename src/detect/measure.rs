@@ -21,6 +21,7 @@ use super::picture::noise::Levels;
 use super::rendered::band::{Prior, Region};
 use super::rendered::colour::Colour;
 use super::rendered::fit::{self, Workspace};
+use super::rendered::neighbours::Neighbours;
 use super::rendered::strip::Strip;
 use crate::detection::{DetectOptions, Method, Polarity, Quality, Reason, Target};
 use crate::image::{Plane, Sample};
@@ -231,11 +232,34 @@ impl<'a, T: Sample> Measure<'a, T> {
     /// Which pixels count depends on the outline around which they are chosen. An approach from the edges finds
     /// the outline; the fit takes its pixels around that outline, so that the way to it leaves no trace in the result.
     fn least_squares(&mut self, found: &Found) -> Result<(fit::Fit, Surround), Reason> {
+        let measured = self.fitted(found, f64::INFINITY);
+        match (measured, self.crowded(found, &measured)) {
+            (Err(_), Some(outer)) => self.fitted(found, outer).or(measured),
+            _ => measured,
+        }
+    }
+
+    /// Distance from the rim, in pixels, up to which a whole outline without a fit has ground of its own, where others stand near by.
+    fn crowded(&self, found: &Found, measured: &Result<(fit::Fit, Surround), Reason>) -> Option<f64> {
+        let failed = matches!(measured, Err(Reason::NoFit | Reason::NotAnEllipse));
+        if !failed || found.ellipse.occluded > limits::WHOLE {
+            return None;
+        }
+        let outline = &found.ellipse.outline;
+        let (b, noise) = (outline.semi_axes().1, self.noise(&found.surround));
+        let near = Neighbours::of(&self.plane, outline, found.blur, found.surround.contrast, b, noise)?;
+        let outer = near.nearest_of_several()? - found.blur;
+        (outer > limits::NARROW && outer < half_band(found.blur).min(b)).then_some(outer)
+    }
+
+    /// The fit with ground up to `outer` pixels from the rim.
+    fn fitted(&mut self, found: &Found, outer: f64) -> Result<(fit::Fit, Surround), Reason> {
+        let surround = Surround { outer: outer.min(found.surround.outer), ..found.surround };
         let whole = found.kept.iter().all(|kept| *kept);
         let region = Region {
             outline: found.ellipse.outline,
             half_band: half_band(found.blur),
-            surround: &found.surround,
+            surround: &surround,
             kept: &found.kept,
             whole,
             strip: strip(&found.ellipse.outline, &found.kept, found.blur),
@@ -249,7 +273,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         let all = vec![true; edge::ray_count(&outline)];
         let kept = if whole { &all } else { &found.kept };
         let mut surround = self.surround(&outline, blur, kept)?;
-        surround.contrast = contrast;
+        (surround.contrast, surround.outer) = (contrast, outer.min(surround.outer));
         let strip = strip(&outline, kept, blur);
         let last = Region { outline, half_band: half_band(blur), surround: &surround, kept, strip, ..region };
         let mut fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;

@@ -60,6 +60,14 @@ impl Neighbours {
         rays.iter().any(|begin| begin.height > 0.0).then_some(Self { rays, outline: *outline, blur })
     }
 
+    /// Distance of the nearest from the rim, in pixels, where there are several: what stands on one side alone may lie over the rim.
+    pub fn nearest_of_several(&self) -> Option<f64> {
+        let stands = |k: usize| self.rays[k % RAYS].height > 0.0;
+        let several = (0..RAYS).filter(|k| stands(k + 1) && !stands(*k)).count() > 1;
+        let distances = self.rays.iter().filter(|begin| begin.height > 0.0).map(|begin| begin.distance);
+        several.then(|| distances.fold(f64::INFINITY, |a, b| if a < b { a } else { b }))
+    }
+
     /// Their light at a place outside of the outline, as a share of the target's contrast.
     pub fn light(&self, x: f64, y: f64) -> f64 {
         let [c, s] = self.outline.normalised(x, y);
