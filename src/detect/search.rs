@@ -242,8 +242,8 @@ impl Blobs {
                     match most {
                         Some(outline) => self.partial.push(Candidate { outline, bright }),
                         None => {
-                            let mut enter = |outline| self.partial.push(Candidate { outline, bright });
-                            bulge::bulges(chain, limits, &mut enter);
+                            let bulges = bulge::bulges(chain, limits).into_iter();
+                            self.partial.extend(bulges.map(|outline| Candidate { outline, bright }));
                             self.parts.take(chain, bright, limits);
                         }
                     }

@@ -268,6 +268,17 @@ mod tests {
     }
 
     #[test]
+    fn a_bright_cable_takes_three_directions_where_a_sector_may_be_covered() {
+        let mut samples = picture(|x, y| x.hypot(y) < 10.0);
+        for (i, sample) in samples.iter_mut().enumerate() {
+            let [x, y] = [(i % SIZE) as f64 - 29.5, (i / SIZE) as f64 - 29.5];
+            *sample = if x > 6.0 && x.hypot(y) < 9.5 { 255 } else { (*sample).min(90) };
+        }
+        let even = |missing| look(&Plane::new(SIZE, SIZE, &samples), &disc(), true, 6.0, missing).unwrap().even;
+        assert_eq!([even(limits::COVERED - 1), even(limits::COVERED)], [false, true]);
+    }
+
+    #[test]
     fn a_stroke_comes_back_and_a_card_does_not() {
         let levels = DotLevels { dot: 200.0, background: 40.0 };
         let samples = picture(|x, y| x.hypot(y) < 10.0 || x.hypot(y) > 15.0);

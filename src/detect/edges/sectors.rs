@@ -121,6 +121,29 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_sector_beside_what_lies_far_off_is_not_promising() {
+        // a cover's own edge a few pixels inside, on 9 rays of 32; the others scatter, but for an even half of them
+        let outline = Outline::from_axes(100.3, 80.2, 20.0, 16.0, 0.4);
+        let mut edges = Edges::default();
+        edges.begin(&outline, 32);
+        for (k, rim) in crate::detect::ellipse::rays::rim_points(&outline, 32).enumerate() {
+            let off = match k {
+                2..11 => -4.4,
+                11..19 => 0.5 * (3.7 * k as f64).sin(),
+                _ => 0.02 * (5.1 * k as f64).sin(),
+            };
+            edges.set(k, [rim.x + off * rim.normal[0], rim.y + off * rim.normal[1]], 50.0, true);
+        }
+        let found = promising(&edges, &outline, &[0.15, 0.25, 0.35]);
+        assert!(!found.is_empty());
+        for (share, from) in found {
+            let rays = (32.0 * from).ceil() as usize..(32.0 * (from + share)).ceil() as usize;
+            let left = (2..11).filter(|k| !rays.contains(k) && !rays.contains(&(k + 32))).count();
+            assert!(left <= 3, "{share} from {from} leaves {left}");
+        }
+    }
+
+    #[test]
     fn what_a_sector_leaves_is_that_of_an_adjustment_without_it() {
         let wave = |k: usize| (1.7 * k as f64 + 0.3 * (k * k) as f64).sin();
         let row = |k: usize| (std::array::from_fn(|i| wave(6 * k + i)), 0.3 * wave(6 * k + 5));

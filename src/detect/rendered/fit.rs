@@ -195,7 +195,7 @@ pub(crate) fn fit<T: Sample>(
     let mut covariance = scatter::covariance(&cofactors, &lights, &flats);
     // what is left around a disturbance follows no light: the mean of all may tell more of it
     let mean = cofactors[(0, 0)] + cofactors[(1, 1)];
-    let variance = lights.variance();
+    let variance = if all_around { lights.variance() } else { variance };
     if dropped > 0 && mean * variance > covariance[0] + covariance[2] {
         covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
     }

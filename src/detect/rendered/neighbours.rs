@@ -117,12 +117,13 @@ mod tests {
 
     const BLUR: f64 = 1.2;
 
-    /// A dark disc of radius 5 on paper, and ink from 4 px beyond its right side on, all equally blurred.
-    fn picture(ink: bool) -> Vec<u8> {
+    /// A dark disc of radius 5 on paper, and ink from 4 px beyond its right side on, or both sides, all equally blurred.
+    fn picture(right: bool, left: bool) -> Vec<u8> {
         let below = |t: f64| f64::from(normal_distribution(f32x4::splat(t.clamp(-5.5, 5.5) as f32)).0.to_array()[0]);
         let level = |i: usize| {
             let [x, y] = [(i % 40) as f64 - 19.5, (i / 40) as f64 - 19.5];
-            let share = below((5.0 - x.hypot(y)) / BLUR) + if ink { below((x - 9.0) / BLUR) } else { 0.0 };
+            let ink = |there: bool, x: f64| if there { below((x - 9.0) / BLUR) } else { 0.0 };
+            let share = below((5.0 - x.hypot(y)) / BLUR) + ink(right, x) + ink(left, -x);
             (200.0 - 150.0 * share).round() as u8
         };
         (0..40 * 40).map(level).collect()
@@ -131,7 +132,7 @@ mod tests {
     #[test]
     fn ink_beside_a_disc_throws_the_light_of_its_rim() {
         let outline = Outline::from_axes(20.0, 20.0, 5.0, 5.0, 0.0);
-        let samples = picture(true);
+        let samples = picture(true, false);
         let plane = Plane::new(40, 40, &samples);
         let neighbours = Neighbours::of(&plane, &outline, BLUR, -150.0, 4.0, 1.0).expect("ink stands there");
         // nearer to it, where pixels are outliers, its rim comes out a fifth of a pixel too far: the disc's own light raises the least level
@@ -143,7 +144,20 @@ mod tests {
             assert_eq!(neighbours.light(15.0 - distance, 20.0), 0.0);
         }
         assert_eq!(neighbours.light(20.0, 20.0), 0.0);
-        let alone = picture(false);
+        let alone = picture(false, false);
         assert!(Neighbours::of(&Plane::new(40, 40, &alone), &outline, BLUR, -150.0, 4.0, 1.0).is_none());
+    }
+
+    #[test]
+    fn what_stands_on_several_sides_is_as_near_as_the_nearest_of_it() {
+        let outline = Outline::from_axes(20.0, 20.0, 5.0, 5.0, 0.0);
+        let nearest = |right, left| {
+            let samples = picture(right, left);
+            let around = Neighbours::of(&Plane::new(40, 40, &samples), &outline, BLUR, -150.0, 4.0, 1.0);
+            around.expect("ink stands there").nearest_of_several()
+        };
+        assert_eq!([nearest(true, false), nearest(false, true)], [None, None]);
+        let both = nearest(true, true).expect("two sides");
+        assert!((both - 4.0).abs() < 0.4, "{both}");
     }
 }

@@ -11,30 +11,28 @@ use crate::detect::acceptance::bulge::{NARROW, WIDER};
 use crate::detect::acceptance::partial::RUNS;
 use crate::detect::ellipse::outline::Outline;
 
-/// Gives the ellipses of the pieces of a chain that are wider than the rest of it; whether there are any.
-pub(crate) fn bulges(chain: &[Chord], limits: &Limits, found: &mut impl FnMut(Outline)) -> bool {
+/// The ellipses of the pieces of a chain that are wider than the rest of it.
+pub(crate) fn bulges(chain: &[Chord], limits: &Limits) -> Vec<Outline> {
+    let mut found = Vec::new();
     if chain.len() < 2 * RUNS {
-        return false;
+        return found;
     }
     let width = |chord: &Chord| chord.x1 - chord.x0;
     let mut widths: Vec<f32> = chain.iter().map(width).collect();
     widths.sort_unstable_by(f32::total_cmp);
-    let mut any = false;
     for share in NARROW {
         let narrow = WIDER * widths[(share * chain.len() as f64) as usize];
         // the whole of it was tested
         let wide = chain.chunk_by(|a, b| (width(a) > narrow) == (width(b) > narrow));
         for piece in wide.filter(|piece| piece.len() >= RUNS && piece.len() < chain.len() && width(&piece[0]) > narrow)
         {
-            let outline = blob::test(piece, limits).ok().or_else(|| partial::most(piece, limits));
-            any |= outline.is_some();
-            outline.into_iter().for_each(&mut *found);
+            found.extend(blob::test(piece, limits).ok().or_else(|| partial::most(piece, limits)));
         }
-        if any {
+        if !found.is_empty() {
             break;
         }
     }
-    any
+    found
 }
 
 #[cfg(test)]
@@ -59,12 +57,6 @@ mod tests {
         (0..200).filter_map(row).collect()
     }
 
-    fn found(chain: &[Chord]) -> Vec<Outline> {
-        let mut all = Vec::new();
-        assert_eq!(bulges(chain, &LIMITS, &mut |outline| all.push(outline)), !all.is_empty());
-        all
-    }
-
     #[test]
     fn a_target_on_a_cable_is_where_both_are_wide() {
         let truth = Outline::from_axes(100.3, 180.2, 20.0, 15.0, 0.6);
@@ -73,7 +65,7 @@ mod tests {
             for (lean, aside) in [(0.0, 0.0), (0.4, 0.0), (-0.3, 4.0)] {
                 let chain = joined(&[truth], truth.u + aside - lean * truth.v, lean, 3.0, rows.clone());
                 assert!(blob::test(&chain, &LIMITS).is_err());
-                let all = found(&chain);
+                let all = bulges(&chain, &LIMITS);
                 let [outline] = all[..] else { panic!("{rows:?} {lean} {aside}: {all:?}") };
                 let off = (outline.u - truth.u).hypot(outline.v - truth.v);
                 assert!(off < 1.0, "{rows:?} {lean} {aside}: {outline:?}");
@@ -84,7 +76,7 @@ mod tests {
     #[test]
     fn a_cable_may_run_across_several_targets() {
         let discs = [80.0, 160.0, 260.0].map(|v| Outline::from_axes(100.0, v + 0.3, 18.0, 18.0, 0.0));
-        let all = found(&joined(&discs, 101.0, 0.0, 3.0, 0.0..390.0));
+        let all = bulges(&joined(&discs, 101.0, 0.0, 3.0, 0.0..390.0), &LIMITS);
         assert_eq!(all.len(), 3, "{all:?}");
         for (outline, disc) in all.iter().zip(&discs) {
             assert!((outline.u - disc.u).hypot(outline.v - disc.v) < 0.5, "{outline:?}");
@@ -96,9 +88,9 @@ mod tests {
         let rows = |half: fn(usize) -> f32| -> Vec<Chord> {
             (0..60).map(|k| Chord::new(100.0 - half(k), 100.0 + half(k), 2.0 * k as f32 + 0.5, false)).collect()
         };
-        assert!(found(&rows(|_| 6.0)).is_empty());
-        assert!(found(&rows(|k| if k < 30 { 4.0 } else { 16.0 })).is_empty());
-        assert!(found(&rows(|k| if (20..40).contains(&k) { 18.0 } else { 4.0 })).is_empty());
-        assert!(found(&rows(|k| 2.0 + 0.3 * k as f32)).is_empty());
+        assert!(bulges(&rows(|_| 6.0), &LIMITS).is_empty());
+        assert!(bulges(&rows(|k| if k < 30 { 4.0 } else { 16.0 }), &LIMITS).is_empty());
+        assert!(bulges(&rows(|k| if (20..40).contains(&k) { 18.0 } else { 4.0 }), &LIMITS).is_empty());
+        assert!(bulges(&rows(|k| 2.0 + 0.3 * k as f32), &LIMITS).is_empty());
     }
 }

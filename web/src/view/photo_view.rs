@@ -25,7 +25,7 @@ pub enum Style {
     Selected,
     Doubtful,
     Rejected,
-    /// Said to be hidden, and not measured: quiet, for nothing can be done with it.
+    /// Said to be hidden, and not measured: thin, for little can be done with it, but seen on paper and on ink.
     Hidden,
 }
 
@@ -456,7 +456,7 @@ fn draw_marks(surface: &Surface, placement: Placement, marks: &[Mark], layers: L
         Style::Selected => surface.pen(&surface.token("--p-accent"), 2.0, &[]),
         Style::Doubtful => surface.pen(&surface.token("--p-warn"), 2.0, &[]),
         Style::Rejected => surface.pen(&surface.token("--p-bad"), 1.5, &[3.0, 2.0]),
-        Style::Hidden => surface.pen(&surface.token("--photo-ink-2"), 1.25, &[2.0, 4.0]),
+        Style::Hidden => surface.pen(&surface.token("--p-warn"), 1.25, &[3.0, 3.0]),
     };
     let visible = |x: f64, y: f64| x > -50.0 && y > -50.0 && x < surface.width + 50.0 && y < surface.height + 50.0;
     let on_screen = |mark: &&Mark| {
