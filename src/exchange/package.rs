@@ -133,7 +133,7 @@ pub fn read_from(mut source: impl Read + Seek) -> Result<(Package, BTreeMap<Stri
     let length = source.seek(SeekFrom::End(0)).map_err(unreadable)?;
     let mut source = BufReader::with_capacity(PIECE, source);
     source.rewind().map_err(unreadable)?;
-    if source.fill_buf().map_err(unreadable)?.trim_ascii_start().first() == Some(&b'{') {
+    if is_json(source.fill_buf().map_err(unreadable)?) {
         let content = unpack(&mut source, length, limits::DOCUMENT)?;
         return Ok((Package { project: super::document(&content)?, ..Package::default() }, BTreeMap::new()));
     }
@@ -205,6 +205,12 @@ const PHOTOS: &str = "photos/";
 
 /// Bytes that are read at a time.
 const PIECE: usize = 1 << 20;
+
+/// Whether a file begins as JSON does, in any encoding that texts have: behind its mark, and between the zeros of UTF-16.
+fn is_json(start: &[u8]) -> bool {
+    let mark = |byte: &u8| matches!(byte, 0 | 0xef | 0xbb | 0xbf | 0xff | 0xfe) || byte.is_ascii_whitespace();
+    start.iter().find(|byte| !mark(byte)) == Some(&b'{')
+}
 
 /// Whether an entry is part of a project.
 fn known(name: &str) -> bool {

@@ -38,6 +38,27 @@ fn what_is_written_is_read_again_bit_for_bit() {
 }
 
 #[test]
+fn a_document_is_opened_in_every_encoding_and_by_both_ways() {
+    let plain = format!("\r\n {}", String::from_utf8(json(&package().project).unwrap()).unwrap());
+    let little: Vec<u8> = plain.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let big: Vec<u8> = plain.encode_utf16().flat_map(u16::to_be_bytes).collect();
+    for bytes in [
+        plain.as_bytes().to_vec(),
+        [b"\xef\xbb\xbf", plain.as_bytes()].concat(),
+        [b"\xff\xfe", little.as_slice()].concat(),
+        [b"\xfe\xff", big.as_slice()].concat(),
+        little,
+        big,
+    ] {
+        let files = crate::exchange::Files::from([("p.json".to_owned(), bytes.clone())]);
+        assert_eq!(read(&bytes).unwrap().project, package().project, "{:x?}", &bytes[..6]);
+        assert_eq!(crate::exchange::import("sightline", &files).unwrap(), package().project);
+    }
+    let marked = [b"\xff\xfe", write(&package()).unwrap().as_slice()].concat();
+    assert!(!is_json(&marked) && !is_json(b"\xef\xbb\xbf[") && !is_json(b""));
+}
+
+#[test]
 fn targets_without_numbers_get_them_and_their_observations_too() {
     let mut old = package();
     let detection = old.targets.get_mut("1").unwrap();
