@@ -35,6 +35,7 @@ mod spatial;
 mod text;
 
 pub(crate) use text::disarmed;
+pub use text::{Row, pasted, quoted, rows};
 
 use std::collections::BTreeMap;
 

@@ -106,11 +106,10 @@ impl Separator {
     /// a decimal comma inside a number ("7 0,5 1,25 3").
     fn of(text: &str) -> Self {
         let rows = text::sample(text);
-        let any = |mark: char| rows.iter().filter(|row| row.contains(mark)).count() * 2 > rows.len();
-        if any('\t') {
+        if text::most(&rows, '\t') {
             return Self::Byte(b'\t');
         }
-        if any(';') {
+        if text::most(&rows, ';') {
             return Self::Byte(b';');
         }
         let decimal = |word: &str| match word.split_once(',') {
@@ -121,7 +120,7 @@ impl Separator {
             }
         };
         let spaced = |row: &&str| row.split_whitespace().count() >= 4 && row.split_whitespace().skip(1).all(decimal);
-        if any(',') && !rows.iter().all(spaced) { Self::Byte(b',') } else { Self::Blanks }
+        if text::most(&rows, ',') && !rows.iter().all(spaced) { Self::Byte(b',') } else { Self::Blanks }
     }
 }
 

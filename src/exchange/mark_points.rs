@@ -24,7 +24,7 @@ pub fn parse(text: &str) -> Result<Vec<Mark>> {
     Ok(observations(text)?.into_iter().map(mark).collect())
 }
 
-/// Reads measurements; fields are separated by commas, semicolons or blanks, lines that start with # or % are comments.
+/// Reads measurements; fields are separated by tabs, commas, semicolons or blanks, lines that start with # or % are comments.
 ///
 /// # Errors
 /// [`Error::Invalid`] with line and field, [`Error::Empty`] when there is no measurement.
@@ -109,6 +109,16 @@ mod tests {
             let text = write(&[mark.clone(), mark.clone()]);
             assert_eq!(observations(&text).unwrap(), [mark.clone(), mark], "{text}");
         }
+    }
+
+    #[test]
+    fn tables_with_tabs_have_names_with_blanks_and_sigmas_that_are_missing() {
+        let text = "photo\tpoint\tu\tv\tsigma\nP 1\t\"say \"\"a\"\"\"\t1.5\t2\t0.2\n\"P 1\"\ta b\t3\t4\t\n";
+        let marks = parse(text).unwrap();
+        let names: Vec<[&str; 2]> = marks.iter().map(|mark| [mark.photo.as_str(), mark.point.as_str()]).collect();
+        assert_eq!(names, [["P 1", "say \"a\""], ["P 1", "a b"]]);
+        assert_eq!(marks.iter().map(|mark| mark.sigma).collect::<Vec<_>>(), [0.2, DEFAULT_SIGMA]);
+        assert_eq!(parse("1\t2\t3\t4\n1\t\t3\t4\n").unwrap_err().place(), Place::line(2).with_field("point"));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What the text formats share: rows of fields, fields that are named when they are wrong.
 //!
-//! Commas and semicolons make a table that the csv crate reads as a whole, so that a quoted field may hold a separator or the
+//! Tabs, commas and semicolons make a table that the csv crate reads as a whole, so that a quoted field may hold a separator or the
 //! end of a line; fields separated by blanks are words.
 
 use std::borrow::Cow;
@@ -28,27 +28,37 @@ fn comment(line: &str) -> bool {
     line.is_empty() || line.starts_with(['#', '%'])
 }
 
-/// Rows of a text whose fields are separated by commas, semicolons or blanks; blank lines and comments
-/// (#, %) are left out. A line without the mark of the others is split by the one it has.
+/// Whether most lines have a mark.
+pub fn most(lines: &[&str], mark: char) -> bool {
+    2 * lines.iter().filter(|line| line.contains(mark)).count() > lines.len()
+}
+
+/// Rows of a text whose fields are separated by tabs, commas, semicolons or blanks; blank lines, comments (#, %) and empty fields at
+/// the end of a line are left out. A line without the mark of the others is split by the one it has.
 pub fn rows(text: &str) -> Vec<Row> {
     let lines = sample(text);
     let count = |mark| lines.iter().filter(|line| line.contains(mark)).count();
     let (commas, semicolons) = (count(','), count(';'));
-    if commas + semicolons == 0 {
-        return words(text);
-    }
-    let mut rows = table(text, if semicolons > commas { b';' } else { b',' });
+    let separator = match () {
+        () if most(&lines, '\t') => b'\t',
+        () if commas + semicolons == 0 => return words(text),
+        () if semicolons > commas => b';',
+        () => b',',
+    };
     let lines: Vec<&str> = text.lines().collect();
+    let mut rows = table(text, separator);
     for row in &mut rows {
-        let quoted = lines.get(row.line - 1).is_some_and(|line| line.trim_start().starts_with('"'));
-        if let ([single], false) = (row.fields.as_slice(), quoted) {
-            let other = |mark: char| single.split(mark).map(|field| field.trim().to_owned()).collect();
-            row.fields = match single {
-                single if single.contains(';') => other(';'),
-                single if single.contains(',') => other(','),
-                single => single.split_whitespace().map(str::to_owned).collect(),
-            };
+        if row.fields.len() == 1 {
+            let line = lines.get(row.line - 1).copied().unwrap_or_default();
+            let split = |mark| table(line, mark).pop().filter(|other| other.fields.len() > 1);
+            let quoted = line.trim_start().starts_with('"');
+            let blanks = || (!quoted).then(|| Row::words(row.line, line));
+            if let Some(other) = [b';', b',', b'\t'].into_iter().find_map(split).or_else(blanks) {
+                row.fields = other.fields;
+            }
         }
+        let held = row.fields.iter().rposition(|field| !field.is_empty()).map_or(0, |last| last + 1);
+        row.fields.truncate(held);
     }
     rows
 }
@@ -61,7 +71,15 @@ pub fn words(text: &str) -> Vec<Row> {
 
 /// Rows of a table with this separator; a quoted field may hold separators, quotes and ends of lines.
 pub fn table(text: &str, separator: u8) -> Vec<Row> {
-    let text = without_comments(text, separator);
+    records(&without_comments(text, separator), separator)
+}
+
+/// Rows of cells as spreadsheets copy them, separated by tabs; they have no comments, "#1" is a name there.
+pub fn pasted(text: &str) -> Vec<Row> {
+    records(text, b'\t')
+}
+
+fn records(text: &str, separator: u8) -> Vec<Row> {
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(separator)
         .has_headers(false)
@@ -211,6 +229,7 @@ mod tests {
         assert_eq!(fields("1 2;3"), [of(1, &["1 2", "3"])]);
         assert_eq!(fields("a\tb  c\n\n# d\ne f"), [of(1, &["a", "b", "c"]), of(4, &["e", "f"])]);
         assert_eq!(fields("1, 2\n3;4\n5 6\n"), [of(1, &["1", "2"]), of(2, &["3", "4"]), of(3, &["5", "6"])]);
+        assert_eq!(fields("1,2\n\"a;b\";3\n5\t6"), [of(1, &["1", "2"]), of(2, &["a;b", "3"]), of(3, &["5", "6"])]);
         assert_eq!(fields("a;b\nc;d\n1,2"), [of(1, &["a", "b"]), of(2, &["c", "d"]), of(3, &["1", "2"])]);
     }
 
@@ -224,6 +243,23 @@ mod tests {
         assert_eq!(rows[1].1, ["two\nlines\n# no comment", "say \"a\""]);
         assert_eq!(rows[2].1, ["5\" pipe", "2"]);
         assert_eq!(rows[3].1, ["a b"]);
+    }
+
+    #[test]
+    fn tables_with_tabs_keep_blanks_and_empty_fields() {
+        let text = "photo\tpoint\tu\r\n# a note\r\nP 1\t\t5,6\t\t\r\n\"a\tb\"\t\"say \"\"c\"\"\"\t7\r\n1 2 3\r\n";
+        let rows = fields(text);
+        assert_eq!(rows.iter().map(|row| row.0).collect::<Vec<_>>(), [1, 3, 4, 5], "{rows:?}");
+        assert_eq!(rows[1].1, ["P 1", "", "5,6"]);
+        assert_eq!(rows[2].1, ["a\tb", "say \"c\"", "7"]);
+        assert_eq!(rows[3].1, ["1", "2", "3"]);
+    }
+
+    #[test]
+    fn pasted_cells_are_no_comments() {
+        let rows = pasted("#1\ttwo words\t\n\n\"two\nlines\"\t%\n");
+        let cells: Vec<&[String]> = rows.iter().map(|row| row.fields.as_slice()).collect();
+        assert_eq!(cells, [["#1", "two words", ""].as_slice(), &["two\nlines", "%"]]);
     }
 
     #[test]

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use leptos::prelude::*;
+use sightline::adjustment::Criteria;
+use sightline::exchange;
 use sightline::project::Role;
 
 use super::document::{Change, Document};
@@ -84,14 +86,14 @@ impl Desk {
         self.tables.plan.set(None);
     }
 
-    /// The critical value of w of the result.
-    pub fn critical_w(self) -> f64 {
-        self.document.with(|d| d.current().map_or(3.29, |r| r.adjustment.criteria.w))
+    /// What the result is judged by; before there is one, what any would be.
+    pub fn criteria(self) -> Criteria {
+        self.document.with(|d| d.current().map_or_else(Criteria::default, |r| r.adjustment.criteria))
     }
 
     /// Rows of a sheet that are shown, in their order.
     pub fn shown_rows(self, sheet: &Sheet) -> Vec<u32> {
-        let (condition, critical, kind) = (self.tables.condition.get(), self.critical_w(), sheet.table.kind());
+        let (condition, critical, kind) = (self.tables.condition.get(), self.criteria().w, sheet.table.kind());
         let marked = match condition {
             Condition::Marked => self.selection.with(|s| s.marked(kind).cloned()).unwrap_or_default(),
             _ => Keys::new(),
@@ -327,10 +329,9 @@ fn read_cells(
     heading: impl Fn(Col) -> String,
 ) -> (Vec<(Cell, String)>, usize) {
     let columns = sheet.table.columns();
-    let lines = pasted.lines().map(|line| line.trim_end_matches('\r').split('\t').map(str::trim).collect::<Vec<_>>());
-    let lines = lines.filter(|line| line.iter().any(|cell| !cell.is_empty())).collect::<Vec<_>>();
+    let lines = exchange::pasted(pasted);
     let Some(first) = lines.first() else { return (Vec::new(), 0) };
-    let named = first.iter().map(|name| columns.iter().copied().find(|col| heading(*col) == *name));
+    let named = first.fields.iter().map(|name| columns.iter().copied().find(|col| heading(*col) == *name));
     let named = named.collect::<Vec<_>>();
     let value = |row: usize, col: Col| sheet.value(row, col).plain();
     let (mut cells, mut lost) = (Vec::new(), 0);
@@ -342,15 +343,15 @@ fn read_cells(
         for line in &lines[1..] {
             let part = |col: &Col| {
                 let at = named.iter().position(|n| n.as_ref() == Some(col));
-                at.and_then(|at| line.get(at)).map(|s| (*s).to_owned()).unwrap_or_default()
+                at.and_then(|at| line.fields.get(at)).cloned().unwrap_or_default()
             };
             let Some(&row) = places.get(&names.iter().map(part).collect::<Vec<_>>()) else {
                 lost += 1;
                 continue;
             };
-            for (typed, col) in line.iter().zip(&named) {
+            for (typed, col) in line.fields.iter().zip(&named) {
                 let Some(col) = col.filter(|col| sheet.table.editable(*col) && !names.contains(col)) else { continue };
-                cells.push((Cell { key: sheet.key(row), col, typed: (*typed).to_owned() }, value(row, col)));
+                cells.push((Cell { key: sheet.key(row), col, typed: typed.clone() }, value(row, col)));
             }
         }
     } else {
@@ -359,10 +360,10 @@ fn read_cells(
                 lost += 1;
                 continue;
             };
-            for (typed, col) in line.iter().zip(columns.iter().skip(col)) {
+            for (typed, col) in line.fields.iter().zip(columns.iter().skip(col)) {
                 if sheet.table.editable(*col) || !typed.is_empty() {
                     let key = sheet.key(row as usize);
-                    cells.push((Cell { key, col: *col, typed: (*typed).to_owned() }, value(row as usize, *col)));
+                    cells.push((Cell { key, col: *col, typed: typed.clone() }, value(row as usize, *col)));
                 }
             }
         }
@@ -420,6 +421,9 @@ mod tests {
         assert_eq!((typed(cells), lost), (vec![("c".into(), Col::Role, "check".into())], 1));
         let (cells, lost) = read_cells(&sheet, &[2, 0], (1, 2), "check\r\ntie\n", heading);
         assert_eq!((typed(cells), lost), (vec![("a".into(), Col::Role, "check".into())], 1));
+        let (cells, lost) = read_cells(&sheet, &[0, 1], (0, 0), "#1\tcheck\n\"two words\"\t\n", heading);
+        let names = typed(cells).into_iter().map(|cell| cell.2).collect::<Vec<_>>();
+        assert_eq!((names, lost), (vec!["#1".into(), "check".into(), "two words".into()], 0));
         assert_eq!(read_cells(&sheet, &[0], (0, 0), "\n \n", heading), (Vec::new(), 0));
     }
 }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::exchange::comparator;
-use sightline::exchange::{Files, control_csv, encoding};
+use sightline::exchange::{Files, Row, control_csv, encoding, rows};
 use sightline::project::Project;
 
 use super::{Asking, Desk, Problem, Reason, Step, Until};
@@ -27,12 +27,12 @@ const MOST: f64 = 0.5;
 
 /// The ways in which a text can be read beside this project: none for prose, two where nothing tells them apart.
 pub fn readings(text: &str, project: &Project) -> Vec<Reading> {
-    let rows: Vec<Vec<&str>> = text.lines().filter_map(fields).collect();
+    let rows = rows(text);
     let Some(first) = rows.first() else { return Vec::new() };
     let names = |wanted: &[&str]| {
         wanted.iter().all(|name| {
-            first.iter().any(|field| {
-                let word = field.split(['[', '(', ' ']).next().unwrap_or_default().trim_matches('"');
+            first.fields.iter().any(|field| {
+                let word = field.split(['[', '(', ' ']).next().unwrap_or_default();
                 word.eq_ignore_ascii_case(name)
             })
         })
@@ -43,7 +43,7 @@ pub fn readings(text: &str, project: &Project) -> Vec<Reading> {
     if control && names(&["x", "y", "z"]) {
         return vec![Reading::Control];
     }
-    let marks: Vec<&Vec<&str>> = rows.iter().filter(|row| is_mark(row)).collect();
+    let marks: Vec<&Row> = rows.iter().filter(|row| is_mark(row)).collect();
     let some = !marks.is_empty() && marks.len() as f64 >= MOST * rows.len() as f64;
     match (some, control) {
         (false, false) => Vec::new(),
@@ -54,8 +54,8 @@ pub fn readings(text: &str, project: &Project) -> Vec<Reading> {
 }
 
 /// Rows of four or five numbers are both. Control points are named once; marks name photos, and points without decimals.
-fn told_apart(marks: &[&Vec<&str>], project: &Project) -> Vec<Reading> {
-    let firsts: BTreeSet<&str> = marks.iter().map(|row| row[0]).collect();
+fn told_apart(marks: &[&Row], project: &Project) -> Vec<Reading> {
+    let firsts: BTreeSet<&str> = marks.iter().map(|row| row.fields[0].as_str()).collect();
     if firsts.len() < marks.len() {
         return vec![Reading::Marks];
     }
@@ -63,23 +63,14 @@ fn told_apart(marks: &[&Vec<&str>], project: &Project) -> Vec<Reading> {
         project.photos.iter().any(|p| p.id == name || p.file.split('.').next() == Some(name) || p.file == name)
     };
     let foreign = !project.photos.is_empty() && !firsts.iter().any(|name| photo(name));
-    let decimal = marks.iter().any(|row| row[1].contains(['.', ',']));
+    let decimal = marks.iter().any(|row| row.fields[1].contains(['.', ',']));
     if foreign || decimal { vec![Reading::Control] } else { vec![Reading::Marks, Reading::Control] }
 }
 
-/// The fields of a line; none for blank lines and comments.
-fn fields(line: &str) -> Option<Vec<&str>> {
-    let line = line.trim();
-    if line.is_empty() || line.starts_with(['#', '%']) {
-        return None;
-    }
-    let marked = line.contains([',', ';', '\t']);
-    Some(if marked { line.split([',', ';', '\t']).map(str::trim).collect() } else { line.split_whitespace().collect() })
-}
-
-fn is_mark(row: &[&str]) -> bool {
-    let number = |field: &&str| field.parse::<f64>().is_ok_and(f64::is_finite);
-    (4..=6).contains(&row.len()) && !row[0].is_empty() && !row[1].is_empty() && row[2..].iter().all(number)
+fn is_mark(row: &Row) -> bool {
+    let number = |field: &String| field.parse::<f64>().is_ok_and(f64::is_finite);
+    let fields = &row.fields;
+    (4..=6).contains(&fields.len()) && !fields[0].is_empty() && !fields[1].is_empty() && fields[2..].iter().all(number)
 }
 
 impl Desk {
@@ -233,6 +224,20 @@ mod tests {
         assert_eq!(readings("id;X [m];Y [m];Z [m]\nA;1,5;2,5;3,5\nB;1,0;2,0;3,0\n", &p), [Reading::Control]);
         assert_eq!(readings("point\tX\tY\tZ\tsigma\n1\t1.5\t2.5\t3.5\t0.01\n", &p), [Reading::Control]);
         assert_eq!(readings("# a comment\n\nCP1 control 1.0 2.0 3.0\n", &p), [Reading::Control]);
+    }
+
+    #[test]
+    fn names_in_tables_hold_blanks_and_separators() {
+        let p = project();
+        assert_eq!(readings("1,\"5,6\",848.1,514.9\n1,\"5,7\",917.7,520.0\n", &p), [Reading::Marks]);
+        assert_eq!(readings("1\tP 1\t848.1\t514.9\n1\tP 2\t917.7\t520.0\t\n", &p), [Reading::Marks]);
+        assert_eq!(readings("\"X 1\";1,5;2,5;3,5\n\"X 2\";1,0;2,0;3,0\n", &p), [Reading::Control]);
+        assert_eq!(
+            readings("\"id\"\t\"X [m]\"\t\"Y [m]\"\t\"Z [m]\"\nP 1\t1\t2\t3\nP 2\t1\t2\t4\n", &p),
+            [Reading::Control]
+        );
+        // A photo without a name is no mark.
+        assert!(!readings("\t5\t848.1\t514.9\n\t6\t917.7\t520.0\n", &p).contains(&Reading::Marks));
     }
 
     #[test]

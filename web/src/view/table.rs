@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use leptos::html::Div;
 use leptos::prelude::*;
+use sightline::exchange::quoted;
 
 use super::icon::{Glyph, Icon};
 use super::keys;
@@ -418,8 +419,9 @@ pub fn to_tsv(columns: &[Column], rows: &[Row]) -> String {
         let unit = if c.unit.is_empty() { String::new() } else { format!(" [{}]", c.unit) };
         format!("{}{}{unit}", (c.name)(), c.low)
     });
+    let cells = |row: &Row| row.cells.iter().map(|c| quoted(&c.plain(), '\t').into_owned()).collect::<Vec<_>>();
     let mut lines = vec![heading.collect::<Vec<_>>().join("\t")];
-    lines.extend(rows.iter().map(|row| row.cells.iter().map(Cell::plain).collect::<Vec<_>>().join("\t")));
+    lines.extend(rows.iter().map(|row| cells(row).join("\t")));
     lines.join("\n")
 }
 
@@ -475,5 +477,9 @@ mod tests {
         assert_eq!((&*cell.shown(), &*cell.plain()), ("\u{2212}1\u{2009}234.5", "-1234.5"));
         let unchecked = Cell { instead: Some("unchecked"), ..cell };
         assert_eq!((&*unchecked.shown(), &*unchecked.plain()), ("unchecked", "-1234.5"));
+        let names = ["\"a\" b", "two\tparts", "a b"];
+        let copied = to_tsv(&[], &names.map(|name| row(name, Some(1.5))));
+        assert_eq!(copied, "\n\"\"\"a\"\" b\"\t1.5\n\"two\tparts\"\t1.5\na b\t1.5");
+        assert_eq!(sightline::exchange::pasted(&copied).iter().map(|r| &*r.fields[0]).collect::<Vec<_>>(), names);
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use leptos::html::{Div, Input};
 use leptos::prelude::*;
+use sightline::exchange::quoted;
 
 use super::{heading, plain_heading, shown, table_words};
 use crate::browser::{event, page};
@@ -23,8 +24,8 @@ type Typing = Option<(u32, Col, Option<String>)>;
 pub fn copied(desk: Desk, sheet: &Sheet, rows: &[u32]) -> String {
     let marked = untrack(|| desk.marked(sheet.table.kind()));
     let columns = sheet.table.columns();
-    let line =
-        |row: &u32| columns.iter().map(|c| sheet.value(*row as usize, *c).plain()).collect::<Vec<_>>().join("\t");
+    let cell = |row: &u32, col: &Col| quoted(&sheet.value(*row as usize, *col).plain(), '\t').into_owned();
+    let line = |row: &u32| columns.iter().map(|c| cell(row, c)).collect::<Vec<_>>().join("\t");
     let mut lines = vec![columns.iter().map(|c| plain_heading(desk, sheet.table, *c)).collect::<Vec<_>>().join("\t")];
     let wanted = |row: &&u32| marked.len() < 2 || marked.contains(&sheet.key(**row as usize));
     lines.extend(rows.iter().filter(wanted).map(line));
