@@ -43,11 +43,11 @@ impl Solved<'_> {
             given
         };
         let used = additional::all(self.network).into_iter().enumerate().map(one);
-        used.chain(self.network.left_out.iter().map(|key| self.left_out(*key))).collect()
+        used.chain(self.network.left_out.iter().filter_map(|key| self.left_out(*key))).collect()
     }
 
-    /// A given observation that takes no part any more, beside the adjusted value.
-    fn left_out(&self, key: Key) -> GivenObservation {
+    /// A given observation that takes no part any more, beside the adjusted value; it was one by its standard error in the document.
+    fn left_out(&self, key: Key) -> Option<GivenObservation> {
         let network = self.network;
         let point = |index: usize| network.points.iter().position(|p| p.index == index).map(|k| self.point(k));
         let difference = |adjusted: Option<f64>, given: Option<f64>| Some(adjusted? - given?);
@@ -77,15 +77,15 @@ impl Solved<'_> {
                 (difference(adjusted.flatten(), given.interior.get(parameter)), given.sigma.get(&parameter).copied())
             }
         };
-        GivenObservation {
+        Some(GivenObservation {
             what: key.named(self.project),
             residual,
-            sigma: sigma.unwrap_or_default(),
+            sigma: sigma?,
             reliability: None,
             effect: None,
             effect_point: None,
             weight: None,
             enabled: false,
-        }
+        })
     }
 }
