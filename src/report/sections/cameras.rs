@@ -7,9 +7,6 @@ use crate::report::html::{Html, Table};
 use crate::report::names::{parameter_name, parameter_unit};
 use crate::report::number::{compact, count, decimals_for, fixed, maybe, power, with_sigma};
 
-/// Correlations from here on are told.
-const TOLD: f64 = 0.9;
-
 pub fn write(context: &Context, html: &mut Html) {
     let all = &context.adjustment.cameras;
     for (k, adjusted) in all.iter().enumerate() {
@@ -85,9 +82,10 @@ fn one(context: &Context, adjusted: &AdjustedCamera, html: &mut Html) {
     if !zero.is_empty() {
         html.note(&words.held_at_zero(&zero.join(", ")));
     }
-    let pairs = correlated(adjusted);
+    let limit = context.adjustment.criteria.high_correlation;
+    let pairs = correlated(adjusted, limit);
     if !pairs.is_empty() {
-        html.note(&words.correlated(&fixed(TOLD, 1), &pairs.join("; ")));
+        html.note(&words.correlated(&fixed(limit, 2), &pairs.join("; ")));
     }
 }
 
@@ -154,14 +152,14 @@ fn colours_held(context: &Context, camera: &Camera, html: &mut Html) {
     }
 }
 
-fn correlated(adjusted: &AdjustedCamera) -> Vec<String> {
+fn correlated(adjusted: &AdjustedCamera, limit: f64) -> Vec<String> {
     let names = &adjusted.correlation.names;
     let shown = |k: usize| names[k].parse().map_or_else(|_| names[k].clone(), |p| parameter_name(p).to_owned());
     let mut pairs = Vec::new();
     for i in 0..names.len() {
         for j in 0..i {
             let r = adjusted.correlation.matrix.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0);
-            if r.abs() >= TOLD {
+            if r.abs() > limit {
                 pairs.push(format!("{} – {} {}", shown(j), shown(i), fixed(r, 2)));
             }
         }

@@ -115,7 +115,7 @@ translate! { Korean {
     ratio: "|값| / σ";
     held: "고정";
     held_at_zero(names): "추정하지 않고 0으로 둔 것: {names}.";
-    correlated(limit, pairs): "상관 {limit} 이상: {pairs}. 이 매개변수들은 함께만 알려지며 따로는 불확실합니다.";
+    correlated(limit, pairs): "상관 {limit} 초과: {pairs}. 이 매개변수들은 함께만 알려지며 따로는 불확실합니다.";
     principal_distance: "주점거리";
     principal_point: "주점";
     radial_distortion: "방사왜곡";

@@ -158,7 +158,7 @@ declare! { desk {
     check_rms_means: "Differences at points that were known beforehand and took no part: the one independent statement about accuracy here.";
     check_rms_do: "Much larger than the standard deviations say: scale, datum or the check points themselves are wrong, or the camera is.";
     w_name: "w, test of a single observation";
-    w_means: "A residual in units of its own standard deviation. Beyond 3.29 it is one in a thousand by chance.";
+    w_means(limit): "A residual in units of its own standard deviation. Beyond {limit} it is one in a thousand by chance.";
     w_do: "Look at the largest in its photo first: one gross error enlarges others. Measure again or exclude, then adjust again.";
     r_name: "r, redundancy number";
     r_means: "The share of an error in this observation that shows in its own residual: 1 all of it, 0 nothing.";
@@ -170,7 +170,7 @@ declare! { desk {
     significance_means: "A parameter of distortion in units of its standard deviation: below 2 it is not told from 0.";
     significance_do: "Hold it at 0, or keep it where the calibration is to be used elsewhere.";
     correlation_name: "Correlation";
-    correlation_means: "How far two parameters stand in for each other: beyond 0.95 they are known together only.";
+    correlation_means(limit): "How far two parameters stand in for each other: beyond {limit} they are known together only.";
     correlation_do: "Roll the camera by 90°, vary depth and direction; or hold the finer of the two.";
 
     // Photo view
@@ -840,8 +840,8 @@ declare! { desk {
     correlated(first, second): "{first} and {second} are hardly told apart";
     correlated_body(camera): "Camera {camera}: hold one of them, or add rolled photos and depth.";
     camera_against_photos(n): "In {n} {n:photo|photos} the camera is hardly told apart from their orientation";
-    camera_against_photos_body(photos):
-        "Correlations over 0.95. Coordinates suffer little as long as the camera is used as adjusted; rolled photos and depth would part them ({photos}).";
+    camera_against_photos_body(limit, photos):
+        "Correlations over {limit}. Coordinates suffer little as long as the camera is used as adjusted; rolled photos and depth would part them ({photos}).";
     low_redundancy(n): "{n} {n:observation is|observations are} hardly checked by others";
     low_redundancy_body(names): "Redundancy numbers below 0.1: an error there would stay unseen ({names}).";
     two_rays(points): "Measure in a third photo: {points}";

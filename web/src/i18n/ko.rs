@@ -152,7 +152,7 @@ translate! { Korean desk {
     check_rms_means: "미리 알고 있으나 조정에 쓰지 않은 점에서의 차이이며, 정확도에 대한 유일한 독립적 진술입니다.";
     check_rms_do: "표준오차보다 훨씬 크면 축척, 기준계, 검사점 자체 또는 카메라가 잘못된 것입니다.";
     w_name: "w, 관측값 하나의 검정";
-    w_means: "잔차를 자신의 표준오차로 나눈 값입니다. 3.29를 넘는 것은 우연히는 천에 하나입니다.";
+    w_means(limit): "잔차를 자신의 표준오차로 나눈 값입니다. {limit}{limit:을|를} 넘는 것은 우연히는 천에 하나입니다.";
     w_do: "가장 큰 것부터 사진에서 보십시오. 과대오차 하나가 다른 것도 키웁니다. 다시 측정하거나 제외하고 다시 조정하십시오.";
     r_name: "r, 잉여수";
     r_means: "이 관측값의 오차 중 자신의 잔차에 드러나는 몫입니다. 1이면 전부, 0이면 전혀 드러나지 않습니다.";
@@ -164,7 +164,7 @@ translate! { Korean desk {
     significance_means: "왜곡 매개변수를 표준오차로 나눈 값으로, 2 미만이면 0과 구별되지 않습니다.";
     significance_do: "0으로 고정하거나, 검정 결과를 다른 곳에 쓸 때는 그대로 두십시오.";
     correlation_name: "상관";
-    correlation_means: "두 매개변수가 서로를 대신하는 정도이며, 0.95를 넘으면 함께만 알려집니다.";
+    correlation_means(limit): "두 매개변수가 서로를 대신하는 정도이며, {limit}{limit:을|를} 넘으면 함께만 알려집니다.";
     correlation_do: "카메라를 90° 돌리고 깊이와 방향을 바꾸어 찍거나, 둘 중 더 세밀한 것을 고정하십시오.";
 
     // Photo view
@@ -816,7 +816,7 @@ translate! { Korean desk {
     correlated(first, second): "{first}{first:과|와} {second}{second:이|가} 거의 구분되지 않습니다";
     correlated_body(camera): "카메라 {camera}: 하나를 고정하거나 회전 촬영과 깊이 변화를 더하십시오.";
     camera_against_photos(n): "사진 {n}매에서 카메라 매개변수와 외부표정요소가 거의 구분되지 않습니다";
-    camera_against_photos_body(photos): "상관계수가 0.95를 넘습니다. 조정된 카메라를 그대로 쓰면 좌표에는 영향이 작으며, 회전 촬영과 깊이 변화로 분리됩니다({photos}).";
+    camera_against_photos_body(limit, photos): "상관계수가 {limit}{limit:을|를} 넘습니다. 조정된 카메라를 그대로 쓰면 좌표에는 영향이 작으며, 회전 촬영과 깊이 변화로 분리됩니다({photos}).";
     low_redundancy(n): "다른 관측으로 거의 점검되지 않는 관측 {n}개";
     low_redundancy_body(names): "여유수가 0.1 미만이어서 오차가 있어도 드러나지 않습니다({names}).";
     two_rays(points): "세 번째 사진에서 측정할 점: {points}";

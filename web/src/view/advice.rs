@@ -166,7 +166,7 @@ fn items(desk: Desk) -> Vec<Item> {
             let adjustment = &result.adjustment;
             let (first, others): (Vec<_>, Vec<_>) = adjustment.advice.iter().partition(|a| of_the_fit(a));
             items.extend(first.into_iter().map(|advice| network_item(advice, &adjustment.criteria)));
-            items.extend(camera_against_photos(&adjustment.advice));
+            items.extend(camera_against_photos(&adjustment.advice, &adjustment.criteria));
             let others = others.into_iter().filter(|a| !of_one_photo(a));
             items.extend(others.map(|advice| network_item(advice, &adjustment.criteria)));
         }
@@ -240,7 +240,10 @@ fn correlated_name(name: &str) -> String {
 
 /// Correlations of camera parameters with elements of photos, as one item. Angles of one photo among themselves are left
 /// out: they say how it is turned to the axes, not what the network lacks.
-fn camera_against_photos(advice: &[sightline::adjustment::Advice]) -> Option<Item> {
+fn camera_against_photos(
+    advice: &[sightline::adjustment::Advice],
+    criteria: &sightline::adjustment::Criteria,
+) -> Option<Item> {
     use sightline::adjustment::Advice;
     let mut photos = Vec::new();
     let mut strongest: Option<(f64, String)> = None;
@@ -260,7 +263,10 @@ fn camera_against_photos(advice: &[sightline::adjustment::Advice]) -> Option<Ite
     Some(Item {
         warning: true,
         title: text::camera_against_photos(photos.len()),
-        body: text::camera_against_photos_body(listed(photos.iter().map(String::as_str))),
+        body: text::camera_against_photos_body(
+            format::fixed(criteria.high_correlation, 2),
+            listed(photos.iter().map(String::as_str)),
+        ),
         evidence: format!("{pair} {}", format::fixed(r, 2)),
         target: photos.first().map_or(Target::None, |photo| Target::Photo(photo.clone())),
     })

@@ -1,8 +1,11 @@
 //! What each statistic means: a sentence, its formula, where it comes from, and what to do about it.
 
 use leptos::prelude::*;
+use sightline::adjustment::Criteria;
 
+use crate::format;
 use crate::i18n::{Text, text};
+use crate::store::Desk;
 
 /// A statistic that is explained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +28,7 @@ pub enum Statistic {
 struct Meaning {
     of: Statistic,
     name: Text,
-    means: Text,
+    means: fn(&Criteria) -> String,
     formula: &'static str,
     source: &'static str,
     what_to_do: Text,
@@ -35,7 +38,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::Sigma0,
         name: text::sigma0_name,
-        means: text::sigma0_means,
+        means: |_| text::sigma0_means().into(),
         formula: "σ₀ = √(vᵀPv / r)",
         source: "Mikhail & Ackermann 1976",
         what_to_do: text::sigma0_do,
@@ -43,7 +46,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::GlobalTest,
         name: text::global_name,
-        means: text::global_means,
+        means: |_| text::global_means().into(),
         formula: "χ²(2.5 %, r) ≤ vᵀPv ≤ χ²(97.5 %, r)",
         source: "Baarda 1968",
         what_to_do: text::global_do,
@@ -51,7 +54,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::Redundancy,
         name: text::redundancy,
-        means: text::redundancy_means,
+        means: |_| text::redundancy_means().into(),
         formula: "r = n − u + d",
         source: "Mikhail & Ackermann 1976",
         what_to_do: text::redundancy_do,
@@ -59,7 +62,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::RmsResidual,
         name: text::rms_residual,
-        means: text::rms_residual_means,
+        means: |_| text::rms_residual_means().into(),
         formula: "√(Σ v² / n)",
         source: "Luhmann et al. 2020, 4.4",
         what_to_do: text::rms_residual_do,
@@ -67,7 +70,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::RmsSigma,
         name: text::rms_sigma,
-        means: text::rms_sigma_means,
+        means: |_| text::rms_sigma_means().into(),
         formula: "σ = σ₀ √q,  rms = √(Σ σ² / n)",
         source: "Fraser 1984",
         what_to_do: text::rms_sigma_do,
@@ -75,7 +78,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::RelativeAccuracy,
         name: text::relative_accuracy,
-        means: text::relative_means,
+        means: |_| text::relative_means().into(),
         formula: "1 : (D / σ̄)",
         source: "Fraser 1984",
         what_to_do: text::relative_do,
@@ -83,7 +86,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::CheckRms,
         name: text::check_rms,
-        means: text::check_rms_means,
+        means: |_| text::check_rms_means().into(),
         formula: "√(Σ Δ² / 3n)",
         source: "Luhmann et al. 2020, 7.2",
         what_to_do: text::check_rms_do,
@@ -91,7 +94,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::W,
         name: text::w_name,
-        means: text::w_means,
+        means: |limits| text::w_means(format::fixed(limits.w, 2)),
         formula: "w = v / (σ √r)",
         source: "Baarda 1968",
         what_to_do: text::w_do,
@@ -99,7 +102,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::RedundancyNumber,
         name: text::r_name,
-        means: text::r_means,
+        means: |_| text::r_means().into(),
         formula: "r = (Qv P)ᵢᵢ",
         source: "Förstner 1979",
         what_to_do: text::r_do,
@@ -107,7 +110,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::Detectable,
         name: text::mdb_name,
-        means: text::mdb_means,
+        means: |_| text::mdb_means().into(),
         formula: "∇ = δ₀ σ / √r",
         source: "Baarda 1968",
         what_to_do: text::mdb_do,
@@ -115,7 +118,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::Significance,
         name: text::significance_name,
-        means: text::significance_means,
+        means: |_| text::significance_means().into(),
         formula: "|value| / σ",
         source: "Fraser 1982",
         what_to_do: text::significance_do,
@@ -123,7 +126,7 @@ const MEANINGS: [Meaning; 12] = [
     Meaning {
         of: Statistic::Correlation,
         name: text::correlation_name,
-        means: text::correlation_means,
+        means: |limits| text::correlation_means(format::fixed(limits.high_correlation, 2)),
         formula: "ρ = σᵢⱼ / (σᵢ σⱼ)",
         source: "Fraser 1982",
         what_to_do: text::correlation_do,
@@ -133,6 +136,7 @@ const MEANINGS: [Meaning; 12] = [
 /// The list, with the chosen one open.
 #[component]
 pub(super) fn Meanings(chosen: RwSignal<Option<Statistic>>) -> impl IntoView {
+    let desk = expect_context::<Desk>();
     view! {
         <main class="meanings scroll" tabindex="0" aria-label=text::meanings>
             {MEANINGS.into_iter().map(|meaning| {
@@ -140,7 +144,7 @@ pub(super) fn Meanings(chosen: RwSignal<Option<Statistic>>) -> impl IntoView {
                 view! {
                     <details prop:open=open>
                         <summary>{meaning.name} <code>{meaning.formula}</code></summary>
-                        <p>{meaning.means}</p>
+                        <p>{move || (meaning.means)(&desk.criteria())}</p>
                         <p><b>{text::what_to_do}</b> " " {meaning.what_to_do}</p>
                         <p class="note">{text::source} ": " {meaning.source}</p>
                     </details>
