@@ -24,6 +24,7 @@ use crate::limits;
 pub use embedded::{Embedded, embedded};
 use open::{bits, decoding_error, prepared};
 pub use show::{Picture, picture};
+pub use signature::Packed;
 use signature::{Signature, signature};
 
 /// Largest picture worked on.
@@ -59,10 +60,10 @@ impl Photo {
     }
 }
 
-/// Name of the format, where a file is of one whose decoder is not in the engine: HEIC, or a RAW.
-pub fn packed(bytes: &[u8]) -> Option<&'static str> {
+/// The format, where a file is of one whose decoder is not in the engine: HEIC, or a RAW.
+pub fn packed(bytes: &[u8]) -> Option<Packed> {
     match signature(bytes) {
-        Signature::Packed(name) => Some(name),
+        Signature::Packed(format) => Some(format),
         _ => None,
     }
 }
@@ -226,9 +227,7 @@ fn broken(reason: Damage) -> Error {
 /// Why a JPEG is not read.
 fn refused(refusal: jpeg::Refusal) -> Error {
     match refusal {
-        jpeg::Refusal::Kind(name) => {
-            Error::UnknownImageFormat { recognised: Some(name.to_owned()), at: Place::default() }
-        }
+        jpeg::Refusal::Kind(kind) => Error::UnknownImageFormat { recognised: Some(kind), at: Place::default() },
         jpeg::Refusal::Broken(damage) => broken(damage),
         jpeg::Refusal::Size([width, height]) => open::check_size(width.into(), height.into())
             .err()

@@ -4,6 +4,7 @@
 //! user's language. A variant is never renamed, since its code is part of the JavaScript face.
 
 mod degeneracy;
+mod picture_kind;
 mod reason;
 
 use std::fmt;
@@ -11,6 +12,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 pub use degeneracy::Degeneracy;
+pub use picture_kind::PictureKind;
 pub use reason::{Expected, Lack, Names, Number, PhotoModelerPart, Reason, Thing};
 
 /// Most characters of a user's text that a sentence quotes.
@@ -167,8 +169,8 @@ pub enum Damage {
 pub enum Error {
     /// The file is of no format the engine reads.
     UnknownImageFormat {
-        /// Format recognised by its signature (HEIC, RAW …), if any.
-        recognised: Option<String>,
+        /// What it is recognised as, if as anything.
+        recognised: Option<PictureKind>,
         /// Place.
         at: Place,
     },
@@ -347,8 +349,8 @@ impl Defect {
 }
 
 /// What to do with a file of a format that is not read: a RAW keeps the sensor's samples as DNG.
-pub fn remedy(format: &str) -> &'static str {
-    if format.starts_with("RAW") {
+fn remedy(kind: &PictureKind) -> &'static str {
+    if kind.is_raw() {
         "convert it to DNG (Adobe DNG Converter, dnglab), which keeps the sensor's samples"
     } else {
         "convert it to JPEG, PNG or TIFF"
@@ -452,8 +454,8 @@ impl fmt::Display for Defect {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::UnknownImageFormat { recognised: Some(name), .. } => {
-                write!(f, "this is a {name} file, which is not read here: {}", remedy(name))?;
+            Self::UnknownImageFormat { recognised: Some(kind), .. } => {
+                write!(f, "this is a {kind} file, which is not read here: {}", remedy(kind))?;
             }
             Self::UnknownImageFormat { .. } => {
                 f.write_str("not a picture the engine reads: JPEG, PNG, TIFF or BMP of 8 or 16 bits are expected")?;

@@ -1,6 +1,6 @@
 //! What decoders say, as errors of the engine.
 
-use sightline::error::{Damage, Error, Place, shortened};
+use sightline::error::{Damage, Error, PictureKind, Place, shortened};
 use sightline::limits;
 
 /// A damaged file.
@@ -14,8 +14,8 @@ pub fn said(message: &impl ToString) -> Error {
 }
 
 /// A kind that is not read.
-pub fn unread(name: String) -> Error {
-    Error::UnknownImageFormat { recognised: Some(name), at: Place::default() }
+pub fn unread(kind: PictureKind) -> Error {
+    Error::UnknownImageFormat { recognised: Some(kind), at: Place::default() }
 }
 
 /// Refuses sizes that are not worked on, and those that so few bytes cannot hold: a byte describes at most `most` pixels.

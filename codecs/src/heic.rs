@@ -16,7 +16,7 @@ use heifer_isobmff::boxes::Property;
 use heifer_isobmff::{HeifFile, ItemId, read_box_header};
 
 use sightline::detection::Channel;
-use sightline::error::{Damage, Result};
+use sightline::error::{Damage, PictureKind, Result};
 use sightline::image::Samples;
 use sightline::sensor::{Header, Unpacked};
 use sightline::{exif, limits};
@@ -136,9 +136,9 @@ fn source(file: &HeifFile, mut id: ItemId) -> Result<Source> {
                 let bits = bits(file, tiles[0])?;
                 return Ok(Source { tiles, columns: grid.columns.into(), tile, size, bits });
             }
-            b"av01" => return Err(unread("AVIF".into())),
-            b"iovl" => return Err(unread("HEIF of pictures laid over each other".into())),
-            other => return Err(unread(format!("HEIF of {}", String::from_utf8_lossy(other)))),
+            b"av01" => return Err(unread(PictureKind::Named("AVIF".into()))),
+            b"iovl" => return Err(unread(PictureKind::HeifOverlay)),
+            other => return Err(unread(PictureKind::HeifOf(String::from_utf8_lossy(other).into()))),
         }
     }
     Err(broken(Damage::Header))

@@ -10,7 +10,7 @@ mod module;
 mod raw;
 mod small;
 
-use sightline::decode::packed;
+use sightline::decode::{Packed, packed};
 use sightline::detection::Channel;
 use sightline::error::{Error, Place, Result};
 use sightline::sensor::Unpacked;
@@ -41,8 +41,8 @@ impl Wanted {
 /// [`Error::ImageSize`], before memory is taken.
 pub fn unpack(bytes: &[u8], wanted: Wanted) -> Result<Unpacked> {
     match packed(bytes) {
-        Some(name) if name.starts_with("HEI") => heic::unpack(bytes, wanted),
-        Some(name) => raw::unpack(bytes, name, wanted),
+        Some(Packed::Heif(_)) => heic::unpack(bytes, wanted),
+        Some(Packed::Raw(format)) => raw::unpack(bytes, format, wanted),
         None => Err(Error::UnknownImageFormat { recognised: None, at: Place::default() }),
     }
 }

@@ -12,7 +12,7 @@ use flashraw::{
 };
 
 use sightline::detection::Channel;
-use sightline::error::{Damage, Error, Result};
+use sightline::error::{Damage, Error, PictureKind, Result};
 use sightline::image::Samples;
 use sightline::limits;
 use sightline::sensor::{Black, Header, Mosaic, Pattern, Unpacked};
@@ -24,9 +24,9 @@ use crate::damage::{broken, check_size, said, unread};
 /// as tests draw them, pack further.
 const MOST_FROM_A_BYTE: u64 = 64;
 
-/// Opens a file; `name` is what its first bytes say of its format.
-pub fn unpack(bytes: &[u8], name: &str, wanted: Wanted) -> Result<Unpacked> {
-    let raw = FlashRaw::open_with(bytes, bounds()).map_err(|fault| refused(fault, name))?;
+/// Opens a file; `named` is what its first bytes say of its format.
+pub fn unpack(bytes: &[u8], named: &str, wanted: Wanted) -> Result<Unpacked> {
+    let raw = FlashRaw::open_with(bytes, bounds()).map_err(|fault| refused(fault, named))?;
     let frame = raw.frame_info();
     check_size([frame.width, frame.height], bytes.len(), MOST_FROM_A_BYTE)?;
     let mut header = Header {
@@ -55,7 +55,7 @@ pub fn unpack(bytes: &[u8], name: &str, wanted: Wanted) -> Result<Unpacked> {
             corruption_policy: CorruptionPolicy::Recover,
             ..DecodeOptions::default()
         })
-        .map_err(|fault| refused(fault, name))?;
+        .map_err(|fault| refused(fault, named))?;
     let units = raw.units();
     header.damaged_rows = decoded.warnings.iter().map(|warning| lost_rows(warning, &units, frame.height)).collect();
     header.mosaic = pattern.map(|pattern| Mosaic {
@@ -77,14 +77,14 @@ fn bounds() -> Limits {
 fn pattern(frame: &FrameInfo, format: &str) -> Result<Option<Pattern>> {
     let parsed = |letters: &str, width| Pattern::parse(letters, width).ok_or_else(|| broken(Damage::Header)).map(Some);
     match (frame.layout, &frame.cfa) {
-        (SensorLayout::Foveon, _) => Err(unread(format!("RAW ({format} of a layered sensor)"))),
+        (SensorLayout::Foveon, _) => Err(unread(PictureKind::RawLayered(format.into()))),
         (_, None) if frame.cpp == 3 => Ok(None),
         (SensorLayout::Monochrome, _) if frame.cpp == 1 => parsed("W", 1),
         (_, Some(cfa)) if frame.cpp == 1 => {
             let letters: String = cfa.colors().into_iter().map(CfaColor::letter).collect();
             parsed(&letters, cfa.width())
         }
-        _ => Err(unread(format!("RAW ({format} with {} samples a pixel)", frame.cpp))),
+        _ => Err(unread(PictureKind::RawSamples(format.into(), frame.cpp as usize))),
     }
 }
 
@@ -148,17 +148,16 @@ fn lost_rows(warning: &DecodeWarning, units: &[DecodeUnit], height: u32) -> [u32
 }
 
 /// What the decoder refuses, in our words.
-fn refused(fault: Fault, name: &str) -> Error {
+fn refused(fault: Fault, named: &str) -> Error {
     match fault {
-        Fault::UnsupportedFormat(_) => unread(name.to_owned()),
-        Fault::UnsupportedCompression { format, compression } => unread(format!("RAW ({format}, {compression})")),
-        Fault::CameraUnsupported { make, model, .. } => unread(format!("RAW ({} of {make} {model})", kind(name))),
+        Fault::UnsupportedFormat(_) => unread(PictureKind::Raw(named.into())),
+        Fault::UnsupportedCompression { format, compression } => {
+            unread(PictureKind::Raw(format!("{format}, {compression}")))
+        }
+        Fault::CameraUnsupported { make, model, .. } => {
+            unread(PictureKind::RawCamera(named.into(), format!("{make} {model}")))
+        }
         Fault::CorruptFile { .. } => said(&fault),
         other => said(&other),
     }
-}
-
-/// "NEF" of "RAW (Nikon NEF)".
-fn kind(name: &str) -> &str {
-    name.trim_start_matches("RAW (").trim_end_matches(')')
 }

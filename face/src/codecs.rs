@@ -1,7 +1,7 @@
 //! Files whose decoders are a module of their own: `codecs.js` loads it and hands over what it makes of a file.
 
 use js_sys::{Array, Promise, Uint8Array, Uint16Array};
-use sightline::decode;
+use sightline::decode::{self, Packed};
 use sightline::detection::Channel;
 use sightline::error::{Damage, Error, Place, Result};
 use sightline::image::Samples;
@@ -52,7 +52,7 @@ pub fn shot(bytes: &[u8], channel: Channel) -> Result<Shot> {
 }
 
 /// What the decoders make of a file of a format that is theirs; without its samples unless they are wanted.
-pub fn unpack(bytes: &[u8], format: &str, channel: Channel, samples: bool) -> Result<Unpacked> {
+pub fn unpack(bytes: &[u8], format: Packed, channel: Channel, samples: bool) -> Result<Unpacked> {
     let name = match channel {
         Channel::Grey => "grey",
         Channel::Red => "red",
@@ -61,7 +61,7 @@ pub fn unpack(bytes: &[u8], format: &str, channel: Channel, samples: bool) -> Re
     };
     let answer = ask(bytes, name, samples, 0);
     if let Some(message) = answer.missing() {
-        return Err(Error::DecoderMissing { format: format.into(), message, at: Place::default() });
+        return Err(Error::DecoderMissing { format: format.to_string(), message, at: Place::default() });
     }
     let Some(parts) = answer.unpacked() else {
         return Err(serde_json::from_str(&answer.fault().unwrap_or_default()).unwrap_or(Error::BrokenImage {

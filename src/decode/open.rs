@@ -9,7 +9,7 @@ use image::{ColorType, ImageDecoder, ImageError, Limits};
 use super::palette::PaletteDecoder;
 use super::signature::{Signature, signature};
 use super::{PIXEL_LIMIT, broken, bytes, jpeg};
-use crate::error::{Damage, Error, Place, Result};
+use crate::error::{Damage, Error, PictureKind, Place, Result};
 use crate::limits::DECODED;
 
 /// The file without what decoders stumble over and pictures do not need.
@@ -49,9 +49,9 @@ pub fn decoder(file: &[u8]) -> Result<Box<dyn ImageDecoder + '_>> {
             None => Box::new(TiffDecoder::new(stream).map_err(decoding_error)?),
         },
         Signature::Bmp => Box::new(BmpDecoder::new(stream).map_err(decoding_error)?),
-        Signature::Other(name) | Signature::Packed(name) => {
-            return Err(Error::UnknownImageFormat { recognised: Some(name.to_owned()), at: Place::default() });
-        }
+        Signature::Packed(format) => return Err(unread(format.into())),
+        Signature::Other(name) => return Err(unread(PictureKind::Named(name.into()))),
+        Signature::Video => return Err(unread(PictureKind::Video)),
         Signature::Unknown => return Err(Error::UnknownImageFormat { recognised: None, at: Place::default() }),
     };
     let (width, height) = decoder.dimensions();
@@ -81,6 +81,11 @@ pub fn too_few_bytes(width: u32, height: u32) -> Error {
     broken(Damage::ClaimsTooMuch { width, height })
 }
 
+/// A kind that is not read.
+pub fn unread(kind: PictureKind) -> Error {
+    Error::UnknownImageFormat { recognised: Some(kind), at: Place::default() }
+}
+
 fn limits() -> Limits {
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(2 * DECODED - 1);
@@ -92,10 +97,7 @@ pub fn bits(colour: ColorType) -> Result<u32> {
     match colour {
         ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => Ok(8),
         ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => Ok(16),
-        _ => Err(Error::UnknownImageFormat {
-            recognised: Some("picture of floating-point samples".into()),
-            at: Place::default(),
-        }),
+        _ => Err(unread(PictureKind::FloatingPoint)),
     }
 }
 
@@ -104,8 +106,7 @@ pub fn decoding_error(error: ImageError) -> Error {
     match error {
         ImageError::Unsupported(unsupported) => {
             let format = unsupported.format_hint().to_string();
-            let format = format.trim_matches('`').to_uppercase();
-            Error::UnknownImageFormat { recognised: Some(format!("{format} of a rare kind")), at: Place::default() }
+            unread(PictureKind::Rare(format.trim_matches('`').to_uppercase()))
         }
         other => broken(Damage::Decoder { message: other.to_string() }),
     }

@@ -7,7 +7,8 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 
 use super::broken;
 use super::bytes::Reader;
-use crate::error::{Damage, Error, Place, Result};
+use super::open::unread;
+use crate::error::{Damage, PictureKind, Result};
 
 const PHOTOMETRIC: u16 = 262;
 const BITS: u16 = 258;
@@ -27,7 +28,7 @@ impl PaletteDecoder {
     /// None for TIFF files without a palette.
     ///
     /// # Errors
-    /// [`Error::UnknownImageFormat`] for palettes of more than 8 bits, [`Error::BrokenImage`].
+    /// [`UnknownImageFormat`](crate::Error::UnknownImageFormat) for palettes of more than 8 bits, [`BrokenImage`](crate::Error::BrokenImage).
     pub fn new(file: &[u8]) -> Result<Option<Self>> {
         let Some(reader) = Reader::tiff(file) else { return Ok(None) };
         let entries = reader.entries();
@@ -38,10 +39,7 @@ impl PaletteDecoder {
         let bits = match find(BITS).map(|entry| reader.values(entry)).as_deref() {
             Some([bits @ (1 | 2 | 4 | 8)]) => *bits as u32,
             None => 1,
-            _ => {
-                let name = "TIFF with a palette of other than 1, 2, 4 or 8 bits";
-                return Err(Error::UnknownImageFormat { recognised: Some(name.into()), at: Place::default() });
-            }
+            _ => return Err(unread(PictureKind::DeepPalette)),
         };
         let colours = find(COLOUR_MAP).map(|entry| reader.values(entry)).unwrap_or_default();
         let count = 1 << bits;

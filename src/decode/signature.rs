@@ -1,6 +1,9 @@
 //! What kind of file it is, from its first bytes: the formats that are read, and the common ones that are not.
 
+use std::fmt;
+
 use super::bytes::Reader;
+use crate::error::PictureKind;
 
 /// What a file is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,51 +16,80 @@ pub enum Signature {
     Tiff,
     /// BMP.
     Bmp,
-    /// A format whose decoder is not in the engine, by name.
-    Packed(&'static str),
+    /// A format whose decoder is not in the engine.
+    Packed(Packed),
     /// A known format that is not read, by name.
     Other(&'static str),
+    /// A film.
+    Video,
     /// Nothing known.
     Unknown,
 }
 
-/// Formats that are recognised but not read by the engine itself: offset of the signature, the signature, the name.
-const OTHERS: [(usize, &[u8], &str); 24] = [
-    (0, b"FUJIFILMCCD-RAW", "RAW (Fujifilm RAF)"),
-    (0, b"IIU\0", "RAW (Panasonic RW2)"),
-    (0, b"IIRO", "RAW (Olympus ORF)"),
-    (0, b"IIRS", "RAW (Olympus ORF)"),
-    (0, b"MMOR", "RAW (Olympus ORF)"),
-    (0, b"FOVb", "RAW (Sigma X3F)"),
-    (0, b"\0MRM", "RAW (Minolta MRW)"),
-    (8, b"CR\x02", "RAW (Canon CR2)"),
-    (4, b"ftypcrx", "RAW (Canon CR3)"),
-    (4, b"ftypheic", "HEIC"),
-    (4, b"ftypheix", "HEIC"),
-    (4, b"ftyphevc", "HEIC"),
-    (4, b"ftypmif1", "HEIF"),
-    (4, b"ftypmsf1", "HEIF"),
-    (4, b"ftypavif", "AVIF"),
-    (4, b"ftyp", "MP4 or QuickTime video"),
-    (8, b"WEBP", "WebP"),
-    (0, b"GIF8", "GIF"),
-    (0, b"8BPS", "Photoshop"),
-    (0, b"\0\0\0\x0cJXL ", "JPEG XL"),
-    (0, b"\xff\x0a", "JPEG XL"),
-    (0, b"\0\0\0\x0cjP  ", "JPEG 2000"),
-    (0, b"\x76\x2f\x31\x01", "OpenEXR"),
-    (0, b"%PDF", "PDF"),
+/// A format whose decoder is in a module of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Packed {
+    /// HEIC or HEIF, by name.
+    Heif(&'static str),
+    /// A sensor's samples in a maker's format; empty where that is not known.
+    Raw(&'static str),
+}
+
+impl Packed {
+    /// Whether it holds the samples of a sensor.
+    pub fn is_raw(self) -> bool {
+        matches!(self, Self::Raw(_))
+    }
+}
+
+impl From<Packed> for PictureKind {
+    fn from(packed: Packed) -> Self {
+        match packed {
+            Packed::Heif(name) => Self::Named(name.into()),
+            Packed::Raw(format) => Self::Raw(format.into()),
+        }
+    }
+}
+
+impl fmt::Display for Packed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        PictureKind::from(*self).fmt(f)
+    }
+}
+
+/// Formats that are recognised but not read by the engine itself: offset of the signature, the signature, the format.
+const OTHERS: [(usize, &[u8], Signature); 24] = [
+    (0, b"FUJIFILMCCD-RAW", Signature::Packed(Packed::Raw("Fujifilm RAF"))),
+    (0, b"IIU\0", Signature::Packed(Packed::Raw("Panasonic RW2"))),
+    (0, b"IIRO", Signature::Packed(Packed::Raw("Olympus ORF"))),
+    (0, b"IIRS", Signature::Packed(Packed::Raw("Olympus ORF"))),
+    (0, b"MMOR", Signature::Packed(Packed::Raw("Olympus ORF"))),
+    (0, b"FOVb", Signature::Packed(Packed::Raw("Sigma X3F"))),
+    (0, b"\0MRM", Signature::Packed(Packed::Raw("Minolta MRW"))),
+    (8, b"CR\x02", Signature::Packed(Packed::Raw("Canon CR2"))),
+    (4, b"ftypcrx", Signature::Packed(Packed::Raw("Canon CR3"))),
+    (4, b"ftypheic", Signature::Packed(Packed::Heif("HEIC"))),
+    (4, b"ftypheix", Signature::Packed(Packed::Heif("HEIC"))),
+    (4, b"ftyphevc", Signature::Packed(Packed::Heif("HEIC"))),
+    (4, b"ftypmif1", Signature::Packed(Packed::Heif("HEIF"))),
+    (4, b"ftypmsf1", Signature::Packed(Packed::Heif("HEIF"))),
+    (4, b"ftypavif", Signature::Other("AVIF")),
+    (4, b"ftyp", Signature::Video),
+    (8, b"WEBP", Signature::Other("WebP")),
+    (0, b"GIF8", Signature::Other("GIF")),
+    (0, b"8BPS", Signature::Other("Photoshop")),
+    (0, b"\0\0\0\x0cJXL ", Signature::Other("JPEG XL")),
+    (0, b"\xff\x0a", Signature::Other("JPEG XL")),
+    (0, b"\0\0\0\x0cjP  ", Signature::Other("JPEG 2000")),
+    (0, b"\x76\x2f\x31\x01", Signature::Other("OpenEXR")),
+    (0, b"%PDF", Signature::Other("PDF")),
 ];
 
 /// Recognises a file by its content; names and extensions play no part.
 pub fn signature(bytes: &[u8]) -> Signature {
     let at = |offset: usize, text: &[u8]| bytes.get(offset..).is_some_and(|rest| rest.starts_with(text));
-    if let Some((.., name)) = OTHERS.iter().find(|(offset, text, _)| at(*offset, text)) {
-        return if name.starts_with("RAW") || name.starts_with("HEI") {
-            Signature::Packed(name)
-        } else {
-            Signature::Other(name)
-        };
+    if let Some((.., other)) = OTHERS.iter().find(|(offset, text, _)| at(*offset, text)) {
+        return *other;
     }
     if at(0, b"\xff\xd8\xff") {
         return Signature::Jpeg;
@@ -89,11 +121,11 @@ fn tiff(bytes: &[u8]) -> Signature {
     let entries = reader.entries();
     let value = |tag| entries.iter().find(|e| e.tag == tag).and_then(|e| reader.first(e));
     if value(DNG_VERSION).is_some() {
-        return Signature::Packed("RAW (DNG)");
+        return Signature::Packed(Packed::Raw("DNG"));
     }
     let preview = value(NEW_SUBFILE_TYPE) == Some(1) && value(SUB_DIRECTORIES).is_some();
     if preview || value(PHOTOMETRIC) == Some(COLOUR_FILTER_ARRAY) {
-        return Signature::Packed("RAW");
+        return Signature::Packed(Packed::Raw(""));
     }
     Signature::Tiff
 }
@@ -121,8 +153,9 @@ mod tests {
 
     #[test]
     fn foreign_formats_are_named() {
-        assert_eq!(signature(b"\0\0\0\x18ftypheic\0\0\0\0mif1heic"), Signature::Packed("HEIC"));
-        assert_eq!(signature(b"II*\0\x10\0\0\0CR\x02\0"), Signature::Packed("RAW (Canon CR2)"));
+        assert_eq!(signature(b"\0\0\0\x18ftypheic\0\0\0\0mif1heic"), Signature::Packed(Packed::Heif("HEIC")));
+        assert_eq!(signature(b"II*\0\x10\0\0\0CR\x02\0"), Signature::Packed(Packed::Raw("Canon CR2")));
+        assert_eq!(signature(b"\0\0\0\x18ftypisom"), Signature::Video);
         assert_eq!(signature(b"RIFF\x10\0\0\0WEBPVP8 "), Signature::Other("WebP"));
         assert_eq!(signature(b"hello, this is text"), Signature::Unknown);
         assert_eq!(signature(b""), Signature::Unknown);
@@ -131,9 +164,9 @@ mod tests {
     #[test]
     fn raw_files_built_on_tiff_are_told_from_pictures() {
         assert_eq!(signature(&directory(&[(254, 0), (262, 1)])), Signature::Tiff);
-        assert_eq!(signature(&directory(&[(254, 1), (262, 2), (330, 999)])), Signature::Packed("RAW"));
-        assert_eq!(signature(&directory(&[(262, 32803)])), Signature::Packed("RAW"));
-        assert_eq!(signature(&directory(&[(262, 2), (50706, 1)])), Signature::Packed("RAW (DNG)"));
+        assert_eq!(signature(&directory(&[(254, 1), (262, 2), (330, 999)])), Signature::Packed(Packed::Raw("")));
+        assert_eq!(signature(&directory(&[(262, 32803)])), Signature::Packed(Packed::Raw("")));
+        assert_eq!(signature(&directory(&[(262, 2), (50706, 1)])), Signature::Packed(Packed::Raw("DNG")));
         assert_eq!(signature(b"II*\0\xff\xff\xff\xff"), Signature::Tiff);
     }
 }

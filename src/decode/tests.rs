@@ -159,7 +159,7 @@ fn crc32(bytes: &[u8]) -> u32 {
 #[test]
 fn unread_formats_say_what_they_are() {
     let heic = grey(b"\0\0\0\x18ftypheic\0\0\0\0", Channel::Grey).expect_err("HEIC");
-    assert!(matches!(&heic, Error::UnknownImageFormat { recognised: Some(name), .. } if name == "HEIC"));
+    assert!(matches!(&heic, Error::UnknownImageFormat { recognised: Some(kind), .. } if kind.to_string() == "HEIC"));
     let text = size(b"1,2,3\n").expect_err("text");
     assert!(matches!(text, Error::UnknownImageFormat { recognised: None, .. }));
     let float: DynamicImage = ImageBuffer::from_pixel(2, 2, Rgb([0.5f32, 0.5, 0.5])).into();

@@ -1,13 +1,13 @@
 //! Segments of a JPEG file: tables, the frame with its components, the scans.
 
 use super::huffman::Table;
-use crate::error::Damage;
+use crate::error::{Damage, PictureKind};
 
 /// Why a JPEG file is not read.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
-    /// A kind that is not read, by name.
-    Kind(&'static str),
+    /// A kind that is not read.
+    Kind(PictureKind),
     /// Damage.
     Broken(Damage),
     /// It claims to be larger than its bytes can hold.
@@ -162,20 +162,23 @@ impl Frame {
         let coding = match marker {
             0xc0 | 0xc1 => Coding::Sequential,
             0xc2 => Coding::Progressive,
-            0xc3 => return Err(Refusal::Kind("lossless JPEG")),
-            0xc5..=0xc7 => return Err(Refusal::Kind("hierarchical JPEG")),
-            _ => return Err(Refusal::Kind("JPEG with arithmetic coding")),
+            0xc3 => return Err(Refusal::Kind(PictureKind::LosslessJpeg)),
+            0xc5..=0xc7 => return Err(Refusal::Kind(PictureKind::HierarchicalJpeg)),
+            _ => return Err(Refusal::Kind(PictureKind::ArithmeticJpeg)),
         };
         let [precision, h1, h0, w1, w0, count, rest @ ..] = payload else { return Err(broken()) };
         if *precision != 8 {
-            return Err(Refusal::Kind(if *precision == 12 { "JPEG of 12 bits" } else { "JPEG of other than 8 bits" }));
+            return Err(Refusal::Kind(match precision {
+                12 => PictureKind::TwelveBitJpeg,
+                _ => PictureKind::OddJpeg,
+            }));
         }
         let (width, height) = (u16::from_be_bytes([*w1, *w0]), u16::from_be_bytes([*h1, *h0]));
         if !matches!(count, 1 | 3 | 4) || rest.len() < 3 * usize::from(*count) || width == 0 {
             return Err(broken());
         }
         if height == 0 {
-            return Err(Refusal::Kind("JPEG whose height is not in its header"));
+            return Err(Refusal::Kind(PictureKind::JpegWithoutHeight));
         }
         let mut components = Vec::new();
         for part in rest.chunks_exact(3).take(usize::from(*count)) {

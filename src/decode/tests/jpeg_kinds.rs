@@ -7,6 +7,7 @@ use jpeg_encoder::{ColorType, Encoder, ImageBuffer, JpegColorType, SamplingFacto
 
 use super::super::jpeg::{self, Refusal};
 use super::*;
+use crate::error::PictureKind;
 
 /// Smooth fields with noise, in colour.
 pub fn planes(width: u16, height: u16) -> [Vec<u8>; 3] {
@@ -188,7 +189,7 @@ fn kinds_that_are_not_read_are_named() {
     }
     let mut deep = file.clone();
     deep[frame + 4] = 12;
-    assert_eq!(jpeg::luma(&deep).err(), Some(Refusal::Kind("JPEG of 12 bits")));
+    assert_eq!(jpeg::luma(&deep).err(), Some(Refusal::Kind(PictureKind::TwelveBitJpeg)));
     let mut later = file;
     later[frame + 5..frame + 7].fill(0);
     assert!(matches!(jpeg::luma(&later).err(), Some(Refusal::Kind(_))));

@@ -1,7 +1,7 @@
 //! The engine's errors as sentences: what is wrong, where, and what to do.
 
 use sightline::Error;
-use sightline::error::{Damage, Defect, Lack, Place, Reason, Thing};
+use sightline::error::{Damage, Defect, Lack, PictureKind, Place, Reason, Thing};
 use sightline::initial::Degeneracy;
 
 use super::en::errors::*;
@@ -10,8 +10,8 @@ use super::{Language, language, reasons};
 /// An error as a sentence in the language in use.
 pub fn sentence(error: &Error) -> String {
     let text = match error {
-        Error::UnknownImageFormat { recognised: Some(kind), .. } if kind.starts_with("RAW") => raw_unread(kind),
-        Error::UnknownImageFormat { recognised: Some(kind), .. } => recognised(kind),
+        Error::UnknownImageFormat { recognised: Some(kind), .. } if kind.is_raw() => raw_unread(picture(kind)),
+        Error::UnknownImageFormat { recognised: Some(kind), .. } => recognised(picture(kind)),
         Error::UnknownImageFormat { .. } => no_picture().to_owned(),
         Error::BrokenImage { reason, .. } => broken(damaged(reason)),
         Error::DecoderMissing { format, message, .. } => decoder_missing(format, message),
@@ -58,6 +58,13 @@ fn damaged(damage: &Damage) -> String {
     match language() {
         Language::English => damage.to_string(),
         Language::Korean => reasons::damage(damage),
+    }
+}
+
+fn picture(kind: &PictureKind) -> String {
+    match language() {
+        Language::English => kind.to_string(),
+        Language::Korean => reasons::picture(kind),
     }
 }
 

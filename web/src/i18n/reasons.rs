@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use sightline::error::{Damage, Expected, Lack, PhotoModelerPart, Reason, Thing};
+use sightline::error::{Damage, Expected, Lack, PhotoModelerPart, PictureKind, Reason, Thing};
 use sightline::initial::Degeneracy;
 use sightline::report::texts::particles::after;
 use sightline::report::texts::template;
@@ -315,6 +315,30 @@ pub fn reason(reason: &Reason) -> String {
     plain.to_owned()
 }
 
+/// What a picture that is not read is.
+pub fn picture(kind: &PictureKind) -> String {
+    use PictureKind as K;
+    let plain = match kind {
+        K::Named(_) | K::Raw(_) => return kind.to_string(),
+        K::RawLayered(format) => return format!("적층형 센서의 RAW({format})"),
+        K::RawSamples(format, samples) => return format!("화소마다 값이 {samples}개인 RAW({format})"),
+        K::RawCamera(format, camera) => return format!("{camera} 카메라의 RAW({format})"),
+        K::HeifOf(items) => return format!("{items} 형식을 담은 HEIF"),
+        K::Rare(format) => return format!("드문 방식의 {format}"),
+        K::HeifOverlay => "여러 영상을 겹쳐 놓은 HEIF",
+        K::Video => "MP4 또는 QuickTime 동영상",
+        K::FloatingPoint => "부동소수점 영상",
+        K::DeepPalette => "팔레트가 1, 2, 4, 8비트가 아닌 TIFF",
+        K::LosslessJpeg => "무손실 JPEG",
+        K::HierarchicalJpeg => "계층형 JPEG",
+        K::ArithmeticJpeg => "산술 부호화 JPEG",
+        K::TwelveBitJpeg => "12비트 JPEG",
+        K::OddJpeg => "8비트가 아닌 JPEG",
+        K::JpegWithoutHeight => "헤더에 높이가 없는 JPEG",
+    };
+    plain.to_owned()
+}
+
 /// What is wrong with a picture's file.
 pub fn damage(damage: &Damage) -> String {
     match damage {
@@ -436,6 +460,12 @@ mod tests {
         words.dedup();
         assert_eq!(words.len(), Thing::ALL.len());
         assert!(Lack::ALL.iter().all(|one| !lack(*one).is_ascii()));
+        let kinds =
+            ["MP4 or QuickTime video", "lossless JPEG", "PNG of a rare kind", "RAW (NEF of A B)", "HEIF of j2k1"];
+        for kind in kinds.map(|words| PictureKind::from(words.to_owned())) {
+            assert!(!picture(&kind).is_ascii(), "{kind}");
+        }
+        assert_eq!(picture(&PictureKind::Raw("Canon CR2".into())), "RAW (Canon CR2)");
     }
 
     #[test]

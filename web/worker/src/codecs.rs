@@ -1,6 +1,6 @@
 //! The decoders of HEIC and RAW, in a module of their own beside this one.
 
-use sightline::decode;
+use sightline::decode::{self, Packed};
 use sightline::detection::Channel;
 use sightline::error::{Damage, Error, Place, Result};
 use sightline::sensor::{Shot, Unpacked};
@@ -17,7 +17,7 @@ pub fn shot_of(file: &[u8], channel: Channel) -> Result<Shot> {
 
 /// What they make of a file of a format that is theirs: with its samples where they are wanted, with a small picture where `max_side`
 /// is not 0.
-pub fn unpack(file: &[u8], format: &str, channel: Channel, samples: bool, max_side: u32) -> Result<Unpacked> {
+pub fn unpack(file: &[u8], format: Packed, channel: Channel, samples: bool, max_side: u32) -> Result<Unpacked> {
     let name = match channel {
         Channel::Grey => "grey",
         Channel::Red => "red",
@@ -25,7 +25,9 @@ pub fn unpack(file: &[u8], format: &str, channel: Channel, samples: bool, max_si
         Channel::Blue => "blue",
     };
     let (header, samples, small) = scope::unpack(file, name, samples, max_side).map_err(|refusal| match refusal {
-        Refusal::Missing(message) => Error::DecoderMissing { format: format.into(), message, at: Place::default() },
+        Refusal::Missing(message) => {
+            Error::DecoderMissing { format: format.to_string(), message, at: Place::default() }
+        }
         Refusal::Error(text) => sightline_protocol::from_text(&text).unwrap_or(Error::BrokenImage {
             reason: Damage::Decoder { message: "the decoder stopped".into() },
             at: Place::default(),

@@ -108,7 +108,7 @@ fn serve_networks_here(body: &[u8], files: Vec<Given>) -> Result<(), String> {
 fn is_heic(file: &mut dyn Stream) -> bool {
     let mut head = Vec::new();
     let read = Read::take(&mut *file, 64).read_to_end(&mut head).and_then(|_| file.rewind());
-    read.is_ok() && decode::packed(&head).is_some_and(|format| format.starts_with("HEI"))
+    read.is_ok() && decode::packed(&head).is_some_and(|format| !format.is_raw())
 }
 
 /// Pictures that a canvas can draw, from red, green, blue, alpha bytes of these widths and heights.

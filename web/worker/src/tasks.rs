@@ -7,6 +7,7 @@ use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
 use sightline::camera::colour_differences;
 use sightline::comparison::{Comparison, compare};
+use sightline::decode::Packed;
 use sightline::detection::{Channel, Codes, ColoursApart, DetectOptions, Detection, Target};
 use sightline::error::{Error, Place, Reason, Thing};
 use sightline::exchange::export;
@@ -394,16 +395,16 @@ fn look_into(file: &[u8], max_side: u32) -> Result<(Opened, Vec<u8>)> {
 
 /// The same for a format whose decoder is not in the engine. Of a RAW the picture that its camera embedded is taken, so that
 /// many of them are there at once; its samples are decoded when they are measured.
-fn look_into_packed(file: &[u8], format: &str, max_side: u32) -> Result<(Opened, Vec<u8>)> {
+fn look_into_packed(file: &[u8], format: Packed, max_side: u32) -> Result<(Opened, Vec<u8>)> {
     let channel = Channel::default();
     let digest = digest(file);
-    let mut unpacked = unpack(file, format, channel, !is_raw(format), max_side)?;
-    if is_raw(format) && unpacked.small.is_empty() {
+    let mut unpacked = unpack(file, format, channel, !format.is_raw(), max_side)?;
+    if format.is_raw() && unpacked.small.is_empty() {
         unpacked = unpack(file, format, channel, true, 0)?;
     }
     let mut small = (unpacked.header.small, std::mem::take(&mut unpacked.small));
     let (size, info) = ([unpacked.header.width, unpacked.header.height], unpacked.header.info.clone());
-    if small.1.is_empty() || !is_raw(format) {
+    if small.1.is_empty() || !format.is_raw() {
         let shot = unpacked.into_shot()?;
         if small.1.is_empty() {
             let picture = sensor::picture(&shot, max_side);
@@ -424,7 +425,7 @@ fn glanced(file: &mut (impl Read + Seek), max_side: u32) -> Option<(Glanced, Vec
     file.rewind().ok()?;
     let mut bytes = Vec::new();
     file.by_ref().take(HEAD).read_to_end(&mut bytes).ok()?;
-    let format = decode::packed(&bytes).filter(|format| !is_raw(format))?;
+    let format = decode::packed(&bytes).filter(|format| !format.is_raw())?;
     // without one the whole picture would be decoded, which is as well done once
     if !bytes.windows(THUMBNAIL.len()).any(|kind| kind == THUMBNAIL) {
         return None;
@@ -441,10 +442,6 @@ const LARGEST: u64 = 1 << 26;
 /// The name there of what refers to a picture as its thumbnail.
 const THUMBNAIL: &[u8] = b"thmb";
 
-fn is_raw(format: &str) -> bool {
-    format.starts_with("RAW")
-}
-
 /// Longest side of the picture that is shown of a sensor's samples.
 const SHOWN_SIDE: u32 = 4096;
 
@@ -453,7 +450,7 @@ fn shown(file: &[u8]) -> Result<decode::Picture> {
     let channel = Channel::default();
     match decode::packed(file) {
         None => decode::picture(file, None),
-        Some(format) if is_raw(format) => {
+        Some(format) if format.is_raw() => {
             with_photo(file, digest(file), channel, |shot| Ok(sensor::picture(shot, SHOWN_SIDE)))
         }
         Some(format) => {
