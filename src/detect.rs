@@ -36,6 +36,7 @@ pub(crate) use ellipse::{conic, outline};
 use crate::detection::{Codes, DetectOptions, Detection, Method, MethodResult, PictureReport, Target};
 use crate::error::{self, Error, Place, Result};
 use crate::image::{GreyView, Plane, Sample, SamplesView};
+use acceptance::picture::{RESTORED, ROUNDED, SOFT};
 use alike::Wanted;
 use code::outline_of;
 pub use colours::colours_apart;
@@ -218,7 +219,8 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
 /// Whether two measurements are of the same disc.
 fn is_same(one: &Target, other: &Target) -> bool {
     let apart = (one.u - other.u).hypot(one.v - other.v);
-    apart < 0.25 * one.minor.min(other.minor) && one.major < 1.4 * other.major && other.major < 1.4 * one.major
+    let [near, ratio] = acceptance::place::SAME;
+    apart < near * one.minor.min(other.minor) && one.major < ratio * other.major && other.major < ratio * one.major
 }
 
 fn report(levels: &Levels, character: &Character) -> PictureReport {
@@ -272,12 +274,6 @@ fn add(sum: &mut [f64; 2], other: [f64; 2]) {
     *sum = [sum[0] + other[0], sum[1] + other[1]];
 }
 
-/// Sigma in pixels of the mean in which what is sharpened is searched: the middle of the range in which webcam pictures of dots
-/// show all of them.
-const SOFT: f64 = 1.6;
-/// The same where the sharpening is undone: what is left of the picture's own blocks and ringing.
-const RESTORED: f64 = 0.7;
-
 /// One pass over a picture made of another one, in that one's grey levels.
 fn pass_softened<T: Sample>(
     plane: &Plane<T>,
@@ -292,7 +288,7 @@ fn pass_softened<T: Sample>(
     // a mean has no end of the scale, and no noise less than that of rounding
     let levels = Levels {
         saturation: f64::from(u16::MAX),
-        noise: levels.noise.max(0.3 * soft.scale),
+        noise: levels.noise.max(ROUNDED * soft.scale),
         stairs: false,
         developed: own.developed,
         ..levels

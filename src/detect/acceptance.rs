@@ -101,8 +101,55 @@ pub(crate) mod picture {
         LITTLE: f64 = 0.15, Judged "the fit of a rendered ellipse takes it for a lens";
         /// Share of the residual that a sharpening has to explain.
         EXPLAINED: f64 = 0.3, Judged "random cameras of `photos` with and without a sharpening";
+        /// Rims that are enough for the profile across them.
+        RIMS: usize = 120, Judged "more change the mean profile by less than what is modelled of it";
+        /// Largest share of clipped samples at a distance from the rim.
+        CLIPPED_RIM: f64 = 0.1, Judged "the mean of the others is then low by little";
+        /// Amount from which on a fit is none of a sharpening.
+        STRONGEST: f64 = 6.0, Judged "three times the strongest of `photos`; more is a fit gone astray";
+        /// Sigma of the mean in which what is sharpened is searched.
+        SOFT: f64 = 1.6, Measured "the middle of the range in which the webcam pictures of dots in `photos` show all of them";
+        /// The same where the sharpening is undone.
+        RESTORED: f64 = 0.7, Judged "what is left of the picture's own blocks and ringing";
+        /// Least noise of such a picture, in levels of the one it was made of.
+        ROUNDED: f64 = 0.3, Derived "rounding leaves 0.29";
         /// Amount of a sharpening from which rims say that there may be more than the rows do.
         BY_RIMS: f64 = 0.3, Judged "twice what a fit takes for a lens";
+    }
+}
+
+/// How blurred a target is, and from where on that asks for something else.
+pub(crate) mod blur {
+    use super::Source;
+
+    table! {
+        /// What is assumed of a target before its blur is known, sigma in pixels.
+        SHARP: f64 = 0.9, Judged "a lens in focus";
+        /// Blur from which on the surround begins further out.
+        BLURRED: f64 = 1.2, Judged "the foot of the edge then reaches into the first ring";
+        /// Blur from which on a target's edges are refined before they are judged.
+        SOFT: f64 = 1.3, Judged "the steepest place scatters by more than edges may differ";
+        /// Blur from which on its edges are searched between means.
+        DEFOCUSED: f64 = 2.0, Judged "no place of an edge is the steepest within the noise";
+    }
+}
+
+/// What a place is measured from, and which place is meant.
+pub(crate) mod place {
+    use super::Source;
+
+    table! {
+        /// Distance of two measurements of the same disc in the smaller semi-minor axis, and ratio of their semi-major axes.
+        SAME: [f64; 2] = [0.25, 1.4], Judged "two discs that touch are two radii apart";
+        /// Least and largest standard deviation of the window of a lump, in those of the picture's blur.
+        NARROWEST: f64 = 0.7, Judged "a point spread function is no narrower, noise is";
+        WIDEST: f64 = 5.0, Judged "what is wider has a rim, and is measured by it";
+        /// Level above the background from which a pixel is weighted, as a share of the contrast and in noise.
+        WEIGHTED: [f64; 2] = [0.15, 3.0], Judged "noise of the background stays out";
+        /// Square of a gradient from which it is weighted, in squares of the noise.
+        STEEP: f64 = 9.0, Derived "noise alone has a mean of 1: chance passes once in 8000 pixels";
+        /// Distance at which a click beside a target still means it.
+        BESIDE: f64 = 4.0, Judged "a hand on the mouse";
     }
 }
 
@@ -297,6 +344,11 @@ pub(crate) mod levels {
         /// Noise that is believed of a surround, in units of the picture's; and at least, in levels.
         BELIEVED: f64 = 1.1, Judged "where the surround is not plane, what the whole picture has is believed";
         ROUNDING: f64 = 0.3, Derived "rounding leaves 0.29";
+        /// Least part of the rays that a ring of the surround has, in tenths.
+        RING_TENTHS: f64 = 6.0, Judged "the plane stands on more than one side of the target";
+        /// Least noise by which a ring is judged; rms and mean, in that noise, with which it still belongs to the plane.
+        RING_NOISE: f64 = 0.5, Derived "rounding leaves 0.29, and a plane is no background to a fraction of a level";
+        RING: [f64; 2] = [1.7, 0.9], Judged "the foot of a neighbour's edge shows in the mean first";
     }
 }
 
@@ -443,6 +495,8 @@ pub(crate) mod code {
     use super::Source;
 
     table! {
+        /// Misfit, over what a code may have, from which a coarse phase is not refined.
+        HOPELESS: f64 = 2.0, Judged "refining gains less";
         /// Smallest margin of a sector that is safe, and how many of its standard errors it must be.
         SAFE: f64 = 0.45, Measured "of codes as in `codes` one in 200 has less than 0.46 (0.50 under a curve); wrong readings of small dots had 0.40 to 0.44";
         SIGMAS: f64 = 4.5, Derived "chance: 3 in a million sectors";

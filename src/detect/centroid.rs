@@ -8,6 +8,7 @@
 
 use wide::f32x4;
 
+use super::acceptance::place::{STEEP, WEIGHTED};
 use super::edges::surround::Surround;
 use super::ellipse::outline::Outline;
 use super::normal::normal_distribution;
@@ -42,9 +43,6 @@ impl Sums {
     }
 }
 
-/// Share of the contrast that a pixel must exceed to be weighted: noise of the background stays out.
-const THRESHOLD: f64 = 0.15;
-
 /// Centroid of the grey levels above the background plane plus a threshold, within `margin` pixels of the outline.
 pub(crate) fn intensity<T: Sample>(
     plane: &Plane<T>,
@@ -52,7 +50,7 @@ pub(crate) fn intensity<T: Sample>(
     surround: &Surround,
     margin: f64,
 ) -> Option<Centre> {
-    let threshold = (THRESHOLD * surround.contrast.abs()).max(3.0 * surround.noise);
+    let threshold = (WEIGHTED[0] * surround.contrast.abs()).max(WEIGHTED[1] * surround.noise);
     let weights = |visit: &mut dyn FnMut(f64, f64, f64)| {
         pixels(plane, outline, margin, &mut |column, row, x, y| {
             let background = surround.level + surround.slope[0] * x + surround.slope[1] * y;
@@ -120,7 +118,7 @@ pub(crate) fn gradient<T: Sample>(
         let gy = (at(column, row + 1) - at(column, row.saturating_sub(1))) / 2.0;
         // differences of noise alone have a variance of half the noise's in each direction
         let square = gx * gx + gy * gy;
-        if square > 9.0 * surround.noise.powi(2) { [gx, gy] } else { [0.0, 0.0] }
+        if square > STEEP * surround.noise.powi(2) { [gx, gy] } else { [0.0, 0.0] }
     };
     let mut sums = Sums::default();
     pixels(plane, outline, margin, &mut |column, row, x, y| {

@@ -4,6 +4,7 @@ use super::measure::{Found, Measure};
 use super::part::Part;
 use super::picture::noise;
 use super::{Outline, Plane, code, search};
+use crate::detect::acceptance::place::BESIDE;
 use crate::detection::{Codes, DetectOptions, Method, MethodResult, Target};
 use crate::image::Sample;
 
@@ -11,8 +12,6 @@ use crate::image::Sample;
 const WINDOWS: [usize; 3] = [64, 192, 1000];
 /// The last window where codes are read: small dots in rings are found by what many others have in common.
 const LAST: usize = 2000;
-/// Distance in pixels at which a click beside a target still means it.
-const BESIDE: f64 = 4.0;
 
 /// The target under the click, or the nearest one within a few pixels of it.
 pub(super) fn measure<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Option<Target> {

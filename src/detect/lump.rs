@@ -5,6 +5,7 @@
 //! out and neighbours have no weight, as they have in plain moments (Bernstein & Jarvis, Astronomical Journal 123, 2002).
 
 use super::edges::surround::Surround;
+use crate::detect::acceptance::place::{NARROWEST, WIDEST};
 use crate::image::{Plane, Sample};
 
 /// Rounds at most, and the change of the place, in pixels, that ends them.
@@ -12,9 +13,6 @@ const ROUNDS: usize = 12;
 const STILL: f64 = 0.02;
 /// Half the side of the window in its standard deviations.
 const REACH: f64 = 2.5;
-/// Least and largest standard deviation of the window, in those of the picture's blur.
-const NARROWEST: f64 = 0.7;
-const WIDEST: f64 = 5.0;
 
 /// A lump: its place and its covariance uu, uv, vv.
 #[derive(Clone, Copy, Debug)]

@@ -13,13 +13,10 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix3, Vector3};
 
 use super::polar::{Rays, step};
-use crate::detect::acceptance::code::{ENDS, ENDS_RMS, MISFIT, SAME, STANDS_OUT, UNEVEN};
+use crate::detect::acceptance::code::{ENDS, ENDS_RMS, HOPELESS, MISFIT, SAME, STANDS_OUT, UNEVEN};
 
 /// Steps of the phase, as shares of a sector: a coarse and a fine search.
 const PHASES: [&[f64]; 2] = [&[-0.16, -0.08, 0.0, 0.08, 0.16], &[-0.04, -0.02, 0.02, 0.04]];
-
-/// Misfit, over what a code may have, from which a coarse phase is not refined.
-const HOPELESS: f64 = 2.0;
 
 /// Sectors whose blur reaches a direction, on either side and with its own.
 const NEAR: usize = 3;

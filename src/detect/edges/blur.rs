@@ -2,16 +2,8 @@
 
 use super::edge::{self, Profile};
 use super::surround::Surround;
+pub(crate) use crate::detect::acceptance::blur::{BLURRED, DEFOCUSED, SHARP, SOFT};
 use crate::detect::ellipse::outline::Outline;
-
-/// What is assumed of a target before its blur is known, sigma in pixels.
-pub(crate) const SHARP: f64 = 0.9;
-/// Blur from which on the surround begins further out.
-pub(crate) const BLURRED: f64 = 1.2;
-/// Blur from which on a target's edges are refined before they are judged.
-pub(crate) const SOFT: f64 = 1.3;
-/// Blur from which on no place of an edge is the steepest within the noise, so that its edges are searched between means.
-pub(crate) const DEFOCUSED: f64 = 2.0;
 
 /// Variance that the pixel's width (1/12) and bilinear sampling (about 1/6) add to that of the blur, in square pixels.
 const SAMPLED: f64 = 0.25;

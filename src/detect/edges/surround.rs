@@ -9,6 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 use wide::f32x4;
 
 use super::look::QUARTER;
+use crate::detect::acceptance::levels::{RING, RING_NOISE, RING_TENTHS};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::ellipse::rays::{Rays, rim_points};
 use crate::detect::median;
@@ -68,12 +69,12 @@ pub(crate) fn measure<T: Sample>(
             }
             Some((coefficients, noise)) => {
                 let next = rims.sums(distance);
-                if next.n * 10.0 < kept.len() as f64 * 6.0 {
+                if next.n * 10.0 < kept.len() as f64 * RING_TENTHS {
                     break;
                 }
                 let (mean, square) = next.residuals(coefficients);
-                let floor = noise.max(0.5);
-                if square > (1.7 * floor).powi(2) || mean.abs() > 0.9 * floor {
+                let floor = noise.max(RING_NOISE);
+                if square > (RING[0] * floor).powi(2) || mean.abs() > RING[1] * floor {
                     break;
                 }
                 sums.add(&next);

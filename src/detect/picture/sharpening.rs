@@ -26,8 +26,6 @@ pub(crate) struct Sharpening {
 const REACH: f64 = 7.0;
 /// Samples of a pixel.
 const FINE: f64 = 4.0;
-/// Rims that are enough.
-const ENOUGH: usize = 120;
 
 const BINS: usize = (2.0 * REACH * FINE) as usize + 1;
 
@@ -45,7 +43,7 @@ pub(crate) fn of_rims<'a, T: Sample>(
 ) -> Option<Sharpening> {
     let mut profile = Profile { sums: [[0.0; 3]; BINS], rims: 0 };
     for outline in outlines.filter(|outline| outline.semi_axes().1 >= limits::RIM) {
-        if profile.rims == ENOUGH {
+        if profile.rims == limits::RIMS {
             break;
         }
         profile.add(plane, outline, saturation);
@@ -105,7 +103,7 @@ impl Profile {
     }
 
     fn fit(&self) -> Option<Sharpening> {
-        let whole = |sum: &&(usize, [f64; 3])| sum.1[0] >= 4.0 && sum.1[2] < 0.1 * sum.1[0];
+        let whole = |sum: &&(usize, [f64; 3])| sum.1[0] >= 4.0 && sum.1[2] < limits::CLIPPED_RIM * sum.1[0];
         let sums: Vec<(usize, [f64; 3])> = self.sums.iter().copied().enumerate().collect();
         let points: Vec<[f64; 2]> =
             sums.iter().filter(whole).map(|(k, sum)| [*k as f64 / FINE - REACH, sum[1] / sum[0]]).collect();
@@ -129,7 +127,7 @@ impl Profile {
                 let Some(found) = damped.cholesky().map(|factor| factor.solve(&right)) else { continue };
                 let rest = square - found.dot(&right);
                 let amount = found.z / found.y;
-                if amount > 0.0 && amount < 6.0 && rest < best.0 {
+                if amount > 0.0 && amount < limits::STRONGEST && rest < best.0 {
                     best = (rest, Some(Sharpening { amount, radius }));
                 }
                 let two = normal.fixed_view::<2, 2>(0, 0).into_owned().cholesky();
