@@ -66,22 +66,22 @@ impl Session<'_> {
         // What is in the weights already belongs to the start.
         let own: Vec<f64> = (given.iter().enumerate())
             .map(|(k, observed)| {
-                observed.sqrt_weight(&self.network) / self.given_factors.get(k).copied().unwrap_or(1.0)
+                observed.sqrt_weight(&self.network) / self.additional_factors.get(k).copied().unwrap_or(1.0)
             })
             .collect();
         let before = self.state.clone();
         let found = self.standing_out(options, log);
         let out = Outside {
             rays: (0..self.network.rays.len()).map(|ray| found.contains(&Item::Ray(ray))).collect(),
-            given: given.iter().map(|observed| found.contains(&Item::Given(*observed))).collect(),
+            given: given.iter().map(|observed| found.contains(&Item::Additional(*observed))).collect(),
         };
         if !found.is_empty() {
             // The weights that belong to its values.
             let factor = |out: &bool| if *out { LEAST } else { 1.0 };
             self.weights = out.rays.iter().map(|out| [factor(out); 2]).collect();
-            self.given_factors = out.given.iter().map(factor).collect();
+            self.additional_factors = out.given.iter().map(factor).collect();
             for (k, observed) in given.iter().enumerate() {
-                observed.set_sqrt_weight(&mut self.network, own[k] * self.given_factors[k]);
+                observed.set_sqrt_weight(&mut self.network, own[k] * self.additional_factors[k]);
             }
         }
         self.reweighted(kind, options, log, (&given, &own), &out, record).or_else(|_| {
@@ -105,7 +105,7 @@ impl Session<'_> {
         let started = std::mem::take(&mut self.weights);
         let mut standards = self.standards(options, given)?;
         self.weights = if started.is_empty() { vec![[1.0; 2]; self.network.rays.len()] } else { started };
-        self.given_factors.resize(given.len(), 1.0);
+        self.additional_factors.resize(given.len(), 1.0);
         let mut kept_rays = vec![false; self.network.rays.len()];
         let mut kept_given = vec![false; given.len()];
         let stages: &[Robust] = if kind == Robust::Tukey { &[Robust::Huber, Robust::Tukey] } else { &[Robust::Huber] };
@@ -141,7 +141,7 @@ impl Session<'_> {
             for item in needed {
                 match item {
                     Item::Ray(ray) => kept_rays[ray] = true,
-                    Item::Given(observed) => {
+                    Item::Additional(observed) => {
                         given.iter().zip(&mut kept_given).filter(|(g, _)| **g == observed).for_each(|(_, k)| *k = true);
                     }
                 }
@@ -152,7 +152,8 @@ impl Session<'_> {
         let sigma0 = self.hard_sigma0(options, log, given, own, &standards, s)?;
         self.robust = Some(RobustVariance { sigma0, variance: variance(kind, sigma0, s) });
         let of_rays = self.weights.iter().enumerate().map(|(ray, w)| (Item::Ray(ray), w[0].min(w[1])));
-        let of_given = given.iter().zip(&self.given_factors).map(|(observed, w)| (Item::Given(*observed), *w));
+        let of_given =
+            given.iter().zip(&self.additional_factors).map(|(observed, w)| (Item::Additional(*observed), *w));
         for (item, factor) in of_rays.chain(of_given).map(|(item, w)| (item, w * w)).filter(|(_, f)| *f < 0.5) {
             let entry = self.gross_error(item, GrossErrorAction::Downweighted, round);
             record.push(GrossError { statistic: factor, limit: 0.5, ..entry });
@@ -173,7 +174,7 @@ impl Session<'_> {
         standards: &Standards,
         s: f64,
     ) -> Result<f64> {
-        let (state, weights, factors) = (self.state.clone(), self.weights.clone(), self.given_factors.clone());
+        let (state, weights, factors) = (self.state.clone(), self.weights.clone(), self.additional_factors.clone());
         let residuals = self.residuals(options)?;
         let mut sigma0 = scale(&self.standardised(&residuals, standards));
         let mut decided = self.decided(&residuals, given, own, standards, s);
@@ -181,8 +182,8 @@ impl Session<'_> {
             let (of_rays, of_given) = decided.split_at(self.weights.len());
             self.weights = of_rays.iter().map(|factor| [*factor; 2]).collect();
             for (k, observed) in given.iter().enumerate() {
-                self.given_factors[k] = of_given[k];
-                observed.set_sqrt_weight(&mut self.network, own[k] * self.given_factors[k]);
+                self.additional_factors[k] = of_given[k];
+                observed.set_sqrt_weight(&mut self.network, own[k] * self.additional_factors[k]);
             }
             if !self.iterate(options, log).is_ok_and(|t| t == Termination::Converged) {
                 break;
@@ -213,9 +214,9 @@ impl Session<'_> {
                 break;
             }
         }
-        (self.state, self.weights, self.given_factors) = (state, weights, factors);
+        (self.state, self.weights, self.additional_factors) = (state, weights, factors);
         for (k, observed) in given.iter().enumerate() {
-            observed.set_sqrt_weight(&mut self.network, own[k] * self.given_factors[k]);
+            observed.set_sqrt_weight(&mut self.network, own[k] * self.additional_factors[k]);
         }
         Ok(sigma0)
     }
@@ -238,7 +239,7 @@ impl Session<'_> {
         });
         let of_given = given.iter().enumerate().map(|(k, observed)| {
             let e = observed.residual(&self.network, &self.state) * own[k];
-            prediction(e, self.given_factors[k].powi(2), standards.given[k], TESTABLE).map_or(1.0, factor)
+            prediction(e, self.additional_factors[k].powi(2), standards.given[k], TESTABLE).map_or(1.0, factor)
         });
         of_rays.chain(of_given).collect()
     }
@@ -297,7 +298,7 @@ impl Session<'_> {
 
     fn predicting_with(&self, cofactors: &Cofactors, given: &[Observed]) -> Vec<f64> {
         let of = |(k, observed): (usize, &Observed)| {
-            let factor = self.given_factors.get(k).copied().unwrap_or(1.0);
+            let factor = self.additional_factors.get(k).copied().unwrap_or(1.0);
             predicting(observed.cofactor(&self.network, cofactors), factor * factor)
         };
         given.iter().enumerate().map(of).collect()
@@ -336,13 +337,13 @@ impl Session<'_> {
         let mut change = 0.0_f64;
         for (k, observed) in given.iter().enumerate() {
             let e = observed.residual(&self.network, &self.state) * own[k];
-            let t = prediction(e, self.given_factors[k].powi(2), standards.given[k], TESTABLE);
+            let t = prediction(e, self.additional_factors[k].powi(2), standards.given[k], TESTABLE);
             let new = match t.filter(|_| !kept[k]) {
                 Some(t) => weight(kind, t, s, out[k] && t.abs() > critical_w() * s),
                 None => 1.0,
             };
-            change = change.max((new - self.given_factors[k]).abs());
-            self.given_factors[k] = new;
+            change = change.max((new - self.additional_factors[k]).abs());
+            self.additional_factors[k] = new;
             observed.set_sqrt_weight(&mut self.network, own[k] * new);
         }
         change
@@ -352,7 +353,7 @@ impl Session<'_> {
     fn needed(&mut self, options: &AdjustOptions, given: &[Observed]) -> Result<Vec<Item>> {
         let lost = |w: f64| w * w <= LOST;
         let rays = self.weights.iter().flatten().any(|w| lost(*w));
-        if !rays && !self.given_factors.iter().any(|w| lost(*w)) {
+        if !rays && !self.additional_factors.iter().any(|w| lost(*w)) {
             return Ok(Vec::new());
         }
         let full = AdjustOptions { statistics: StatisticsChoice::Full, covariance_of: Vec::new(), ..options.clone() };
@@ -367,8 +368,8 @@ impl Session<'_> {
             let ray = |k: &usize| (0..2).any(|s| lost(self.weights[*k][s]) && cofactors.rays[*k][s] > NEEDED);
             needed.extend(point.rays.clone().filter(ray).map(Item::Ray));
         }
-        needed.extend(given.iter().zip(&self.given_factors).filter_map(|(observed, w)| {
-            (lost(*w) && observed.cofactor(&self.network, cofactors) > NEEDED).then_some(Item::Given(*observed))
+        needed.extend(given.iter().zip(&self.additional_factors).filter_map(|(observed, w)| {
+            (lost(*w) && observed.cofactor(&self.network, cofactors) > NEEDED).then_some(Item::Additional(*observed))
         }));
         Ok(needed)
     }

@@ -64,7 +64,7 @@ impl Session<'_> {
                 let observation = &self.project.observations[self.network.rays[ray].row];
                 (observation.photo.clone(), observation.point.clone(), None)
             }
-            Item::Given(observed) => {
+            Item::Additional(observed) => {
                 let what = observed.key(&self.network).named(self.project);
                 match &what {
                     Given::Control { point, .. } => (String::new(), point.clone(), Some(what)),
@@ -93,7 +93,7 @@ impl Session<'_> {
         for item in out {
             match item {
                 Item::Ray(ray) => left_out.observations[self.network.rays[ray].row] = true,
-                Item::Given(observed) => left_out.given.push(observed.key(&self.network)),
+                Item::Additional(observed) => left_out.given.push(observed.key(&self.network)),
             }
         }
         Ok(ended)
@@ -102,11 +102,11 @@ impl Session<'_> {
     /// What data snooping takes out, for robust weights to begin with; nothing where it comes to no end. The session keeps
     /// its weights, and the values of the solution without these.
     pub fn standing_out(&mut self, options: &AdjustOptions, log: &mut Log<'_>) -> Vec<Item> {
-        let (state, weights, factors) = (self.state.clone(), self.weights.clone(), self.given_factors.clone());
+        let (state, weights, factors) = (self.state.clone(), self.weights.clone(), self.additional_factors.clone());
         let given = additional::all(&self.network);
         let own: Vec<f64> = given.iter().map(|observed| observed.sqrt_weight(&self.network)).collect();
         let found = self.searched(options, log, &mut Vec::new());
-        (self.weights, self.given_factors) = (weights, factors);
+        (self.weights, self.additional_factors) = (weights, factors);
         for (observed, own) in given.iter().zip(own) {
             observed.set_sqrt_weight(&mut self.network, own);
         }
@@ -134,7 +134,7 @@ impl Session<'_> {
         let back: Vec<(Item, f64)> = search.items.iter().copied().zip(search.own.iter().copied()).collect();
         back.into_iter().for_each(|(item, own)| self.weigh(item, own, 1.0));
         self.weights = Vec::new();
-        self.given_factors = Vec::new();
+        self.additional_factors = Vec::new();
         let out = search.items.iter().zip(&search.out).filter(|(_, out)| out.is_some()).map(|(item, _)| *item);
         Ok((out.collect(), ended))
     }
@@ -166,10 +166,10 @@ impl Session<'_> {
     fn search(&self) -> Search {
         let items = items(&self.network);
         // The start's factors are in the weights of additional observations.
-        let mut factors = self.given_factors.iter();
+        let mut factors = self.additional_factors.iter();
         let own = items.iter().map(|item| match item {
             Item::Ray(_) => 1.0,
-            Item::Given(observed) => observed.sqrt_weight(&self.network) / factors.next().unwrap_or(&1.0),
+            Item::Additional(observed) => observed.sqrt_weight(&self.network) / factors.next().unwrap_or(&1.0),
         });
         let own: Vec<f64> = own.collect();
         let n = items.len();
@@ -204,8 +204,8 @@ impl Session<'_> {
                         let side = |s: usize| one(residuals[*ray][s], cofactors.rays[*ray][s], factor(s));
                         side(0).max(side(1))
                     }
-                    Item::Given(observed) => {
-                        let factor = self.given_factors.get(given).copied().unwrap_or(1.0);
+                    Item::Additional(observed) => {
+                        let factor = self.additional_factors.get(given).copied().unwrap_or(1.0);
                         given += 1;
                         let e = observed.residual(&self.network, &self.state) * own;
                         one(e, observed.cofactor(&self.network, cofactors), factor)
@@ -245,7 +245,7 @@ impl Session<'_> {
     ) -> Result<bool> {
         let start = self.state.clone();
         self.weights = vec![[1.0; 2]; self.network.rays.len()];
-        self.given_factors = Vec::new();
+        self.additional_factors = Vec::new();
         for item in 0..search.items.len() {
             self.weigh(search.items[item], search.own[item], 1.0);
         }
@@ -376,7 +376,7 @@ impl Session<'_> {
         let residuals = self.residuals(options)?;
         let one = |(item, own): (&Item, &f64)| match item {
             Item::Ray(ray) => [0, 1].map(|s| Some((residuals[*ray][s], cofactors.rays[*ray][s]))),
-            Item::Given(observed) => {
+            Item::Additional(observed) => {
                 let e = observed.residual(&self.network, &self.state) * own;
                 [Some((e, observed.cofactor(&self.network, cofactors))), None]
             }
@@ -388,7 +388,7 @@ impl Session<'_> {
     fn weigh(&mut self, item: Item, own: f64, factor: f64) {
         match item {
             Item::Ray(ray) => self.weights[ray] = [factor; 2],
-            Item::Given(observed) => observed.set_sqrt_weight(&mut self.network, own * factor),
+            Item::Additional(observed) => observed.set_sqrt_weight(&mut self.network, own * factor),
         }
     }
 
@@ -406,7 +406,7 @@ impl Session<'_> {
                     let back = match left_out.given.pop() {
                         Some(key) => {
                             let mut items = items(&self.network).into_iter();
-                            items.find(|item| matches!(item, Item::Given(o) if o.key(&self.network) == key))
+                            items.find(|item| matches!(item, Item::Additional(o) if o.key(&self.network) == key))
                         }
                         None => {
                             // The least of those that went last.
@@ -441,7 +441,7 @@ pub fn told(project: &Project, network: &Network, suspects: &[(Item, f64)]) -> O
                 let o = &project.observations[network.rays[*ray].row];
                 observations.push((o.photo.clone(), o.point.clone(), *statistic));
             }
-            Item::Given(observed) => given.push((observed.key(network).named(project), *statistic)),
+            Item::Additional(observed) => given.push((observed.key(network).named(project), *statistic)),
         }
     }
     observations.truncate(Advice::SUSPECTS);

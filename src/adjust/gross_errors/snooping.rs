@@ -32,13 +32,13 @@ pub enum Item {
     /// A ray: two image coordinates.
     Ray(usize),
     /// An observation of another kind.
-    Given(Observed),
+    Additional(Observed),
 }
 
 /// All items of a network, rays first.
 pub fn items(network: &Network) -> Vec<Item> {
     let rays = (0..network.rays.len()).map(Item::Ray);
-    rays.chain(additional::all(network).into_iter().map(Item::Given)).collect()
+    rays.chain(additional::all(network).into_iter().map(Item::Additional)).collect()
 }
 
 /// What the tests of an item need: per scalar observation the weighted residual, without the vanishing weight, and the
@@ -116,7 +116,7 @@ pub fn consequences(network: &Network, items: &[Item], removed: &[Option<f64>], 
     let at = network.points.iter().position(|p| p.rays.contains(&ray))?;
     let point = &network.points[at];
     let known = |a: usize| {
-        let own = items.iter().position(|item| *item == Item::Given(Observed::Control(at, a)));
+        let own = items.iter().position(|item| *item == Item::Additional(Observed::Control(at, a)));
         point.fixed[a] || own.is_some_and(|k| removed[k].is_none())
     };
     let others: Vec<usize> = point.rays.clone().filter(|r| *r != ray && removed[*r].is_none()).collect();

@@ -52,7 +52,7 @@ impl Session<'_> {
     /// Gives every observation its own weight again.
     pub fn forget_weights(&mut self, own: &[f64]) {
         self.weights = Vec::new();
-        self.given_factors = Vec::new();
+        self.additional_factors = Vec::new();
         for (observed, own) in additional::all(&self.network).into_iter().zip(own) {
             observed.set_sqrt_weight(&mut self.network, *own);
         }
@@ -62,7 +62,7 @@ impl Session<'_> {
         let short = AdjustOptions { max_iterations: STEPS, ..options.clone() };
         let given = additional::all(&self.network);
         self.weights = vec![[1.0; 2]; self.network.rays.len()];
-        self.given_factors = vec![1.0; given.len()];
+        self.additional_factors = vec![1.0; given.len()];
         // Where the first equations have no cofactors the residuals themselves have to do.
         let standards = self.standards(options, &given).ok();
         let mut termination = Termination::IterationLimit;
@@ -91,13 +91,13 @@ impl Session<'_> {
                     let e = observed.residual(&self.network, &self.state) * own[k];
                     let new = weigh(match &standards {
                         Some(standards) => {
-                            let factor = self.given_factors[k].powi(2);
+                            let factor = self.additional_factors[k].powi(2);
                             prediction(e, factor, standards.given[k], TESTABLE).unwrap_or(0.0)
                         }
                         None => e,
                     });
-                    change = change.max((new - self.given_factors[k]).abs());
-                    self.given_factors[k] = new;
+                    change = change.max((new - self.additional_factors[k]).abs());
+                    self.additional_factors[k] = new;
                     observed.set_sqrt_weight(&mut self.network, own[k] * new);
                 }
                 if change < SETTLED && termination == Termination::Converged {

@@ -24,7 +24,7 @@ pub struct Ray {
     pub row: usize,
 }
 
-/// A value known beforehand with a reciprocal standard error; a weight of 0 stands for no observation.
+/// A value known beforehand with a reciprocal standard error, which is 0 where it was not observed.
 pub type Prior = [(f64, f64); 3];
 
 /// A photo that takes part.

@@ -10,18 +10,18 @@ use super::extent::distance;
 use super::result::Solved;
 
 impl Solved<'_> {
-    /// All given observations; those that were taken out come last.
-    pub fn given(&self) -> Vec<GivenObservation> {
+    /// All additional observations; those that were taken out come last.
+    pub fn additional(&self) -> Vec<GivenObservation> {
         let full = self.cofactors.filter(|c| !c.rays.is_empty());
         let one = |(k, observed): (usize, Observed)| {
             let unit = observed.unit(self.network);
-            let weight = observed.sqrt_weight(self.network);
-            let factor = self.given_factors.get(k).copied().unwrap_or(1.0);
+            let sqrt_weight = observed.sqrt_weight(self.network);
+            let factor = self.additional_factors.get(k).copied().unwrap_or(1.0);
             let residual = observed.residual(self.network, self.state);
             let mut given = GivenObservation {
                 what: observed.key(self.network).named(self.project),
                 residual: Some(residual * unit),
-                sigma: unit / (weight / factor),
+                sigma: unit / (sqrt_weight / factor),
                 reliability: None,
                 effect: None,
                 effect_point: None,
@@ -29,15 +29,18 @@ impl Solved<'_> {
                 enabled: true,
             };
             let Some(cofactors) = full else { return given };
-            let mut test =
-                Reliability::new(residual * weight, observed.cofactor(self.network, cofactors), unit / weight);
+            let mut test = Reliability::new(
+                residual * sqrt_weight,
+                observed.cofactor(self.network, cofactors),
+                unit / sqrt_weight,
+            );
             if factor <= LEAST {
                 // An observation without weight is not tested.
                 test = Reliability { redundancy: test.redundancy, ..Reliability::default() };
             }
             given.reliability = Some(test);
             if let (Some(mdb), Some((shift, point))) = (test.mdb, observed.influence(self.network, cofactors)) {
-                given.effect = Some(mdb * weight / unit * shift * self.frame().scale);
+                given.effect = Some(mdb * sqrt_weight / unit * shift * self.frame().scale);
                 given.effect_point = Some(self.project.points[self.network.points[point].index].id.clone());
             }
             given
@@ -46,7 +49,7 @@ impl Solved<'_> {
         used.chain(self.network.left_out.iter().filter_map(|key| self.left_out(*key))).collect()
     }
 
-    /// A given observation that takes no part any more, beside the adjusted value; it was one by its standard error in the document.
+    /// An additional observation that takes no part any more, beside the adjusted value; it was one by its standard error in the document.
     fn left_out(&self, key: Key) -> Option<GivenObservation> {
         let network = self.network;
         let point = |index: usize| network.points.iter().position(|p| p.index == index).map(|k| self.point(k));

@@ -34,7 +34,7 @@ pub struct Solved<'a> {
     /// Weights and place of the residuals.
     pub weighting: Weighting<'a>,
     /// Square roots of robust factors of given observations, contained in the network's weights; empty for none.
-    pub given_factors: &'a [f64],
+    pub additional_factors: &'a [f64],
     /// vᵀPv.
     pub cost: f64,
     /// Datum constraints.
@@ -82,7 +82,7 @@ impl<'a> Solved<'a> {
             state: &session.state,
             cofactors: solution.cofactors.as_ref(),
             weighting: session.context(options.residuals).weighting,
-            given_factors: &session.given_factors,
+            additional_factors: &session.additional_factors,
             cost: solution.cost,
             constraints: session.datum.as_ref().map_or(0, |d| d.defect),
             redundancy: session.redundancy,
@@ -138,7 +138,7 @@ impl Solved<'_> {
             check_statistics: check_statistics(&check_points),
             check_points,
             check_distances: self.check_distances(),
-            given: self.given(),
+            given: self.additional(),
             eccentricity: eccentric::told(self.project, self.network, self.weighting.shift),
             ..Adjustment::default()
         }
@@ -308,13 +308,14 @@ impl Solved<'_> {
             adjusted.weight = robust.map(|w| w[0].min(w[1]).powi(2)).filter(|w| *w < 1.0);
             if let Some(cofactors) = self.cofactors.filter(|c| !c.rays.is_empty()) {
                 let side = |s: usize| {
-                    let weight = network_ray.sqrt_weight[s] * robust.map_or(1.0, |w| w[s]);
-                    let mut test = Reliability::new(linear.residual[s] * weight, cofactors.rays[ray][s], 1.0 / weight);
+                    let sqrt_weight = network_ray.sqrt_weight[s] * robust.map_or(1.0, |w| w[s]);
+                    let (normalised, q) = (linear.residual[s] * sqrt_weight, cofactors.rays[ray][s]);
+                    let mut test = Reliability::new(normalised, q, 1.0 / sqrt_weight);
                     if robust.is_some_and(|w| w[s] <= LEAST) {
                         // What has lost its weight is not tested.
                         test = Reliability { redundancy: test.redundancy, ..Reliability::default() };
                     }
-                    (test, test.mdb.map(|mdb| mdb * weight * cofactors.influence[ray][s] * scale))
+                    (test, test.mdb.map(|mdb| mdb * sqrt_weight * cofactors.influence[ray][s] * scale))
                 };
                 let ((x, effect_x), (y, effect_y)) = (side(0), side(1));
                 (adjusted.rx, adjusted.wx, adjusted.mdb_x) = (Some(x.redundancy), x.w, x.mdb);

@@ -71,7 +71,7 @@ pub struct Session<'a> {
     /// Square roots of robust factors, per ray; empty for none.
     pub weights: Vec<[f64; 2]>,
     /// Square roots of robust factors of the other observations, contained in the network's weights; empty for none.
-    pub given_factors: Vec<f64>,
+    pub additional_factors: Vec<f64>,
     /// Eccentricity corrections, per ray; empty for none.
     pub shift: Vec<[f64; 2]>,
     /// What stands for the variance factor after robust estimation.
@@ -128,7 +128,7 @@ impl<'a> Session<'a> {
             redundancy: 0,
             normal,
             weights: Vec::new(),
-            given_factors: Vec::new(),
+            additional_factors: Vec::new(),
             shift: Vec::new(),
             robust: None,
         };

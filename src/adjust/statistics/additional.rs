@@ -10,7 +10,7 @@ impl Observed {
     pub fn cofactor(self, network: &Network, cofactors: &Cofactors) -> f64 {
         let squared = self.sqrt_weight(network).powi(2);
         match self {
-            Self::Control(k, a) => cofactors.given_points[k][a] * squared,
+            Self::Control(k, a) => cofactors.additional_points[k][a] * squared,
             Self::Position(k, a) => cofactors.photos[k][(3 + a, 3 + a)] * squared,
             Self::Distance(k) => cofactors.bars[k],
             Self::Parameter(k, n) => {
@@ -22,21 +22,21 @@ impl Observed {
     /// Shift, by a unit of weighted observation error, of the point that it moves most, and that point. None where it
     /// acts on no point.
     pub fn influence(self, network: &Network, cofactors: &Cofactors) -> Option<(f64, usize)> {
-        let weight = self.sqrt_weight(network);
-        let influence = &cofactors.given_influence;
+        let sqrt_weight = self.sqrt_weight(network);
+        let influence = &cofactors.additional_influence;
         let (shift, point) = match self {
             Self::Control(k, a) => {
                 let (shift, point) = influence.points[k][a];
-                (shift * weight, point)
+                (shift * sqrt_weight, point)
             }
             Self::Position(k, a) => {
                 let (shift, point) = influence.photos[k][a];
-                (shift * weight, point)
+                (shift * sqrt_weight, point)
             }
             Self::Distance(k) => influence.bars[k],
             Self::Parameter(k, n) => {
                 let (shift, point) = influence.interiors[k][n];
-                (shift * weight * network.interiors[k].estimated[n].scale, point)
+                (shift * sqrt_weight * network.interiors[k].estimated[n].scale, point)
             }
         };
         (point < network.points.len()).then_some((shift, point))

@@ -40,11 +40,11 @@ pub struct Cofactors {
     /// Per ray and side: shift of its own point, in the datum, by a unit of weighted observation error. Empty unless wanted.
     pub influence: Vec<[f64; 2]>,
     /// Shifts by given observations. Empty unless wanted.
-    pub given_influence: Influence,
+    pub additional_influence: Influence,
     /// Per distance: cofactor of the weighted adjusted distance.
     pub bars: Vec<f64>,
     /// Per point and axis before the S-transformation, for given coordinates.
-    pub given_points: Vec<[f64; 3]>,
+    pub additional_points: Vec<[f64; 3]>,
 }
 
 /// Beyond this a cofactor's products with scales and variances are no numbers any more.
@@ -57,9 +57,9 @@ impl Cofactors {
         let matrices = self.photo_interior.iter().chain(&self.interiors).flat_map(|q| q.iter());
         let own = self.photos.iter().flat_map(|q| q.iter()).chain(self.points.iter().flat_map(|q| q.iter()));
         let rays = self.rays.iter().chain(&self.influence).flatten();
-        let given = self.given_points.iter().flatten().chain(&self.bars);
+        let given = self.additional_points.iter().flatten().chain(&self.bars);
         let sound = |x: &f64| x.abs() < LARGEST;
-        matrices.chain(own).chain(rays).chain(given).all(sound) && self.given_influence.shifts().all(|x| sound(&x))
+        matrices.chain(own).chain(rays).chain(given).all(sound) && self.additional_influence.shifts().all(|x| sound(&x))
     }
 }
 
@@ -108,7 +108,7 @@ fn compute<const N: usize>(
     let mut result = Cofactors {
         rays: if full { vec![[0.0; 2]; network.rays.len()] } else { Vec::new() },
         influence: if full { vec![[0.0; 2]; network.rays.len()] } else { Vec::new() },
-        given_influence: if full { Influence::new(network) } else { Influence::default() },
+        additional_influence: if full { Influence::new(network) } else { Influence::default() },
         ..Cofactors::default()
     };
     let blocks = Blocks { context, transformation: transformation.as_ref() };
@@ -143,7 +143,7 @@ fn compute<const N: usize>(
         if full {
             let at_photo = |photo| at_photo::<N>(&inverse, network, layout, &normal.eliminated, point, photo);
             let at_interiors = (normal.eliminated.own(point), &rays.interiors[..]);
-            result.given_influence.eliminated(&blocks, point, &l, at_photo, at_interiors);
+            result.additional_influence.eliminated(&blocks, point, &l, at_photo, at_interiors);
             for (n, row) in rows.iter().enumerate() {
                 let ray = network_point.rays.start + n;
                 let (cofactors, mut shifts) = rays.ray(n, &l);
@@ -168,7 +168,7 @@ fn compute<const N: usize>(
             q.column_mut(a).fill(0.0);
         }
         if full {
-            result.given_influence.own(network, point, |a| q.column(a).into());
+            result.additional_influence.own(network, point, |a| q.column(a).into());
         }
         push_point(&mut result, &blocks, point, q, |_, _| 0.0);
         if let (Some(t), Some(v)) = (&transformation, at_this_point) {
@@ -192,7 +192,7 @@ fn compute<const N: usize>(
         result.bars.push(sum.sum());
     }
     if full {
-        result.given_influence.distances(&blocks, &inverse);
+        result.additional_influence.distances(&blocks, &inverse);
     }
     Some(result)
 }
@@ -204,7 +204,7 @@ fn push_point(
     q: Matrix3<f64>,
     reduced: impl Fn(usize, &[f64]) -> f64,
 ) {
-    result.given_points.push([q[(0, 0)], q[(1, 1)], q[(2, 2)]]);
+    result.additional_points.push([q[(0, 0)], q[(1, 1)], q[(2, 2)]]);
     let q = match transformation {
         Some(t) if network.points[point].kept => {
             let rows = at_point(&state.points[point]);
@@ -264,8 +264,8 @@ fn kept_point<const N: usize>(
         q.column_mut(a).fill(0.0);
     }
     if full {
-        result.given_influence.kept(blocks, inverse, point);
-        result.given_influence.own(network, point, |a| q.column(a).into());
+        result.additional_influence.kept(blocks, inverse, point);
+        result.additional_influence.own(network, point, |a| q.column(a).into());
         let mut v: Carried = [[0.0; 3]; SIMILARITY];
         for (v, reduced) in v.iter_mut().zip(transformation.iter().flat_map(|t| &t.v)) {
             v.copy_from_slice(&reduced[place..place + 3]);
@@ -361,7 +361,7 @@ mod tests {
             let mut ray = sound.clone();
             ray.rays[0][1] = bad;
             let mut given = sound.clone();
-            given.given_influence.bars.push((bad, 0));
+            given.additional_influence.bars.push((bad, 0));
             let photo = Cofactors { photos: vec![Matrix6::from_element(bad)], ..sound.clone() };
             assert!([point, ray, given, photo].iter().all(|c| !c.are_sound()), "{bad}");
         }

@@ -11,7 +11,7 @@ use super::edge::{Edges, Profile, slopes};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::ellipse::rays::rim_points;
 
-/// What a centre owes to its pixels.
+/// Sensitivity of a centre to its pixels.
 pub(crate) struct Influence {
     /// Covariance (uu, uv, vv) of the centre for pixels of unit noise.
     pub noise: [f64; 3],
