@@ -2,6 +2,10 @@
 //!
 //! `{n}` is a value; `{n:photo|photos}` is the word for one or for any other number of them.
 
+use sightline::error::{Damage, Lack, PictureKind, Reason, Thing};
+use sightline::initial::Degeneracy;
+use sightline::project::ReportLanguage;
+
 use super::declare;
 
 mod before;
@@ -11,6 +15,30 @@ pub use beside::{comparing, equipment, lasting};
 
 /// This language.
 pub struct English;
+
+impl super::Speech for English {
+    fn pages(&self) -> ReportLanguage {
+        ReportLanguage::English
+    }
+    fn reason(&self, reason: &Reason) -> String {
+        reason.to_string()
+    }
+    fn damage(&self, damage: &Damage) -> String {
+        damage.to_string()
+    }
+    fn degeneracy(&self, degeneracy: &Degeneracy) -> String {
+        degeneracy.to_string()
+    }
+    fn picture(&self, kind: &PictureKind) -> String {
+        kind.to_string()
+    }
+    fn thing(&self, thing: Thing) -> &'static str {
+        thing.name()
+    }
+    fn lack(&self, lack: Lack) -> &'static str {
+        lack.name()
+    }
+}
 
 fn choose<'a>(value: &str, one: &'a str, other: &'a str) -> &'a str {
     if value == "1" { one } else { other }
@@ -1211,7 +1239,7 @@ declare! { errors {
     kind_point: "point";
     kind_camera: "camera";
     kind_file: "file";
-    kind_line: "line";
+    kind_line(n): "line {n}";
     kind_field: "field";
     some_photos: "photos";
     some_points: "points";

@@ -1,32 +1,31 @@
 //! The engine's errors as sentences: what is wrong, where, and what to do.
 
 use sightline::Error;
-use sightline::error::{Damage, Defect, Lack, PictureKind, Place, Reason, Thing};
-use sightline::initial::Degeneracy;
+use sightline::error::{Defect, Place};
 
 use super::en::errors::*;
-use super::{Language, language, reasons};
+use super::speech;
 
 /// An error as a sentence in the language in use.
 pub fn sentence(error: &Error) -> String {
     let text = match error {
-        Error::UnknownImageFormat { recognised: Some(kind), .. } if kind.is_raw() => raw_unread(picture(kind)),
-        Error::UnknownImageFormat { recognised: Some(kind), .. } => recognised(picture(kind)),
+        Error::UnknownImageFormat { recognised: Some(kind), .. } if kind.is_raw() => raw_unread(speech().picture(kind)),
+        Error::UnknownImageFormat { recognised: Some(kind), .. } => recognised(speech().picture(kind)),
         Error::UnknownImageFormat { .. } => no_picture().to_owned(),
-        Error::BrokenImage { reason, .. } => broken(damaged(reason)),
+        Error::BrokenImage { reason, .. } => broken(speech().damage(reason)),
         Error::DecoderMissing { format, message, .. } => decoder_missing(format, message),
         Error::ImageSize { width, height, limit, .. } => size(width, height, limit),
-        Error::Invalid { reason, .. } => because(reason),
-        Error::Unknown { kind, name, .. } => unknown(thing(*kind), name),
-        Error::Duplicate { kind, name, .. } => duplicate(thing(*kind), name),
-        Error::Empty { what } => empty(lack(*what)),
+        Error::Invalid { reason, .. } => speech().reason(reason),
+        Error::Unknown { kind, name, .. } => unknown(speech().thing(*kind), name),
+        Error::Duplicate { kind, name, .. } => duplicate(speech().thing(*kind), name),
+        Error::Empty { what } => empty(speech().lack(*what)),
         Error::MissingInitialValues { photos, points, cameras } => {
             initial_values(things(&[(some_photos(), photos), (some_points(), points), (some_cameras(), cameras)]))
         }
         Error::RankDefect { defects } => not_solved(defects.iter().map(defect).collect::<Vec<_>>().join("; ")),
-        Error::CannotOrient { reason, photos } if photos.is_empty() => degenerate(reason),
+        Error::CannotOrient { reason, photos } if photos.is_empty() => speech().degeneracy(reason),
         Error::CannotOrient { reason, photos } => {
-            format!("{} ({} {})", degenerate(reason), some_photos(), listed(photos))
+            format!("{} ({} {})", speech().degeneracy(reason), some_photos(), listed(photos))
         }
         Error::Cancelled => stopped().to_owned(),
     };
@@ -45,48 +44,6 @@ pub fn sentence(error: &Error) -> String {
         text.push('.');
     }
     text
-}
-
-fn because(reason: &Reason) -> String {
-    match language() {
-        Language::English => reason.to_string(),
-        Language::Korean => reasons::reason(reason),
-    }
-}
-
-fn damaged(damage: &Damage) -> String {
-    match language() {
-        Language::English => damage.to_string(),
-        Language::Korean => reasons::damage(damage),
-    }
-}
-
-fn picture(kind: &PictureKind) -> String {
-    match language() {
-        Language::English => kind.to_string(),
-        Language::Korean => reasons::picture(kind),
-    }
-}
-
-fn degenerate(degeneracy: &Degeneracy) -> String {
-    match language() {
-        Language::English => degeneracy.to_string(),
-        Language::Korean => reasons::degeneracy(degeneracy),
-    }
-}
-
-fn thing(thing: Thing) -> &'static str {
-    match language() {
-        Language::English => thing.name(),
-        Language::Korean => reasons::thing(thing),
-    }
-}
-
-fn lack(lack: Lack) -> &'static str {
-    match language() {
-        Language::English => lack.name(),
-        Language::Korean => reasons::lack(lack),
-    }
 }
 
 fn capitalised(text: &str) -> String {
@@ -122,10 +79,7 @@ fn defect(defect: &Defect) -> String {
 }
 
 fn place_words(place: &Place) -> String {
-    let line = place.line.map(|line| match language() {
-        Language::English => format!("{} {line}", kind_line()),
-        Language::Korean => format!("{line}{}", kind_line()),
-    });
+    let line = place.line.map(kind_line);
     let named = |kind: &str, value: &Option<String>| value.as_ref().map(|value| format!("{kind} {value}"));
     [
         named(kind_file(), &place.file),

@@ -2,15 +2,42 @@
 //!
 //! `{n}` is a value; `{n:을|를}` is the particle that follows it, as it is read: after a final consonant, or after a vowel.
 
+use sightline::error::{Damage, Lack, PictureKind, Reason, Thing};
+use sightline::initial::Degeneracy;
+use sightline::project::ReportLanguage;
 use sightline::report::texts::particles::after as choose;
 
-use super::translate;
+use super::{reasons, translate};
 
 mod before;
 mod beside;
 
 /// This language.
 pub struct Korean;
+
+impl super::Speech for Korean {
+    fn pages(&self) -> ReportLanguage {
+        ReportLanguage::Korean
+    }
+    fn reason(&self, reason: &Reason) -> String {
+        reasons::reason(reason)
+    }
+    fn damage(&self, damage: &Damage) -> String {
+        reasons::damage(damage)
+    }
+    fn degeneracy(&self, degeneracy: &Degeneracy) -> String {
+        reasons::degeneracy(degeneracy)
+    }
+    fn picture(&self, kind: &PictureKind) -> String {
+        reasons::picture(kind)
+    }
+    fn thing(&self, thing: Thing) -> &'static str {
+        reasons::thing(thing)
+    }
+    fn lack(&self, lack: Lack) -> &'static str {
+        reasons::lack(lack)
+    }
+}
 
 translate! { Korean desk {
     // Shell
@@ -1173,7 +1200,7 @@ translate! { Korean errors {
     kind_point: "점";
     kind_camera: "카메라";
     kind_file: "파일";
-    kind_line: "행";
+    kind_line(n): "{n}행";
     kind_field: "항목";
     some_photos: "사진";
     some_points: "점";

@@ -1,8 +1,9 @@
-//! Every word of the desk in every language: one file a language, and a text missing in one does not compile.
+//! Every word of the desk in every language: a file a language, with parts beside it where that grows long, and a text missing in one does not compile.
 //!
 //! `en.rs` declares the texts; the files of other languages translate them. A text is a function: used in a view it follows
-//! the language switch by itself, for it reads the language signal. A further language is one more file and its lines in
-//! the enum and the macro `spoken` below.
+//! the language switch by itself, for it reads the language signal. What the engine has words for, its reasons and the language
+//! of its pages, every language says through [`Speech`]. A further language is its texts, its `Speech`, and its lines in the
+//! enum and the macro `spoken` below; pages in it are the engine's (`src/report/texts`).
 
 mod en;
 pub mod errors;
@@ -11,6 +12,9 @@ mod reasons;
 pub mod text;
 
 use leptos::prelude::*;
+use sightline::error::{Damage, Lack, PictureKind, Reason, Thing};
+use sightline::initial::Degeneracy;
+use sightline::project::ReportLanguage;
 
 pub use en::{comparing, equipment, experiments, lasting, object, planning, printing};
 
@@ -33,6 +37,23 @@ macro_rules! spoken {
     };
 }
 use spoken;
+
+/// What a language says of the engine's values.
+pub trait Speech {
+    /// The engine's own language that is nearest to it, for pages and sheets.
+    fn pages(&self) -> ReportLanguage;
+    fn reason(&self, reason: &Reason) -> String;
+    fn damage(&self, damage: &Damage) -> String;
+    fn degeneracy(&self, degeneracy: &Degeneracy) -> String;
+    fn picture(&self, kind: &PictureKind) -> String;
+    fn thing(&self, thing: Thing) -> &'static str;
+    fn lack(&self, lack: Lack) -> &'static str;
+}
+
+/// That of the language in use.
+pub fn speech() -> &'static dyn Speech {
+    spoken!(language())
+}
 
 thread_local! {
     static LANGUAGE: ArcRwSignal<Language> = ArcRwSignal::new(Language::English);

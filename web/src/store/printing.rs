@@ -3,7 +3,7 @@
 
 use leptos::prelude::*;
 use sightline::Error;
-use sightline::project::{Interior, ReportLanguage};
+use sightline::project::Interior;
 use sightline::sheets::SheetOptions;
 use sightline_protocol::{DrawSheets, Drawn, WriteSheets, from_text, to_text};
 
@@ -11,7 +11,7 @@ use super::Desk;
 use super::lasting::Stop;
 use super::pool::{Failure, Outcome};
 use crate::browser::page;
-use crate::i18n::{Language, language, lasting as words};
+use crate::i18n::{lasting as words, speech};
 
 const PREFERENCE: &str = "sheets";
 
@@ -55,11 +55,7 @@ impl Desk {
 
     /// What is printed, in the language of the desk.
     pub fn sheet_options(self) -> SheetOptions {
-        let language = match language() {
-            Language::English => ReportLanguage::English,
-            Language::Korean => ReportLanguage::Korean,
-        };
-        SheetOptions { language, ..self.printing.options.get() }
+        SheetOptions { language: speech().pages(), ..self.printing.options.get() }
     }
 
     /// Has the sheet drawn that is to be shown.

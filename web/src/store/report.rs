@@ -19,7 +19,7 @@ use crate::browser::page;
 use crate::edit::report::{self, LogoFault};
 use crate::format;
 use crate::i18n::lasting as words;
-use crate::i18n::{Language, errors, language, text};
+use crate::i18n::{errors, speech, text};
 
 /// The report as it is shown.
 #[derive(Clone, Copy, Default)]
@@ -40,10 +40,7 @@ pub struct Reports {
 
 /// The language that a report is written in: its own, or the desk's.
 pub fn report_language(settings: &ReportSettings) -> ReportLanguage {
-    settings.language.unwrap_or(match language() {
-        Language::English => ReportLanguage::English,
-        Language::Korean => ReportLanguage::Korean,
-    })
+    settings.language.unwrap_or_else(|| speech().pages())
 }
 
 impl Desk {
