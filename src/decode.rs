@@ -30,6 +30,9 @@ use signature::{Signature, signature};
 /// Largest picture worked on.
 pub const PIXEL_LIMIT: u64 = limits::PIXELS;
 
+/// Rows that a row of chroma reaches beyond its own.
+const CHROMA_REACH: u32 = 2;
+
 /// Size of a picture, from its header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
@@ -133,17 +136,19 @@ fn open_photo(bytes: &[u8], channel: Channel, max_side: Option<u32>) -> Result<(
     if signature(bytes) == Signature::Jpeg {
         let frame = jpeg::header(bytes).map_err(refused)?;
         open::check_size(frame.width as u64, frame.height as u64)?;
-        match jpeg::luma(bytes).map_err(refused)? {
-            Some(luma) if is_grey(&frame, channel) => {
-                let picture = max_side.map(|side| show::reduced_luma(&luma, side));
-                let jpeg::Plane8 { width, height, samples } = luma.plane;
-                let grey = Grey { width, height, samples: Samples::U8(samples) };
-                return Ok((Photo { grey, damaged_rows: luma.damaged }, picture));
+        if is_grey(&frame, channel) {
+            let luma = jpeg::luma(bytes).map_err(refused)?;
+            let picture = max_side.map(|side| show::reduced_luma(&luma, side));
+            let jpeg::Plane8 { width, height, samples } = luma.plane;
+            let grey = Grey { width, height, samples: Samples::U8(samples) };
+            return Ok((Photo { grey, damaged_rows: luma.damaged }, picture));
+        }
+        if let Some(first) = jpeg::damaged_from(bytes).map_err(refused)? {
+            // chroma is interpolated from damaged rows too
+            if first <= CHROMA_REACH {
+                return Err(broken(Damage::NoWholeRow));
             }
-            // chroma of a damaged unit reaches half a block into its neighbours
-            Some(luma) => damaged_rows = open::widened(&luma.damaged, frame.height as u32),
-            None if !jpeg::is_complete(bytes) => return Err(broken(Damage::EndsEarly)),
-            None => {}
+            damaged_rows.push([first - CHROMA_REACH, frame.height as u32]);
         }
     }
     let bytes = prepared(bytes)?;
@@ -151,17 +156,24 @@ fn open_photo(bytes: &[u8], channel: Channel, max_side: Option<u32>) -> Result<(
     bits(image.color())?;
     let picture = max_side.map(|side| show::reduced(&image, side));
     let (width, height) = (image.width() as usize, image.height() as usize);
-    let samples = chosen(&mut image, channel);
+    let mut samples = chosen(&mut image, channel);
+    if let Samples::U8(samples) = &mut samples {
+        for rows in &damaged_rows {
+            let [first, last] = rows.map(|row| row as usize * width);
+            samples[first..last].fill(128);
+        }
+    }
     Ok((Photo { grey: Grey { width, height, samples }, damaged_rows }, picture))
 }
 
 /// Whether the first plane of a JPEG is the channel that is wanted.
 fn is_grey(frame: &jpeg::Frame, channel: Channel) -> bool {
-    match frame.colours {
+    let named = match frame.colours {
         jpeg::Colours::Grey => true,
         jpeg::Colours::Luma => channel == Channel::Grey,
         jpeg::Colours::Others => false,
-    }
+    };
+    named && frame.has_full_luma()
 }
 
 /// The chosen samples of a picture, in the place of all.

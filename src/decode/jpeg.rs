@@ -9,6 +9,7 @@ mod huffman;
 mod progressive;
 mod scan;
 mod transform;
+mod usual;
 
 pub use frame::{Colours, Frame, Refusal};
 
@@ -37,15 +38,35 @@ pub struct Luma {
     pub damaged: Vec<[u32; 2]>,
 }
 
-/// Reads the first plane; none where it is not of full size, or its codes are not in the file.
+/// Reads the first plane, which has to be of full size ([`Frame::has_full_luma`]).
 ///
 /// # Errors
 /// [`Refusal`] for kinds of JPEG that are not read and for files of which no row is whole.
-pub fn luma(bytes: &[u8]) -> Result<Option<Luma>, Refusal> {
+pub fn luma(bytes: &[u8]) -> Result<Luma, Refusal> {
+    Ok(read(bytes, false)?.0)
+}
+
+/// First row of pixels of which any plane could not be decoded; none where all are whole.
+///
+/// General decoders lose their place at damage: what they give below it, and in the scans after it, is not sure.
+///
+/// # Errors
+/// As [`luma`]; [`Refusal::Broken`] where damage is in a file of several scans.
+pub fn damaged_from(bytes: &[u8]) -> Result<Option<u32>, Refusal> {
+    let (luma, scans) = read(bytes, true)?;
+    match luma.damaged.first() {
+        Some(_) if scans > 1 => Err(Refusal::Broken(Damage::NoWholeRow)),
+        first => Ok(first.map(|rows| rows[0])),
+    }
+}
+
+/// Goes through a file, for its first plane or for the damage of all; with the number of scans.
+fn read(bytes: &[u8], all: bool) -> Result<(Luma, usize), Refusal> {
     let mut tables = Tables::default();
     let mut planes: Option<Planes> = None;
     let mut at = 2;
     let mut ended = false;
+    let (mut data, mut scans) = (bytes.len(), 0);
     while let Some(segment) = frame::next(bytes, &mut at) {
         match segment {
             Segment::Frame(kind, payload) => {
@@ -54,14 +75,17 @@ pub fn luma(bytes: &[u8]) -> Result<Option<Luma>, Refusal> {
                 }
                 let frame = Frame::read(kind, payload, &tables)?;
                 frame.check_size(bytes.len())?;
-                match Planes::new(frame) {
-                    Some(new) => planes = Some(new),
-                    None => return Ok(None),
-                }
+                planes = Some(Planes::new(frame, all));
             }
             Segment::Scan(payload) => {
                 let Some(planes) = &mut planes else { break };
                 let Some(scan) = Scan::read(payload, &planes.frame) else { break };
+                scans += 1;
+                data = data.min(at);
+                // frames of films leave the usual codes out
+                if tables.direct.iter().chain(&tables.alternating).all(Option::is_none) {
+                    let _ = tables.read(0xc4, &usual::segment());
+                }
                 at = planes.scan(bytes, at, &scan, &tables);
             }
             Segment::End => {
@@ -75,23 +99,7 @@ pub fn luma(bytes: &[u8]) -> Result<Option<Luma>, Refusal> {
             }
         }
     }
-    let Some(planes) = planes else { return Err(Refusal::Broken(Damage::NoPicture)) };
-    // frames of films leave the usual codes out
-    if tables.direct.iter().all(Option::is_none) {
-        return Ok(None);
-    }
-    planes.finish(ended).map(Some)
-}
-
-/// Whether the file reaches the end of its picture, for those whose first plane is not of full size.
-pub fn is_complete(bytes: &[u8]) -> bool {
-    let mut at = 2;
-    while let Some(segment) = frame::next(bytes, &mut at) {
-        if matches!(segment, Segment::End) {
-            return true;
-        }
-    }
-    false
+    Ok((planes.ok_or(Refusal::Broken(Damage::NoPicture))?.finish(ended, &bytes[data..])?, scans))
 }
 
 /// What a file says of itself before its first scan.

@@ -111,16 +111,3 @@ pub fn decoding_error(error: ImageError) -> Error {
         other => broken(Damage::Decoder { message: other.to_string() }),
     }
 }
-
-/// Damaged rows with those whose chroma is interpolated from damaged ones.
-pub fn widened(rows: &[[u32; 2]], height: u32) -> Vec<[u32; 2]> {
-    let mut wider: Vec<[u32; 2]> = Vec::new();
-    for [first, last] in rows {
-        let (first, last) = (first.saturating_sub(2), (last + 2).min(height));
-        match wider.last_mut() {
-            Some(before) if before[1] >= first => before[1] = last,
-            _ => wider.push([first, last]),
-        }
-    }
-    wider
-}

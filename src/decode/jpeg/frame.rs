@@ -212,17 +212,30 @@ impl Frame {
         [self.width.div_ceil(8 * self.unit[0]), self.height.div_ceil(8 * self.unit[1])]
     }
 
-    /// A block costs two bits at least, or one in the first scan of a progressive file.
+    /// Blocks of a component that comes alone: those beyond the border are left out then.
+    pub fn blocks_alone(&self, component: usize) -> [usize; 2] {
+        let blocks = self.components[component].blocks;
+        let size = |pixels: usize, axis: usize| (pixels * blocks[axis]).div_ceil(8 * self.unit[axis]);
+        [size(self.width, 0), size(self.height, 1)]
+    }
+
+    /// Whether the first plane has a sample for each pixel.
+    pub fn has_full_luma(&self) -> bool {
+        self.components[0].blocks == self.unit
+    }
+
+    /// What the picture's bytes hold at least, by the shortest codes there are, of one bit.
+    ///
+    /// A sequential block is a direct coefficient and an end: two bits. Of a progressive one every row of blocks takes part in all
+    /// scans, and the first one of luma has a bit of each block: with fewer bytes no row can be whole.
     pub fn check_size(&self, bytes: usize) -> Result<(), Refusal> {
-        let [across, down] = self.units();
-        let blocks = self.components.iter().map(|c| c.blocks[0] * c.blocks[1]).sum::<usize>();
-        let bits = match self.coding {
-            Coding::Sequential => 2,
-            Coding::Progressive => 1,
+        let blocks = |component| self.blocks_alone(component).iter().product::<usize>() as u64;
+        let least = match self.coding {
+            // a file that lost nine tenths of its bytes is still one of its size
+            Coding::Sequential => (0..self.components.len()).map(blocks).sum::<u64>() * 2 / 8 / 10,
+            Coding::Progressive => blocks(0) / 8,
         };
-        let least = (across * down) as u64 * (blocks * bits) as u64 / 8;
-        // a file that lost nine tenths of its bytes is still one of its size
-        if least / 10 > bytes as u64 { Err(Refusal::Size([self.width as u16, self.height as u16])) } else { Ok(()) }
+        if least > bytes as u64 { Err(Refusal::Size([self.width as u16, self.height as u16])) } else { Ok(()) }
     }
 }
 

@@ -178,25 +178,25 @@ impl Table {
         if at > 64 { Err(BadCode) } else { Ok(last) }
     }
 
-    /// Passes the alternating coefficients of a sequential block.
+    /// Passes the alternating coefficients of a sequential block; whether there are any.
     #[inline(always)]
-    pub fn pass(&self, bits: &mut Bits) -> Result<(), BadCode> {
+    pub fn pass(&self, bits: &mut Bits) -> Result<bool, BadCode> {
         let mut at = 1;
         while at < 64 {
             bits.refill();
             let leap = self.leaps[bits.peek(LOOK) as usize];
             if leap != 0 && at + (leap >> 16) < 64 {
                 bits.take(leap & 255);
-                if leap & 0x100 != 0 {
-                    return Ok(());
-                }
                 at += leap >> 16;
+                if leap & 0x100 != 0 {
+                    return Ok(at > 1);
+                }
                 continue;
             }
             let symbol = u32::from(self.symbol(bits)?);
             match (symbol & 15, symbol >> 4) {
                 (0, 15) => at += 16,
-                (0, _) => return Ok(()),
+                (0, _) => return Ok(at > 1),
                 (size, run) => {
                     bits.refill();
                     bits.take(size);
@@ -204,6 +204,6 @@ impl Table {
                 }
             }
         }
-        if at > 64 { Err(BadCode) } else { Ok(()) }
+        if at > 64 { Err(BadCode) } else { Ok(true) }
     }
 }

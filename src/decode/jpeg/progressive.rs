@@ -1,14 +1,16 @@
-//! Progressive JPEG: the coefficients of luma from all its scans, then their samples (T.81, annex G).
+//! Progressive JPEG: the coefficients from all scans, then the samples of luma (T.81, annex G).
 
 use super::bits::Bits;
 use super::frame::{Scan, Tables};
 use super::huffman::{BadCode, Table};
-use super::scan::{Content, Planes, walk};
+use super::scan::{Content, LARGEST_DIRECT, Planes, walk};
 use super::transform::{self, Block, PLACES};
 
 /// What the scan of direct coefficients needs of a component.
 struct Direct<'a> {
     component: usize,
+    /// Its blocks in a row of a unit of all components; those of a unit of the scan.
+    stride: usize,
     blocks: [usize; 2],
     /// None where the scan refines: its bits are not coded.
     table: Option<&'a Table>,
@@ -19,13 +21,13 @@ struct Direct<'a> {
 impl Planes {
     /// One scan; where the next segment may begin.
     pub(super) fn progressive(&mut self, bytes: &[u8], at: usize, scan: &Scan, tables: &Tables) -> usize {
-        let luma = scan.parts.iter().any(|part| part.component == 0);
+        let wanted = scan.parts.iter().any(|part| self.wants(part.component));
         let direct = scan.band[0] == 0;
-        if !luma && (!direct || scan.bits[0] > 0) {
+        if !wanted && (!direct || scan.bits[0] > 0) {
             return at;
         }
         let units = match &scan.parts[..] {
-            [part] => self.blocks_alone(part.component),
+            [part] => self.frame.blocks_alone(part.component),
             _ => self.frame.units(),
         };
         let mut whole = vec![true; units[1]];
@@ -34,11 +36,19 @@ impl Planes {
         } else {
             self.alternating_scan(bytes, at, scan, tables, units, &mut whole)
         };
-        if luma && end.is_some() {
-            self.steps = self.steps.or(tables.steps[self.frame.components[0].steps]);
-            self.finest[scan.band[0]..=scan.band[1]].fill(scan.bits[1]);
-            self.note(&whole);
+        for part in scan.parts.iter().filter(|_| wanted) {
+            let finest = &mut self.finest[part.component][scan.band[0]..=scan.band[1]];
+            // refined is what a scan before it has left
+            let follows = scan.bits[0] == 0 || finest.iter().all(|bits| *bits == scan.bits[0]);
+            finest.fill(scan.bits[1]);
+            if end.is_none() || !follows {
+                self.spoil();
+            }
         }
+        if self.steps.is_none() && scan.parts.iter().any(|part| part.component == 0) {
+            self.steps = tables.steps[self.frame.components[0].steps];
+        }
+        self.note(scan, &whole);
         end.unwrap_or(at)
     }
 
@@ -58,10 +68,10 @@ impl Planes {
             let table = if scan.bits[0] == 0 { Some(tables.direct[part.direct].as_ref()?) } else { None };
             let blocks = if alone { [1, 1] } else { component.blocks };
             let step = tables.steps[component.steps]?[0];
-            Some(Direct { component: part.component, blocks, table, step, previous: 0 })
+            Some(Direct { component: part.component, stride: component.blocks[0], blocks, table, step, previous: 0 })
         };
         let mut parts = scan.parts.iter().map(read).collect::<Option<Vec<_>>>()?;
-        let (stride, low) = (self.stride(), scan.bits[1]);
+        let (across, low) = (self.frame.units()[0], scan.bits[1]);
         Some(walk(bytes, at, units, tables.restart, whole, |bits, place, anew| {
             for part in &mut parts {
                 if anew {
@@ -75,17 +85,23 @@ impl Planes {
                     let value = match part.table {
                         Some(table) => {
                             part.previous += table.direct(bits)?;
-                            // no more than a block's coefficients take
-                            i32::from(i16::try_from(part.previous << low).map_err(|_| BadCode)?)
+                            // no more than a block's coefficients take, and no more than its samples do
+                            let value = i32::from(i16::try_from(part.previous << low).map_err(|_| BadCode)?);
+                            let step = i32::from(part.step);
+                            if (value * step).abs() > LARGEST_DIRECT + (step << low) {
+                                return Err(BadCode);
+                            }
+                            value
                         }
                         None => i32::from(bits.bit()) << low,
                     };
-                    if part.component > 0 {
-                        if part.table.is_some() {
+                    let from = 64 * (at[1] * across * part.stride + at[0]);
+                    match self.coefficients.get_mut(part.component) {
+                        Some(coefficients) => *coefficients.get_mut(from).ok_or(BadCode)? |= value as i16,
+                        None if part.table.is_some() => {
                             self.set_mean(part.component, at, transform::mean(value, part.step));
                         }
-                    } else if let Some(coefficient) = self.coefficients.get_mut(64 * (at[1] * stride + at[0])) {
-                        *coefficient |= value as i16;
+                        None => {}
                     }
                 }
             }
@@ -102,36 +118,37 @@ impl Planes {
         units: [usize; 2],
         whole: &mut [bool],
     ) -> Option<usize> {
-        let table = tables.alternating[scan.parts.first()?.alternating].as_ref()?;
-        let stride = self.stride();
+        let part = scan.parts.first()?;
+        let table = tables.alternating[part.alternating].as_ref()?;
+        let stride = self.stride(part.component);
+        let coefficients = self.coefficients.get_mut(part.component)?;
         let mut run = 0;
         Some(walk(bytes, at, units, tables.restart, whole, |bits, place, anew| {
             if anew {
                 run = 0;
             }
             let from = 64 * (place[1] * stride + place[0]);
-            let block = self.coefficients.get_mut(from..from + 64).ok_or(BadCode)?;
+            let block = coefficients.get_mut(from..from + 64).ok_or(BadCode)?;
+            // blocks without new coefficients are what many of these scans are made of
             if scan.bits[0] == 0 {
-                first(bits, table, scan, block, &mut run)?;
+                first(bits, table, scan, block, &mut run)
             } else {
-                refine(bits, table, scan, block, &mut run)?;
+                refine(bits, table, scan, block, &mut run)
             }
-            // zeros are what many of these scans are made of
-            Ok(Content::Flat)
         }))
     }
 
-    /// Blocks of luma in a row of units.
-    fn stride(&self) -> usize {
-        self.frame.units()[0] * self.frame.unit[0]
+    /// Blocks of a component in a row of units.
+    fn stride(&self, component: usize) -> usize {
+        self.frame.units()[0] * self.frame.components[component].blocks[0]
     }
 
-    /// Samples from the coefficients.
+    /// Samples of luma from the coefficients.
     pub(super) fn develop(&mut self) {
         let Some(steps) = self.steps else { return };
         let weights = transform::weights(&steps);
-        let [across, down] = self.blocks_alone(0);
-        let (stride, coefficients) = (self.stride(), std::mem::take(&mut self.coefficients));
+        let [across, down] = self.frame.blocks_alone(0);
+        let (stride, coefficients) = (self.stride(0), std::mem::take(&mut self.coefficients[0]));
         for y in 0..down {
             for (x, coefficients) in coefficients[64 * y * stride..].chunks_exact(64).take(across).enumerate() {
                 if coefficients[1..].iter().all(|c| *c == 0) {
@@ -150,10 +167,11 @@ impl Planes {
 }
 
 /// The first bits of a block's band (T.81, G.1.2.2); `run` counts blocks that have nothing more in it.
-fn first(bits: &mut Bits, table: &Table, scan: &Scan, block: &mut [i16], run: &mut u32) -> Result<(), BadCode> {
+fn first(bits: &mut Bits, table: &Table, scan: &Scan, block: &mut [i16], run: &mut u32) -> Result<Content, BadCode> {
+    let mut content = Content::Flat;
     if *run > 0 {
         *run -= 1;
-        return Ok(());
+        return Ok(content);
     }
     let mut at = scan.band[0];
     while at <= scan.band[1] {
@@ -163,22 +181,24 @@ fn first(bits: &mut Bits, table: &Table, scan: &Scan, block: &mut [i16], run: &m
             (0, 15) => at += 16,
             (0, _) => {
                 *run = (1 << zeros) - 1 + bits.unsigned(zeros as u32);
-                return Ok(());
+                return Ok(content);
             }
             _ => {
                 bits.refill();
                 at += zeros;
                 *block.get_mut(at).ok_or(BadCode)? = (bits.signed(size) << scan.bits[1]) as i16;
                 at += 1;
+                content = Content::Structure;
             }
         }
     }
-    if at > 64 { Err(BadCode) } else { Ok(()) }
+    if at > 64 { Err(BadCode) } else { Ok(content) }
 }
 
 /// One more bit of a block's band (T.81, G.1.2.3): of what is there already, and what becomes something with it.
-fn refine(bits: &mut Bits, table: &Table, scan: &Scan, block: &mut [i16], run: &mut u32) -> Result<(), BadCode> {
+fn refine(bits: &mut Bits, table: &Table, scan: &Scan, block: &mut [i16], run: &mut u32) -> Result<Content, BadCode> {
     let bit = 1i16 << scan.bits[1];
+    let mut content = Content::Flat;
     let mut at = scan.band[0];
     while *run == 0 && at <= scan.band[1] {
         let symbol = table.symbol(bits)?;
@@ -201,12 +221,15 @@ fn refine(bits: &mut Bits, table: &Table, scan: &Scan, block: &mut [i16], run: &
         loop {
             let Some(coefficient) = block.get_mut(at).filter(|_| at <= scan.band[1]) else {
                 // zeros up to the end of the band are no more than there are
-                return if new == 0 { Ok(()) } else { Err(BadCode) };
+                return if new == 0 { Ok(content) } else { Err(BadCode) };
             };
             if *coefficient != 0 {
                 correct(bits, coefficient, bit);
             } else if zeros == 0 {
-                *coefficient = new;
+                if new != 0 {
+                    *coefficient = new;
+                    content = Content::Structure;
+                }
                 at += 1;
                 break;
             } else {
@@ -221,7 +244,7 @@ fn refine(bits: &mut Bits, table: &Table, scan: &Scan, block: &mut [i16], run: &
             correct(bits, coefficient, bit);
         }
     }
-    Ok(())
+    Ok(content)
 }
 
 /// Takes one bit more of a coefficient, away from zero.

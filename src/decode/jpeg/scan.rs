@@ -17,20 +17,23 @@ const EQUAL: usize = 48;
 /// So many restart markers may be missing; a number further on is one that came too late.
 const MOST_LOST: usize = 4;
 /// Largest mean of a block about grey, with room for what quantising adds: 128 levels times 8.
-const LARGEST_DIRECT: i32 = 2 * 1024;
+pub const LARGEST_DIRECT: i32 = 2 * 1024;
 
 /// The planes of a file while they are read.
 pub struct Planes {
     pub frame: Frame,
+    /// Whether damage is looked for in all components, and no samples are wanted; else the first is read.
+    all: bool,
     plane: Plane8,
     chroma: Option<[Plane8; 2]>,
     /// Per row of units, whether all of it was decoded.
     whole: Vec<bool>,
-    /// Whether luma came at all.
-    seen: bool,
-    pub(super) coefficients: Vec<i16>,
+    /// Per component, whether it came at all.
+    seen: Vec<bool>,
+    /// Of progressive files: per component that is wanted, its coefficients, and per coefficient the bits that are still left out.
+    pub(super) coefficients: Vec<Vec<i16>>,
+    pub(super) finest: Vec<[u32; 64]>,
     pub(super) steps: Option<[u16; 64]>,
-    pub(super) finest: [u32; 64],
 }
 
 /// What decodes one component's blocks in a sequential scan.
@@ -45,28 +48,33 @@ struct Reader<'a> {
 }
 
 impl Planes {
-    /// Room for a frame's planes; none where the first is not of full size.
-    pub fn new(frame: Frame) -> Option<Self> {
-        let luma = frame.components.first()?;
-        if luma.blocks != frame.unit {
-            return None;
-        }
+    /// Room for what is wanted of a frame's planes.
+    pub fn new(frame: Frame, all: bool) -> Self {
         let [across, down] = frame.units();
-        let plane = Plane8 { width: frame.width, height: frame.height, samples: vec![128; frame.width * frame.height] };
+        let [width, height] = if all { [0, 0] } else { [frame.width, frame.height] };
+        let plane = Plane8 { width, height, samples: vec![128; width * height] };
         let means = |c: &Component| {
             let (width, height) = (across * c.blocks[0], down * c.blocks[1]);
             Plane8 { width, height, samples: vec![128; width * height] }
         };
         let chroma = match &frame.components[..] {
-            [_, blue, red] if frame.colours == Colours::Luma => Some([means(blue), means(red)]),
+            [_, blue, red] if frame.colours == Colours::Luma && !all => Some([means(blue), means(red)]),
             _ => None,
         };
+        let count = frame.components.len();
         let coefficients = match frame.coding {
             Coding::Sequential => Vec::new(),
-            Coding::Progressive => vec![0; across * down * frame.unit[0] * frame.unit[1] * 64],
+            Coding::Progressive => (frame.components.iter().take(if all { count } else { 1 }))
+                .map(|c| vec![0; across * down * c.blocks[0] * c.blocks[1] * 64])
+                .collect(),
         };
-        let whole = vec![true; down];
-        Some(Self { frame, plane, chroma, whole, seen: false, coefficients, steps: None, finest: [u32::MAX; 64] })
+        let (whole, seen, finest) = (vec![true; down], vec![false; count], vec![[u32::MAX; 64]; count]);
+        Self { frame, all, plane, chroma, whole, seen, coefficients, finest, steps: None }
+    }
+
+    /// Whether damage of a component is damage of what is wanted.
+    pub(super) fn wants(&self, component: usize) -> bool {
+        self.all || component == 0
     }
 
     /// Decodes one scan whose data begin at `at`; where the next segment may begin.
@@ -95,11 +103,10 @@ impl Planes {
         let units = match &mut readers[..] {
             [alone] => {
                 alone.blocks = [1, 1];
-                self.blocks_alone(alone.component)
+                self.frame.blocks_alone(alone.component)
             }
             _ => self.frame.units(),
         };
-        let luma = readers.iter().any(|reader| reader.component == 0);
         let mut whole = vec![true; units[1]];
         let at = walk(bytes, at, units, tables.restart, &mut whole, |bits, place, anew| {
             if anew {
@@ -107,26 +114,28 @@ impl Planes {
             }
             self.unit(bits, &mut readers, place)
         });
-        if luma {
-            self.note(&whole);
-        }
+        self.note(scan, &whole);
         at
     }
 
-    /// Blocks of a component that comes alone: those beyond the border are left out then.
-    pub(super) fn blocks_alone(&self, component: usize) -> [usize; 2] {
-        let (frame, blocks) = (&self.frame, self.frame.components[component].blocks);
-        let size = |pixels: usize, axis: usize| (pixels * blocks[axis]).div_ceil(8 * frame.unit[axis]);
-        [size(frame.width, 0), size(frame.height, 1)]
-    }
-
-    /// Takes over which rows a scan of luma gave: rows of units, or of blocks where luma came alone.
-    pub(super) fn note(&mut self, whole: &[bool]) {
-        let each = if whole.len() > self.whole.len() { self.frame.unit[1] } else { 1 };
+    /// Takes over which rows a scan gave: rows of units, or of blocks where a component came alone.
+    pub(super) fn note(&mut self, scan: &Scan, whole: &[bool]) {
+        scan.parts.iter().for_each(|part| self.seen[part.component] = true);
+        if !scan.parts.iter().any(|part| self.wants(part.component)) {
+            return;
+        }
+        let each = match &scan.parts[..] {
+            [part] => self.frame.components[part.component].blocks[1],
+            _ => 1,
+        };
         for (row, part) in self.whole.iter_mut().zip(whole.chunks(each)) {
             *row &= part.iter().all(|whole| *whole);
         }
-        self.seen = true;
+    }
+
+    /// Spoils everything: a scan is lost.
+    pub(super) fn spoil(&mut self) {
+        self.whole.fill(false);
     }
 
     #[inline(always)]
@@ -141,16 +150,15 @@ impl Planes {
             for y in 0..reader.blocks[1] {
                 for x in 0..reader.blocks[0] {
                     let at = [across * reader.blocks[0] + x, down * reader.blocks[1] + y];
-                    match reader.component {
-                        0 => {
-                            if luma_block(bits, reader, &mut self.plane, at)? == Content::Structure {
-                                content = Content::Structure;
-                            }
-                        }
-                        component => {
-                            let mean = chroma_block(bits, reader)?;
-                            self.set_mean(component, at, mean);
-                        }
+                    let block = if reader.component == 0 && !self.all {
+                        luma_block(bits, reader, &mut self.plane, at)?
+                    } else {
+                        let (mean, content) = mean_block(bits, reader)?;
+                        self.set_mean(reader.component, at, mean);
+                        content
+                    };
+                    if block == Content::Structure {
+                        content = block;
                     }
                 }
             }
@@ -158,28 +166,35 @@ impl Planes {
         Ok(content)
     }
 
-    /// What was read, with the rows that were not.
+    /// What was read, with the rows that were not; `ended` is whether the file does, `data` are its scans.
     ///
     /// # Errors
     /// [`Refusal::Broken`] where no row is whole.
-    pub fn finish(mut self, ended: bool) -> Result<Luma, Refusal> {
+    pub fn finish(mut self, ended: bool, data: &[u8]) -> Result<Luma, Refusal> {
         let none = || Refusal::Broken(Damage::NoWholeRow);
-        if !self.seen {
-            return Err(none());
+        let mut wanted = (0..self.seen.len()).filter(|component| self.wants(*component));
+        if wanted.any(|component| !self.seen[component]) {
+            return Err(if ended { none() } else { Refusal::Broken(Damage::EndsEarly) });
         }
         if self.frame.coding == Coding::Progressive {
-            // what only the missing scans would have refined is whole nowhere
-            if !ended && self.finest != [0; 64] {
+            let mut wanted = (0..self.finest.len()).filter(|component| self.wants(*component));
+            // what only missing scans would have refined is whole nowhere; damage may have taken them with their headers
+            let sound = || ended && self.whole.iter().all(|whole| *whole) && equal_bytes(data).next().is_none();
+            if wanted.any(|component| self.finest[component] != [0; 64]) && !sound() {
                 return Err(none());
             }
-            self.develop();
+            if !self.all {
+                self.develop();
+            }
         }
         let rows = 8 * self.frame.unit[1];
         let height = self.frame.height;
         let mut damaged: Vec<[u32; 2]> = Vec::new();
         for (row, _) in self.whole.iter().enumerate().filter(|(_, whole)| !**whole) {
             let (from, to) = (row * rows, ((row + 1) * rows).min(height));
-            self.plane.samples[from * self.frame.width..to * self.frame.width].fill(128);
+            if let Some(samples) = self.plane.samples.get_mut(from * self.plane.width..to * self.plane.width) {
+                samples.fill(128);
+            }
             match damaged.last_mut() {
                 Some(last) if last[1] as usize == from => last[1] = to as u32,
                 _ => damaged.push([from as u32, to as u32]),
@@ -226,19 +241,24 @@ fn luma_block(bits: &mut Bits, reader: &mut Reader, plane: &mut Plane8, at: [usi
     Ok(Content::Structure)
 }
 
-/// The mean of one block of chroma.
+/// The mean of one block, and what else there is of it.
 #[inline(never)]
-fn chroma_block(bits: &mut Bits, reader: &mut Reader) -> Result<u8, BadCode> {
+fn mean_block(bits: &mut Bits, reader: &mut Reader) -> Result<(u8, Content), BadCode> {
     let direct = next_direct(bits, reader)?;
-    reader.alternating.pass(bits)?;
-    Ok(transform::mean(direct, reader.steps[0]))
+    let content = if reader.alternating.pass(bits)? { Content::Structure } else { Content::Flat };
+    Ok((transform::mean(direct, reader.steps[0]), content))
 }
 
 #[inline(always)]
 fn next_direct(bits: &mut Bits, reader: &mut Reader) -> Result<i32, BadCode> {
-    reader.previous += reader.direct.direct(bits)?;
-    let level = reader.previous.wrapping_mul(i32::from(reader.steps[0]));
-    if level.abs() > LARGEST_DIRECT + i32::from(reader.steps[0]) { Err(BadCode) } else { Ok(reader.previous) }
+    // steps of 0 hold nothing back
+    reader.previous = reader.previous.wrapping_add(reader.direct.direct(bits)?);
+    let level = reader.previous.saturating_mul(i32::from(reader.steps[0]));
+    if level.saturating_abs() > LARGEST_DIRECT + i32::from(reader.steps[0]) {
+        Err(BadCode)
+    } else {
+        Ok(reader.previous)
+    }
 }
 
 /// Writes a block where it lies in the plane; at the border only what belongs to it.
@@ -285,8 +305,10 @@ pub fn walk(
     let all = across * down;
     let length = if restart == 0 { all } else { restart };
     let runs = all.div_ceil(length.max(1));
-    let mut spoil = |from: usize, to: usize| {
+    let mut first_spoilt = all;
+    let mut spoil = |from: usize, to: usize, first_spoilt: &mut usize| {
         if from < to {
+            *first_spoilt = from.min(*first_spoilt);
             whole[from / across..=(to - 1) / across].fill(false);
         }
     };
@@ -307,9 +329,10 @@ pub fn walk(
         }
         let (ran_out, position) = (bits.overrun(), bits.position());
         let mut end = marker(bytes, if ran_out { position } else { position.saturating_sub(1).max(at) });
-        let ending = Ending { units: to - from, across, of: all, ran_out, position, end };
+        let last = run + 1 == runs;
+        let ending = Ending { units: to - from, across, of: all, last, ran_out, position, end };
         if let Some(unit) = ending.doubtful(bytes, at, &begins) {
-            spoil(from + unit, to);
+            spoil(from + unit, to, &mut first_spoilt);
         }
         run += 1;
         if run == runs {
@@ -323,17 +346,21 @@ pub fn walk(
                     let lost = (usize::from(*number) + 16 - 0xd0 - (run - 1) % 8) % 8;
                     if lost <= MOST_LOST {
                         let next = (run + lost).min(runs);
-                        spoil(run * length, (next * length).min(all));
+                        // what took markers may have begun in the data before them
+                        let from = if lost > 0 { run - 1 } else { run } * length;
+                        spoil(from, (next * length).min(all), &mut first_spoilt);
                         run = next;
                         break;
                     }
                     end = marker(bytes, at);
                 }
-                Some(0xd9) | None => {
-                    spoil(run * length, all);
+                // of markers that damage has taken the number is known to eight: with too few, none behind it is sure
+                number if matches!(number, Some(0xd9) | None) || is_segment(bytes, end) => {
+                    let from = first_spoilt.min((run - 1) * length);
+                    spoil(from, all, &mut first_spoilt);
                     return end;
                 }
-                Some(_) => end = marker(bytes, end + 2),
+                _ => end = marker(bytes, end + 2),
             }
         }
         if run == runs {
@@ -348,6 +375,8 @@ struct Ending {
     units: usize,
     across: usize,
     of: usize,
+    /// Whether it is the last run, which files may be filled up behind.
+    last: bool,
     /// Whether a marker or the end of the file came too early; else a code was none.
     ran_out: bool,
     /// Up to where the data were used, and where they end.
@@ -361,15 +390,18 @@ impl Ending {
         let used = &bytes[at..self.position.clamp(at, bytes.len())];
         let missing = self.units - begins.len();
         let rest = &bytes[self.position.min(self.end)..self.end];
-        let spare = rest.len() <= SPARE || rest[2..].iter().all(|byte| *byte == rest[2]);
+        let fill = || rest[2..].iter().all(|byte| *byte == rest[2]) && (self.last || rest.len() < EQUAL);
+        let spare = rest.len() <= SPARE || fill();
         let sound = missing == 0 && spare;
         // the unit before the one that a run of equal bytes begins in: its data are not placed to the bit
         let unit_at = |place: usize| begins.partition_point(|(begin, _)| *begin <= place).saturating_sub(2);
         let sector = equal_bytes(used).find_map(|[first, last]| {
             let unit = unit_at(at + first);
             let inside = begins[unit..].iter().take_while(|(begin, _)| *begin < at + last);
-            let structure =
-                inside.clone().any(|(begin, content)| *begin >= at + first && *content == Content::Structure);
+            let units =
+                inside.filter(|(begin, content)| *begin >= at + first && *content == Content::Structure).count();
+            // a pattern's blocks, of few bits each, can be equal bytes too
+            let structure = (1..=(last - first) / 2).contains(&units);
             (structure || !sound).then_some(unit)
         });
         if sector.is_some() || sound {
@@ -403,6 +435,17 @@ fn marker(bytes: &[u8], from: usize) -> usize {
             Some(0xff) => at += 1,
             Some(_) => return at,
         }
+    }
+}
+
+/// Whether a marker of codes or of a scan begins what can be one, and not noise: its length leads to the next, or to a scan's data.
+fn is_segment(bytes: &[u8], at: usize) -> bool {
+    let Some([marker, high, low]) = bytes.get(at + 1..at + 4) else { return false };
+    let length = usize::from(u16::from_be_bytes([*high, *low]));
+    match marker {
+        0xc4 => bytes.get(at + 2 + length) == Some(&0xff),
+        0xda => bytes.get(at + 4).is_some_and(|count| length == 6 + 2 * usize::from(*count)),
+        _ => false,
     }
 }
 
