@@ -161,6 +161,10 @@ test('photographs: dots of a calibration sheet, codes of a panel', { skip }, () 
   const near = sightline.measureAt(sheet, 1429, 1456, { channel: 'green' });
   assert.ok(Math.hypot(near.u - 1429.1871, near.v - 1456.4278) < 0.3);
   assert.equal(sightline.measureAt(sheet, 20, 20, { channel: 'green' }), null);
+  assert.deepEqual(dots.damaged_rows, []);
+  const [[first, last], ...others] = sightline.detect(sheet.subarray(0, sheet.length / 2)).damaged_rows;
+  assert.ok(first > 400 && first < 1300, `damaged from row ${first}`);
+  assert.deepEqual([last, others], [1704, []]);
 
   const photos = ['043_0005_Scaled.tif', '043_0021_Scaled.tif'].map((name) => {
     const { targets } = sightline.detect(data(`panel/${name}`), { codes: 'ring-14' });
