@@ -119,7 +119,7 @@ impl Separator {
                 digits(whole.trim_start_matches(['-', '+'])) && digits(rest)
             }
         };
-        let spaced = |row: &&str| row.split_whitespace().count() >= 4 && row.split_whitespace().skip(1).all(decimal);
+        let spaced = |row: &String| row.split_whitespace().count() >= 4 && row.split_whitespace().skip(1).all(decimal);
         if text::most(&rows, ',') && !rows.iter().all(spaced) { Self::Byte(b',') } else { Self::Blanks }
     }
 }

@@ -19,9 +19,34 @@ pub struct Row {
     pub fields: Vec<String>,
 }
 
-/// The lines that decide how a text is to be read.
-pub fn sample(text: &str) -> Vec<&str> {
-    text.lines().map(str::trim).filter(|line| !comment(line)).take(SAMPLE).collect()
+/// The lines that decide how a text is to be read, without what stands in quotes: a mark there separates nothing.
+pub fn sample(text: &str) -> Vec<String> {
+    let bare = unquoted(text);
+    let lines = bare.as_deref().unwrap_or(text).lines().map(str::trim);
+    lines.filter(|line| !comment(line)).take(SAMPLE).map(str::to_owned).collect()
+}
+
+/// The text with its quoted fields empty; none where a quote has no end, which then is a mark of inches or a slip.
+fn unquoted(text: &str) -> Option<String> {
+    let (mut quoted, mut start, mut head, mut remark) = (false, true, true, false);
+    let mut kept = String::with_capacity(text.len());
+    for letter in text.chars() {
+        remark = !quoted && letter != '\n' && (remark || head && matches!(letter, '#' | '%'));
+        head = !quoted && (letter == '\n' || head && letter.is_whitespace());
+        match letter {
+            // doubled ones inside end the field and begin it again
+            '"' if !remark && (quoted || start) => {
+                quoted = !quoted;
+                kept.push('"');
+            }
+            _ if quoted => continue,
+            _ => {
+                start = matches!(letter, ',' | ';' | '\t' | '\n' | '\r');
+                kept.push(letter);
+            }
+        }
+    }
+    (!quoted).then_some(kept)
 }
 
 fn comment(line: &str) -> bool {
@@ -29,7 +54,7 @@ fn comment(line: &str) -> bool {
 }
 
 /// Whether most lines have a mark.
-pub fn most(lines: &[&str], mark: char) -> bool {
+pub fn most(lines: &[String], mark: char) -> bool {
     2 * lines.iter().filter(|line| line.contains(mark)).count() > lines.len()
 }
 
@@ -243,6 +268,16 @@ mod tests {
         assert_eq!(rows[1].1, ["two\nlines\n# no comment", "say \"a\""]);
         assert_eq!(rows[2].1, ["5\" pipe", "2"]);
         assert_eq!(rows[3].1, ["a b"]);
+    }
+
+    #[test]
+    fn a_mark_in_quotes_separates_nothing() {
+        let rows = fields("# it's \"a\tb\n\"1\t2\",\"a;b\rc\",3\n\"a\t;\"\"\",#\t,4\n");
+        assert_eq!(rows.iter().map(|row| row.1.len()).collect::<Vec<_>>(), [3, 3], "{rows:?}");
+        assert_eq!((rows[0].1[1].as_str(), rows[1].1[0].as_str()), ("a;b\rc", "a\t;\""));
+        // a quote without an end is a slip
+        assert_eq!(fields("\"1;2;3\n4;5;6\n").len(), 1);
+        assert_eq!(fields("5\" pipe;2;3\n4\";5;6\n")[1].1, ["4\"", "5", "6"]);
     }
 
     #[test]
