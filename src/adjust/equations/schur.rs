@@ -20,6 +20,10 @@ fn add_outer_part<const M: usize, const R: usize, const C: usize>(
     a: &[[f64; R]; M],
     b: &[[f64; C]; M],
 ) {
+    // An interior orientation that is held may stand after the last tile.
+    if rows == 0 || columns == 0 {
+        return;
+    }
     let above = row < column;
     let first = if above { matrix.place(column, row) } else { matrix.place(row, column) };
     let (row_stride, column_stride) = if above { (TILE, 1) } else { (1, TILE) };

@@ -48,6 +48,22 @@ fn the_free_datum_has_the_smallest_trace_and_the_same_residuals() {
     }
 }
 
+/// With a held camera the reduced normal equations of seven photos and the two ends of a scale bar end just at the border of a tile.
+#[test]
+fn a_held_camera_is_one_that_is_observed_without_error_for_any_number_of_photos_and_scale_bars() {
+    for (photos, bars) in (3..=8).flat_map(|photos| (1..=4).map(move |bars| (photos, bars))) {
+        let wanted = Wanted { photos, distances: (bars, 0.01), cameras: vec![brown(&[])], ..Wanted::default() };
+        let mut project = noisy(&exact(&wanted, 3), &mut Noise::new(3, 0));
+        let held = run(&project);
+        project.cameras[0].free.push(Parameter::C);
+        project.cameras[0].sigma.insert(Parameter::C, 1e-9);
+        let observed = run(&project);
+        assert_eq!([&held, &observed].map(|a| a.termination), [Termination::Converged; 2], "{photos}, {bars}");
+        let ratio = trace(&held) / trace(&observed);
+        assert!((ratio - 1.0).abs() < 1e-6, "{photos} photos, {bars} bars: {ratio}");
+    }
+}
+
 #[test]
 fn exact_observations_converge_to_the_truth() {
     let truth = exact(&Wanted::default(), 5);
