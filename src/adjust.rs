@@ -21,13 +21,14 @@ use std::collections::BTreeMap;
 use crate::adjustment::{
     AdjustOptions, Adjustment, Advice, Iteration, Measured, ResidualPlace, StatisticsChoice, Termination,
 };
-use crate::error::Result;
+use crate::error::{Defect, Result};
 use crate::features::{self, Function};
 use crate::project::{Parameter, Project, Role};
 
-use diagnosis::advice;
 use diagnosis::judgement::judgement;
+use diagnosis::{advice, structure};
 use problem::additional::LeftOut;
+use problem::network::Network;
 pub(crate) use problem::numbering::Numbering;
 use problem::{eccentric, far_points, unmodelled};
 use report::result::Solved;
@@ -204,15 +205,33 @@ pub(crate) fn camera_sigmas(project: &Project, numbering: &Numbering) -> Option<
 /// As [`adjust`].
 pub fn predict(project: &Project) -> Result<Adjustment> {
     project.validate()?;
+    predict_numbered(project, &Numbering::of(project))
+}
+
+/// [`predict`] of a sound document that is read by its numbering: its photos may be named alike, its observations not at all.
+///
+/// # Errors
+/// As [`adjust`].
+pub(crate) fn predict_numbered(project: &Project, numbering: &Numbering) -> Result<Adjustment> {
     let options = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
-    let (numbering, left_out) = (Numbering::of(project), LeftOut::nothing(project));
-    let mut session = Session::new(project, &numbering, &left_out)?;
+    let mut session = Session::new(project, numbering, &LeftOut::nothing(project))?;
     session.robust = Some(RobustVariance { sigma0: 1.0, variance: 1.0 });
     let solution = session.finish(&options, false)?;
     let mut adjustment = Solved::new(&session, &options, &solution).adjustment();
     adjustment.advice = advice::advice(project, &session.network, &session.state, &adjustment);
     adjustment.options = options;
     Ok(adjustment)
+}
+
+/// The groups that [`Defect::NotTied`] of a prediction has by the names of their photos, by their places in the document.
+pub(crate) fn groups_of(defect: &Defect, project: &Project, numbering: &Numbering) -> Option<Vec<Vec<usize>>> {
+    let Defect::NotTied { groups } = defect else { return None };
+    let (network, _) = Network::new(project, numbering, &LeftOut::nothing(project)).ok()?;
+    // Ties of three points are ties of one as well: as many groups are the same groups.
+    let mut numbered = [1, 3].into_iter().map(|shared| structure::groups(&network, shared));
+    let numbered = numbered.find(|numbered| numbered.len() == groups.len())?;
+    let places = |group: Vec<usize>| group.into_iter().map(|photo| network.photos[photo].index).collect();
+    Some(numbered.into_iter().map(places).collect())
 }
 
 /// The project with the adjusted values as new initial values. What is given stays as given: control and check

@@ -8,12 +8,10 @@ use crate::error::{Error, Place, Reason, Result};
 use crate::limits;
 use crate::project::{Form, Plan, PlanFace, Point};
 
-use super::setup::{fill_distance, principal_distance_px};
+use super::setup::{LARGEST, fill_distance, principal_distance_px};
 
 /// Facets that stand for a cylinder.
 const FACETS: usize = 24;
-/// Sizes are below this: what is computed of them stays finite.
-const LARGEST: f64 = 1e100;
 /// Largest angle, radians, at which targets are still to be large enough; the plan's largest incidence where that is less.
 const SLANT: f64 = PI / 3.0;
 

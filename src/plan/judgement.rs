@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::adjust;
-use crate::adjustment::Adjustment;
+use crate::adjustment::{Adjustment, Advice};
 use crate::error::{Defect, Error};
 use crate::project::Parameter;
 use crate::statistics::distribution::normal_quantile;
@@ -73,8 +73,10 @@ pub fn network(setup: &Setup<'_>, shots: &[&Shot]) -> Network {
             return Network { takes_part, adjustment: Err(Vec::new()), used, untied };
         }
         let now: Vec<&Shot> = used.iter().map(|k| shots[*k]).collect();
-        let project = setup.project(&now, &takes_part);
-        match adjust::predict(&project) {
+        let Some((project, numbering)) = setup.numbered(&now, &takes_part) else {
+            return Network { takes_part, adjustment: Err(Vec::new()), used, untied };
+        };
+        match adjust::predict_numbered(&project, &numbering) {
             Ok(adjustment) => return Network { takes_part, adjustment: Ok(Box::new(adjustment)), used, untied },
             Err(Error::RankDefect { defects }) => {
                 let mut named = false;
@@ -85,20 +87,18 @@ pub fn network(setup: &Setup<'_>, shots: &[&Shot]) -> Network {
                         });
                     }
                 }
-                let groups = defects.iter().find_map(|defect| match defect {
-                    Defect::NotTied { groups } => groups.iter().max_by_key(|group| group.len()),
-                    _ => None,
-                });
-                if let (Some(largest), true) = (groups, untied.is_none()) {
+                let not_tied = defects.iter().find(|defect| matches!(defect, Defect::NotTied { .. }));
+                let groups = not_tied.and_then(|defect| adjust::groups_of(defect, &project, &numbering));
+                let largest = groups.and_then(|groups| groups.into_iter().max_by_key(Vec::len));
+                if let (Some(largest), true) = (largest, untied.is_none()) {
                     // The others hang in the air: what is said of points is said of the largest group's.
-                    let kept: Vec<usize> =
-                        largest.iter().filter_map(|id| used.get(id.parse::<usize>().ok()?).copied()).collect();
-                    untied = named_as_planned(defects, &now).into_iter().find(|d| matches!(d, Defect::NotTied { .. }));
+                    let kept = largest.into_iter().map(|k| used[k]).collect();
+                    untied = not_tied.cloned();
                     used = kept;
                     continue;
                 }
                 if !named || round == ROUNDS {
-                    return Network { takes_part, adjustment: Err(named_as_planned(defects, &now)), used, untied };
+                    return Network { takes_part, adjustment: Err(defects), used, untied };
                 }
             }
             // Too few points for a datum, or none at all: nothing that a name could be given to.
@@ -106,24 +106,6 @@ pub fn network(setup: &Setup<'_>, shots: &[&Shot]) -> Network {
         }
     }
     Network { takes_part: vec![false; setup.places.len()], adjustment: Err(Vec::new()), used, untied }
-}
-
-/// Photos by the names of the plan.
-fn named_as_planned(defects: Vec<Defect>, shots: &[&Shot]) -> Vec<Defect> {
-    let name = |id: String| match id.parse::<usize>().ok().and_then(|k| shots.get(k)) {
-        Some(shot) => shot.station.id.clone(),
-        None => id,
-    };
-    let names = |ids: Vec<String>| ids.into_iter().map(name).collect();
-    let renamed = |defect| match defect {
-        Defect::PhotoUndetermined { photos } => Defect::PhotoUndetermined { photos: names(photos) },
-        Defect::NotTied { groups } => Defect::NotTied { groups: groups.into_iter().map(names).collect() },
-        Defect::Combination { points, photos, parameters } => {
-            Defect::Combination { points, photos: names(photos), parameters }
-        }
-        other => other,
-    };
-    defects.into_iter().map(renamed).collect()
 }
 
 /// Largest half axis of a covariance (xx, xy, xz, yy, yz, zz).
@@ -225,8 +207,8 @@ pub fn judged(setup: &Setup<'_>, shots: &[Shot]) -> Prediction {
             }
             redundancy = Some(adjustment.redundancy);
             cameras = adjustment.cameras;
-            let used: Vec<&Shot> = network.used.iter().map(|k| all[*k]).collect();
-            advice = adjustment.advice.into_iter().filter_map(|advice| planned(advice, &used)).collect();
+            advice = adjustment.advice;
+            advice.retain(concerns_plans);
         }
         Err(_) if plan.points.is_empty() => lacks.push(Lacking::NoPoints),
         Err(_) if shots.is_empty() => lacks.push(Lacking::NoPhotos),
@@ -273,21 +255,10 @@ pub fn judged(setup: &Setup<'_>, shots: &[Shot]) -> Prediction {
     }
 }
 
-/// Advice with the plan's names of photos; what hangs on residuals is none of a plan.
-fn planned(advice: crate::adjustment::Advice, shots: &[&Shot]) -> Option<crate::adjustment::Advice> {
-    use crate::adjustment::Advice;
-    let name = |id: String| match id.parse::<usize>().ok().and_then(|k| shots.get(k)) {
-        Some(shot) => shot.station.id.clone(),
-        None => id,
-    };
-    match advice {
-        // Every photo's angles and centre are correlated where the object is small; the camera's own parameters tell enough.
-        Advice::HighCorrelation { photo: Some(_), .. } | Advice::LowRedundancy { .. } => None,
-        Advice::WeakPrincipalDistance { camera, photo, parameter, value, sigma, convergence } => {
-            Some(Advice::WeakPrincipalDistance { camera, photo: photo.map(name), parameter, value, sigma, convergence })
-        }
-        other => Some(other),
-    }
+/// Whether advice says something of a plan. What hangs on residuals is none of it, and every photo's angles and centre are correlated where
+/// the object is small: the camera's own parameters tell enough.
+fn concerns_plans(advice: &Advice) -> bool {
+    !matches!(advice, Advice::HighCorrelation { photo: Some(_), .. } | Advice::LowRedundancy { .. })
 }
 
 fn sight(setup: &Setup<'_>, shot: &Shot) -> StationSight {

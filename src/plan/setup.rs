@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
+use crate::adjust::Numbering;
 use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::initial::Pose;
 use crate::limits;
@@ -16,6 +17,9 @@ use crate::scene::{Face, Scene};
 
 use super::Unseen;
 use super::sight::{Hindrance, see};
+
+/// Lengths and coordinates are below this: what is computed of them stays finite.
+pub const LARGEST: f64 = 1e100;
 
 /// The plan with everything that does not depend on its stations.
 pub struct Setup<'a> {
@@ -116,11 +120,15 @@ impl<'a> Setup<'a> {
         self.plan.forbidden.iter().any(within)
     }
 
-    /// The document that these photos would make of the points that `taken` says.
-    pub fn project(&self, shots: &[&Shot], takes_part: &[bool]) -> Project {
+    /// The document that these photos would make of the points that `takes_part` says, and its numbering, by which it is read: stations of
+    /// a search have no names of their own. None where no equations can be made of its numbers.
+    pub fn numbered(&self, shots: &[&Shot], takes_part: &[bool]) -> Option<(Project, Numbering)> {
         let plan = self.plan;
-        let in_it = |id: &str| self.index.get(id).is_some_and(|k| takes_part[*k]);
+        let mut next = 0..;
+        let places: Vec<Option<usize>> = takes_part.iter().map(|part| part.then(|| next.next()).flatten()).collect();
+        let place = |id: &str| self.index.get(id).and_then(|k| places[*k]);
         let mut project = Project { cameras: plan.cameras.clone(), datum: plan.datum.clone(), ..Project::default() };
+        let mut numbering = Numbering::default();
         project.points =
             plan.points.iter().zip(takes_part).filter(|(_, part)| **part).map(|(p, _)| p.clone()).collect();
         for point in &mut project.points {
@@ -128,35 +136,38 @@ impl<'a> Setup<'a> {
             point.diameter = None;
         }
         if let Some(points) = &mut project.datum.points {
-            points.retain(|id| in_it(id));
+            points.retain(|id| place(id).is_some());
+            numbering.datum = Some(points.iter().filter_map(|id| place(id)).collect());
         }
         let length = |from: &str, to: &str| (self.places[self.index[from]] - self.places[self.index[to]]).norm();
-        let bars = plan.distances.iter().filter(|d| in_it(&d.from) && in_it(&d.to));
-        project.distances = bars
-            .map(|d| Distance {
-                from: d.from.clone(),
-                to: d.to.clone(),
-                length: length(&d.from, &d.to),
-                sigma: d.sigma,
+        for bar in &plan.distances {
+            let (Some(from), Some(to)) = (place(&bar.from), place(&bar.to)) else { continue };
+            numbering.ends.push([from, to]);
+            project.distances.push(Distance {
+                from: bar.from.clone(),
+                to: bar.to.clone(),
+                length: length(&bar.from, &bar.to),
+                sigma: bar.sigma,
                 check: false,
-            })
-            .collect();
+            });
+        }
         for (n, shot) in shots.iter().enumerate() {
-            // Stations of a search have no names of their own.
-            let id = n.to_string();
-            project.observations.extend(shot.seen.iter().filter(|(k, _)| takes_part[*k]).map(|(k, [u, v])| {
-                Observation {
-                    photo: id.clone(),
-                    point: plan.points[*k].id.clone(),
+            for (k, [u, v]) in &shot.seen {
+                let Some(point) = places[*k] else { continue };
+                numbering.sights.push((n, point));
+                project.observations.push(Observation {
+                    photo: String::new(),
+                    point: String::new(),
                     u: *u,
                     v: *v,
                     sigma: Sigma::One(plan.sigma),
                     enabled: true,
                     target: None,
-                }
-            }));
+                });
+            }
+            numbering.cameras.push(shot.camera);
             project.photos.push(Photo {
-                id,
+                id: shot.station.id.clone(),
                 camera: plan.cameras[shot.camera].id.clone(),
                 position: Some(shot.pose.centre.into()),
                 rotation: Some(rotation::angles(&shot.pose.object_to_camera)),
@@ -164,7 +175,12 @@ impl<'a> Setup<'a> {
                 ..Photo::default()
             });
         }
-        project
+        let sound = |x: &f64| x.abs() < LARGEST;
+        let posed = |p: &Photo| p.position.iter().chain(&p.rotation).flatten().all(sound);
+        let sound = project.photos.iter().all(posed)
+            && project.observations.iter().all(|o| sound(&o.u) && sound(&o.v))
+            && project.distances.iter().all(|d| d.length > 0.0 && sound(&d.length));
+        sound.then_some((project, numbering))
     }
 }
 

@@ -305,3 +305,78 @@ fn unknown() -> Interior {
         other => other,
     }
 }
+
+/// Two walls far from each other, each with photos of its own, the second with more of them.
+fn two_walls() -> Plan {
+    let (mut plan, second) = (wall(), wall());
+    let away = |xyz: [f64; 3]| [xyz[0] + 50_000.0, xyz[1], xyz[2]];
+    plan.points.extend(second.points.into_iter().map(|point| crate::project::Point {
+        id: format!("far {}", point.id),
+        xyz: point.xyz.map(away),
+        ..point
+    }));
+    plan.stations.truncate(3);
+    plan.stations.extend(second.stations.into_iter().map(|station| PlanStation {
+        id: format!("far {}", station.id),
+        position: away(station.position),
+        look_at: station.look_at.map(away),
+        ..station
+    }));
+    plan
+}
+
+#[test]
+fn groups_that_are_not_tied_are_told_by_the_stations_names_and_found_without_them() {
+    let mut plan = two_walls();
+    let lacks = predict(&plan).expect("a prediction").lacks;
+    let names = |prefix: &str, count: usize| (1..=count).map(|k| format!("{prefix}{k}")).collect::<Vec<_>>();
+    let defect = Defect::NotTied { groups: vec![names("", 3), names("far ", 4)] };
+    assert!(lacks.contains(&Lacking::Defect { defect }), "{lacks:?}");
+    assert!(lacks.contains(&Lacking::Undetermined { points: names("", 20) }), "{lacks:?}");
+    // In a search nothing has a name yet.
+    let value = |plan: &Plan| {
+        let setup = Setup::new(plan).expect("a plan");
+        let shots: Vec<_> = plan.stations.iter().map(|station| setup.shot(station).expect("a photo")).collect();
+        judgement::value(&setup, &shots.iter().collect::<Vec<_>>(), &Criterion::Worst)
+    };
+    let named = value(&plan);
+    plan.stations.iter_mut().for_each(|station| station.id.clear());
+    assert_eq!(value(&plan), named);
+    plan.stations.truncate(3);
+    plan.points.truncate(20);
+    assert!(judgement::is_determined(value(&plan)) && !judgement::is_determined(named));
+}
+
+#[test]
+fn a_network_read_by_its_numbering_is_the_one_read_by_names() {
+    let mut plan = wall();
+    plan.cameras[0].free = vec![Parameter::C];
+    plan.distances.push(crate::project::PlanDistance { from: "2".into(), to: "20".into(), sigma: 0.05 });
+    let corners = ["1", "5", "16", "20"];
+    let named_datum = |plan: &mut Plan| plan.datum.points = Some(corners.map(String::from).into());
+    let control = |plan: &mut Plan| {
+        plan.datum.kind = DatumKind::Control;
+        for point in plan.points.iter_mut().filter(|p| corners.contains(&p.id.as_str())) {
+            (point.role, point.sigma) = (crate::project::Role::Control, Some([Some(0.1), None, Some(0.2)]));
+        }
+    };
+    for edit in [&named_datum as &dyn Fn(&mut Plan), &control] {
+        let mut plan = plan.clone();
+        edit(&mut plan);
+        let setup = Setup::new(&plan).expect("a plan");
+        let shots: Vec<_> = plan.stations.iter().map(|station| setup.shot(station).expect("a photo")).collect();
+        // Two points are left out: places in the plan are not those in the document.
+        let part: Vec<bool> = plan.points.iter().map(|p| !["3", "7"].contains(&p.id.as_str())).collect();
+        let (mut project, numbering) = setup.numbered(&shots.iter().collect::<Vec<_>>(), &part).expect("sound");
+        let numbered = crate::adjust::predict_numbered(&project, &numbering).expect("determined");
+        for (o, &(photo, point)) in project.observations.iter_mut().zip(&numbering.sights) {
+            (o.photo, o.point) = (project.photos[photo].id.clone(), project.points[point].id.clone());
+        }
+        let named = crate::adjust::predict(&project).expect("determined");
+        assert_eq!((numbered.points.len(), numbered.redundancy), (18, named.redundancy));
+        assert_eq!(
+            (&numbered.points, &numbered.cameras, &numbered.photos),
+            (&named.points, &named.cameras, &named.photos)
+        );
+    }
+}

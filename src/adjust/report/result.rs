@@ -6,6 +6,7 @@ use crate::adjust::equations::context::Weighting;
 use crate::adjust::gross_errors::start::LEAST;
 use crate::adjust::problem::eccentric;
 use crate::adjust::problem::network::Network;
+use crate::adjust::problem::numbering::Numbering;
 use crate::adjust::problem::state::{Frame, State};
 use crate::adjust::solve::session::{RobustVariance, Session, Solution};
 use crate::adjust::statistics::cofactors::Cofactors;
@@ -25,6 +26,8 @@ use super::extent::{distance, largest_distance};
 pub struct Solved<'a> {
     /// The document.
     pub project: &'a Project,
+    /// What its rows mean.
+    pub numbering: &'a Numbering,
     /// The network.
     pub network: &'a Network,
     /// Adjusted values.
@@ -78,6 +81,7 @@ impl<'a> Solved<'a> {
     pub fn new(session: &'a Session<'_>, options: &AdjustOptions, solution: &'a Solution) -> Self {
         Self {
             project: session.project,
+            numbering: session.numbering,
             network: &session.network,
             state: &session.state,
             cofactors: solution.cofactors.as_ref(),
@@ -266,12 +270,9 @@ impl Solved<'_> {
 
     /// Residuals of every image observation of the document whose photo and point took part.
     fn observations(&self) -> Vec<AdjustedObservation> {
-        let photos: std::collections::HashMap<&str, usize> = (self.network.photos.iter().enumerate())
-            .map(|(k, p)| (self.project.photos[p.index].id.as_str(), k))
-            .collect();
-        let points: std::collections::HashMap<&str, usize> = (self.network.points.iter().enumerate())
-            .map(|(k, p)| (self.project.points[p.index].id.as_str(), k))
-            .collect();
+        let (mut photos, mut points) = (vec![None; self.project.photos.len()], vec![None; self.project.points.len()]);
+        self.network.photos.iter().enumerate().for_each(|(k, block)| photos[block.index] = Some(k));
+        self.network.points.iter().enumerate().for_each(|(k, block)| points[block.index] = Some(k));
         let mut ray_of_row = vec![usize::MAX; self.project.observations.len()];
         self.network.rays.iter().enumerate().for_each(|(k, ray)| ray_of_row[ray.row] = k);
         let models: Vec<_> = self.network.imaging_interiors(self.state).map(|i| camera::Model::new(&i)).collect();
@@ -282,9 +283,8 @@ impl Solved<'_> {
                 point: o.point.clone(),
                 ..AdjustedObservation::default()
             };
-            let (Some(&photo), Some(&point)) = (photos.get(o.photo.as_str()), points.get(o.point.as_str())) else {
-                return adjusted;
-            };
+            let (photo, point) = self.numbering.sights[row];
+            let (Some(photo), Some(point)) = (photos[photo], points[point]) else { return adjusted };
             let interior = self.network.photos[photo].interior;
             let ray = ray_of_row[row];
             let mut measured = match self.network.rays.get(ray) {

@@ -56,7 +56,8 @@ pub struct Log<'a> {
 pub struct Session<'a> {
     /// The document.
     pub project: &'a Project,
-    numbering: &'a Numbering,
+    /// What its rows mean.
+    pub numbering: &'a Numbering,
     /// The network.
     pub network: Network,
     layout: Layout,
