@@ -19,13 +19,6 @@ mod adjust {
     mod slips;
 }
 
-/// Sheets to print and plans.
-mod before {
-    mod plan_search;
-    mod planning;
-    mod sheets;
-}
-
 /// Pictures: what is found, how well, and what is not.
 mod detect {
     mod codes;
@@ -38,13 +31,16 @@ mod detect {
     mod targets;
 }
 
-/// Files in and out.
-mod files {
-    mod document;
-    mod exchange;
-    mod report;
+/// Files of other programs, read and written.
+mod exchange {
+    mod foreign;
     mod round_trips;
     mod spatial;
+}
+
+/// What the papers state.
+mod experiments {
+    mod published;
 }
 
 /// From names to initial values.
@@ -54,10 +50,28 @@ mod orient {
     mod seeded;
 }
 
-/// What the papers state, and the sample.
-mod papers {
-    mod experiments;
-    mod sample;
+/// What plans promise and which are recommended.
+mod plan {
+    mod planning;
+    mod search;
+}
+
+/// The document as other programs write it.
+mod project {
+    mod document;
+}
+
+/// The report's pages.
+mod report {
+    mod pages;
+}
+
+/// The sample project.
+mod sample;
+
+/// Targets to print.
+mod sheets {
+    mod printed;
 }
 
 /// What several tests share; benches and fuzz targets use some of it.
