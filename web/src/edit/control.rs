@@ -107,6 +107,54 @@ pub fn check_distance(distance: &Distance) -> Result<(), DistanceFault> {
     if positive(distance.sigma) { Ok(()) } else { Err(DistanceFault::Sigma) }
 }
 
+/// Changes a distance; its ends, where there is one at this place.
+///
+/// # Errors
+/// What it would lack; then it stays as it was.
+pub fn edit_distance(
+    project: &mut Project,
+    place: usize,
+    edit: impl FnOnce(&mut Distance),
+) -> Result<Option<(String, String)>, DistanceFault> {
+    let Some(known) = project.distances.get_mut(place) else { return Ok(None) };
+    let mut distance = known.clone();
+    edit(&mut distance);
+    check_distance(&distance)?;
+    *known = distance;
+    Ok(Some(ends(known)))
+}
+
+/// Has a distance compared only, or take part; its ends, where there is one at this place.
+pub fn set_check(project: &mut Project, place: usize, check: bool) -> Option<(String, String)> {
+    let distance = project.distances.get_mut(place)?;
+    distance.check = check;
+    Some(ends(distance))
+}
+
+/// Removes a distance; its ends, where there was one at this place.
+pub fn remove_distance(project: &mut Project, place: usize) -> Option<(String, String)> {
+    (place < project.distances.len()).then(|| ends(&project.distances.remove(place)))
+}
+
+fn ends(distance: &Distance) -> (String, String) {
+    (distance.from.clone(), distance.to.clone())
+}
+
+/// Chooses what the coordinates refer to. Points that were named to carry the datum stay named.
+pub fn set_datum(project: &mut Project, kind: DatumKind) {
+    project.datum.kind = kind;
+}
+
+/// Gives the project a unit; whether it is another one than before. Numbers stay as they are.
+pub fn set_unit(project: &mut Project, unit: &str) -> bool {
+    let unit = unit.trim();
+    if unit.is_empty() || project.unit == unit {
+        return false;
+    }
+    project.unit = unit.to_owned();
+    true
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -163,5 +211,46 @@ mod tests {
         assert_eq!(add_distance(&mut p, distance("1", "2", 1.0, 0.0)), Err(DistanceFault::Sigma));
         assert_eq!(add_distance(&mut p, distance("1", "2", 1.0, 0.1)), Ok(()));
         assert!(has_lengths(&p));
+    }
+
+    #[test]
+    fn one_distance_is_edited_switched_and_removed_and_no_other() {
+        let mut p = Project::default();
+        take_points(&mut p, vec![point("1", 1.0), point("2", 2.0), point("3", 3.0)], "mm");
+        for (from, to) in [("1", "2"), ("2", "3")] {
+            let distance = Distance { from: from.into(), to: to.into(), length: 1.0, sigma: 0.1, check: false };
+            add_distance(&mut p, distance).expect("a distance");
+        }
+        let ends = Some(("2".to_owned(), "3".to_owned()));
+        let first = p.distances[0].clone();
+        assert_eq!(edit_distance(&mut p, 1, |d| d.length = 7.0), Ok(ends.clone()));
+        assert_eq!(edit_distance(&mut p, 1, |d| d.sigma = 0.5), Ok(ends.clone()));
+        assert_eq!(set_check(&mut p, 1, true), ends);
+        let second = Distance { from: "2".into(), to: "3".into(), length: 7.0, sigma: 0.5, check: true };
+        assert_eq!(p.distances, [first.clone(), second.clone()]);
+        // what is refused, and what is not there, changes nothing
+        assert_eq!(edit_distance(&mut p, 1, |d| d.length = -7.0), Err(DistanceFault::Length));
+        assert_eq!(edit_distance(&mut p, 1, |d| d.sigma = f64::NAN), Err(DistanceFault::Sigma));
+        assert_eq!(edit_distance(&mut p, 2, |d| d.length = 3.0), Ok(None));
+        assert_eq!((set_check(&mut p, 2, true), remove_distance(&mut p, 2)), (None, None));
+        assert_eq!(p.distances, [first, second.clone()]);
+        assert_eq!(set_check(&mut p, 1, false), ends);
+        assert!(!p.distances[1].check);
+        assert_eq!(remove_distance(&mut p, 0), Some(("1".into(), "2".into())));
+        assert_eq!(p.distances, [Distance { check: false, ..second }]);
+    }
+
+    #[test]
+    fn datum_and_unit_are_set_and_nothing_else() {
+        let mut p = Project::default();
+        take_points(&mut p, vec![point("1", 1.0)], "mm");
+        p.datum.points = Some(vec!["1".into()]);
+        set_datum(&mut p, DatumKind::Control);
+        assert_eq!((p.datum.kind, p.datum.points.clone()), (DatumKind::Control, Some(vec!["1".to_owned()])));
+        let before = p.clone();
+        assert!(!set_unit(&mut p, " mm ") && !set_unit(&mut p, "  "));
+        assert_eq!(p, before);
+        assert!(set_unit(&mut p, " m "));
+        assert_eq!(p, Project { unit: "m".into(), ..before });
     }
 }

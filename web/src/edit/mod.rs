@@ -12,6 +12,7 @@ pub mod plan;
 pub mod points;
 pub mod questions;
 pub mod report;
+pub mod sample;
 pub mod sheet;
 pub mod targets;
 #[cfg(test)]

@@ -7,6 +7,9 @@ use sightline::project::{
     Point, Project, Region, Role, Variant,
 };
 
+use super::control::UNITS;
+use crate::store::document::Document;
+
 /// Parameters that a calibration on the object estimates.
 pub const CALIBRATED: [Parameter; 8] = [
     Parameter::C,
@@ -75,6 +78,33 @@ pub fn begin(project: &mut Project, form: Form, mm: f64) {
         set_form(&mut plan, with_diameter(form, wanted));
     }
     project.plan = Some(Box::new(plan));
+}
+
+/// Puts a plan that was made elsewhere in place of the document's. A document of nothing takes the unit that it comes with; otherwise its
+/// lengths are in the document's.
+pub fn put(document: &mut Document, mut made: Plan, unit: Option<&str>) {
+    let fresh = document.is_empty();
+    let project = document.project_mut();
+    if let Some(unit) = unit.filter(|_| fresh) {
+        project.unit = unit.to_owned();
+    }
+    made.lens.unit_mm = millimetres(&project.unit);
+    project.plan = Some(Box::new(made));
+}
+
+/// Millimetres of a unit; 1 where it is not known.
+pub fn millimetres(unit: &str) -> f64 {
+    UNITS.iter().find(|(name, _)| *name == unit).map_or(1.0, |(_, mm)| *mm)
+}
+
+/// Changes the project's plan; whether it has one.
+pub fn change(project: &mut Project, edit: impl FnOnce(&mut Plan)) -> bool {
+    project.plan.as_deref_mut().map(edit).is_some()
+}
+
+/// Takes the plan away; whether there was one.
+pub fn remove(project: &mut Project) -> bool {
+    project.plan.take().is_some()
 }
 
 /// The next of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten.
@@ -431,6 +461,27 @@ mod tests {
         }
         assert!(!is_form(&Form::Box { size: [1.0; 3], columns: 100, rows: 0, diameter: 1.0 }));
         assert_eq!([2.0, 2.5, -1.0, f64::MAX].map(counted), [2, 0, 0, u32::MAX]);
+    }
+
+    #[test]
+    fn a_plan_is_put_changed_and_removed() {
+        let mut fresh = Document::default();
+        put(&mut fresh, planned(), Some("m"));
+        let unit_mm = |d: &Document| (d.project.unit.clone(), d.project.plan.as_ref().map(|plan| plan.lens.unit_mm));
+        assert_eq!(unit_mm(&fresh), ("m".into(), Some(1000.0)));
+        // one with something in it keeps its unit
+        put(&mut fresh, planned(), Some("mm"));
+        assert_eq!(unit_mm(&fresh), ("m".into(), Some(1000.0)));
+        let mut measured = Document::default();
+        (measured.project_mut().unit, measured.project_mut().name) = ("cm".into(), "p".into());
+        put(&mut measured, planned(), None);
+        assert_eq!(unit_mm(&measured), ("cm".into(), Some(10.0)));
+        let project = measured.project_mut();
+        assert!(change(project, |plan| plan.margin = 7.0));
+        assert_eq!(project.plan.as_ref().map(|plan| plan.margin), Some(7.0));
+        assert!(remove(project) && project.plan.is_none() && !remove(project));
+        assert!(!change(project, |_| unreachable!("there is no plan")) && project.plan.is_none());
+        assert_eq!((project.unit.as_str(), project.name.as_str()), ("cm", "p"));
     }
 
     #[test]

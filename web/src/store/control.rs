@@ -7,7 +7,7 @@ use sightline::exchange::control_csv::{self, ControlTable};
 use sightline::project::{DatumKind, Distance, Role};
 
 use super::Desk;
-use super::document::Change;
+use super::document::{Change, Document};
 use crate::edit::control::{self, DistanceFault};
 use crate::format;
 use crate::i18n::text;
@@ -99,46 +99,43 @@ impl Desk {
 
     /// Changes a distance in one of its numbers, as typed.
     pub fn edit_distance(self, place: usize, typed: &str, set: fn(&mut Distance, f64)) {
-        let Some(mut distance) = self.document.with_untracked(|d| d.project.distances.get(place).cloned()) else {
-            return;
-        };
-        set(&mut distance, format::parse(typed).unwrap_or(f64::NAN));
-        if let Err(fault) = control::check_distance(&distance) {
-            return self.warn_here(move || distance_fault(fault).to_owned());
+        let value = format::parse(typed).unwrap_or(f64::NAN);
+        let mut after = self.document.get_untracked();
+        match control::edit_distance(after.project_mut(), place, |distance| set(distance, value)) {
+            Err(fault) => self.warn_here(move || distance_fault(fault).to_owned()),
+            Ok(ends) => self.take_distance(ends, |from, to| Change::DistanceEdited { from, to }, after),
         }
-        let change = Change::DistanceEdited { from: distance.from.clone(), to: distance.to.clone() };
-        self.change(change, |document| document.project_mut().distances[place] = distance);
     }
 
     /// Has a distance compared only, or take part.
     pub fn set_distance_check(self, place: usize, check: bool) {
-        let ends =
-            self.document.with_untracked(|d| d.project.distances.get(place).map(|d| (d.from.clone(), d.to.clone())));
-        let Some((from, to)) = ends else { return };
-        self.change(Change::DistanceEdited { from, to }, |document| {
-            if let Some(distance) = document.project_mut().distances.get_mut(place) {
-                distance.check = check;
-            }
-        });
+        let mut after = self.document.get_untracked();
+        let ends = control::set_check(after.project_mut(), place, check);
+        self.take_distance(ends, |from, to| Change::DistanceEdited { from, to }, after);
     }
 
     pub fn remove_distance(self, place: usize) {
-        let Some(distance) = self.document.with_untracked(|d| d.project.distances.get(place).cloned()) else { return };
-        self.change(Change::DistanceRemoved { from: distance.from, to: distance.to }, |document| {
-            document.project_mut().distances.remove(place);
-        });
+        let mut after = self.document.get_untracked();
+        let ends = control::remove_distance(after.project_mut(), place);
+        self.take_distance(ends, |from, to| Change::DistanceRemoved { from, to }, after);
+    }
+
+    /// Takes what was done with the distance between two points, where there was one.
+    fn take_distance(self, ends: Option<(String, String)>, change: fn(String, String) -> Change, after: Document) {
+        if let Some((from, to)) = ends {
+            self.change(change(from, to), |document| *document = after);
+        }
     }
 
     pub fn set_datum(self, kind: DatumKind) {
-        self.change(Change::DatumChosen, |document| document.project_mut().datum.kind = kind);
+        self.change(Change::DatumChosen, |document| control::set_datum(document.project_mut(), kind));
     }
 
     pub fn set_unit(self, unit: &str) {
-        let unit = unit.trim();
-        if unit.is_empty() || self.document.with_untracked(|d| d.project.unit == unit) {
-            return;
+        let mut after = self.document.get_untracked();
+        if control::set_unit(after.project_mut(), unit) {
+            self.change(Change::UnitSet, |document| *document = after);
         }
-        self.change(Change::UnitSet, |document| document.project_mut().unit = unit.to_owned());
     }
 }
 

@@ -16,7 +16,7 @@ use super::pool::{Failure, Outcome};
 use super::{Desk, JobKind};
 use crate::browser::file::NamedFile;
 use crate::edit::cameras::{self, Signature};
-use crate::edit::control::{UNITS, has_lengths};
+use crate::edit::control::has_lengths;
 use crate::edit::plan;
 use crate::i18n::lasting;
 use crate::i18n::planning as words;
@@ -83,7 +83,7 @@ impl Desk {
             .document
             .with_untracked(|d| (has_lengths(&d.project) || d.project.plan.is_some()).then(|| d.project.unit.clone()));
         let unit = own.unwrap_or_else(|| self.planning.unit.get_untracked());
-        let mm = UNITS.iter().find(|(name, _)| *name == unit).map_or(1.0, |(_, mm)| *mm);
+        let mm = plan::millimetres(&unit);
         (unit, mm)
     }
 
@@ -151,16 +151,7 @@ impl Desk {
             PlanOf::Project(_) => None,
         };
         let on_outcome = move |outcome: Outcome<BeginPlan>| match outcome {
-            Outcome::Done(made, _) => self.change(Change::PlanEdited, |document| {
-                let fresh = document.is_empty();
-                let project = document.project_mut();
-                let mut made = made;
-                if let (Some(unit), true) = (unit, fresh) {
-                    project.unit = unit.to_owned();
-                }
-                made.lens.unit_mm = UNITS.iter().find(|(name, _)| *name == project.unit).map_or(1.0, |(_, mm)| *mm);
-                project.plan = Some(Box::new(made));
-            }),
+            Outcome::Done(made, _) => self.change(Change::PlanEdited, |document| plan::put(document, made, unit)),
             Outcome::Failed(failure) => self.tell_failure(failure),
             Outcome::Progress(nothing) => match nothing {},
         };
@@ -169,22 +160,21 @@ impl Desk {
 
     /// Changes the plan so that it can be undone.
     pub fn edit_plan(self, change: Change, edit: impl FnOnce(&mut Plan)) {
-        if self.document.with_untracked(|d| d.project.plan.is_none()) {
-            return;
+        let mut after = self.document.get_untracked();
+        if plan::change(after.project_mut(), edit) {
+            self.planning.live.set(None);
+            self.planning.suggested.set(Vec::new());
+            self.change(change, |document| *document = after);
         }
-        self.planning.live.set(None);
-        self.planning.suggested.set(Vec::new());
-        self.change(change, |document| {
-            if let Some(plan) = document.project_mut().plan.as_mut() {
-                edit(plan);
-            }
-        });
     }
 
     /// Takes the plan away; it can be got back.
     pub fn remove_plan(self) {
-        self.planning.live.set(None);
-        self.change(Change::PlanEdited, |document| document.project_mut().plan = None);
+        let mut after = self.document.get_untracked();
+        if plan::remove(after.project_mut()) {
+            self.planning.live.set(None);
+            self.change(Change::PlanEdited, |document| *document = after);
+        }
     }
 
     /// Has a plan predicted; while one is under way the last that was asked for waits.

@@ -10,14 +10,13 @@ use sightline::detection::Detection;
 use sightline::project::Project;
 use sightline_protocol::{Opened, Sample, SamplePhoto, SamplePhotoMade};
 
-use super::document::Document;
 use super::intake::SMALL_SIDE;
 use super::pool::Outcome;
 use super::{Desk, JobKind, PhotoFile, Selection, Step};
 use crate::browser::file::Blob;
 use crate::browser::picture::Picture;
 use crate::browser::worker::Bytes;
-use crate::edit::targets;
+use crate::edit::sample;
 use crate::i18n::text;
 use crate::parts::part;
 
@@ -87,23 +86,12 @@ impl Desk {
 
     /// Puts the sample on the desk with the photos that are made.
     fn put_sample(self, project: &Project, made: &Made) {
-        let mut project = project.clone();
         let made = made.take();
-        project.photos.retain(|photo| made.contains_key(&photo.file));
-        project.name = text::sample_name().to_owned();
-        let photos = project.photos.iter().map(|p| (p.id.clone(), p.file.clone())).collect::<Vec<_>>();
-        let first = photos.first().map(|(id, _)| id.clone());
-        let mut files = BTreeMap::new();
-        let mut document = Document { project: project.into(), ..Document::default() };
-        for (id, name) in photos {
-            if let Some((file, detection)) = made.get(&name) {
-                if let Some(photo) = document.project_mut().photos.iter_mut().find(|photo| photo.id == id) {
-                    photo.sha256.clone_from(&file.sha256);
-                }
-                files.insert(id.clone(), file.clone());
-                targets::take_detection(&mut document, &id, detection.clone(), None);
-            }
-        }
+        let of = |file: &str| made.get(file).map(|(file, detection)| (file.sha256.clone(), detection.clone()));
+        let document = sample::document(project, text::sample_name(), of);
+        let photos = &document.project.photos;
+        let first = photos.first().map(|photo| photo.id.clone());
+        let files = photos.iter().filter_map(|p| Some((p.id.clone(), made.get(&p.file)?.0.clone()))).collect();
         self.begin(document);
         self.forget_waiting();
         self.files.set(files);
