@@ -17,6 +17,12 @@ pub use beside::{comparing, equipment, lasting};
 pub struct English;
 
 impl super::Speech for English {
+    fn tag(&self) -> &'static str {
+        "en"
+    }
+    fn name(&self) -> &'static str {
+        "English"
+    }
     fn pages(&self) -> ReportLanguage {
         ReportLanguage::English
     }
@@ -53,7 +59,6 @@ declare! { desk {
     undo: "Undo";
     redo: "Redo";
     switch_language: "Language: switch to Korean";
-    other_language: "한국어";
     switch_theme: "Theme: switch";
     theme_light: "Light";
     theme_dark: "Dark";

@@ -16,6 +16,12 @@ mod beside;
 pub struct Korean;
 
 impl super::Speech for Korean {
+    fn tag(&self) -> &'static str {
+        "ko"
+    }
+    fn name(&self) -> &'static str {
+        "한국어"
+    }
     fn pages(&self) -> ReportLanguage {
         ReportLanguage::Korean
     }
@@ -48,7 +54,6 @@ translate! { Korean desk {
     undo: "실행 취소";
     redo: "다시 실행";
     switch_language: "언어: 영어로 바꾸기";
-    other_language: "English";
     switch_theme: "화면 색: 바꾸기";
     theme_light: "밝게";
     theme_dark: "어둡게";

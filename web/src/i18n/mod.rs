@@ -40,6 +40,10 @@ use spoken;
 
 /// What a language says of the engine's values.
 pub trait Speech {
+    /// Its tag (BCP 47).
+    fn tag(&self) -> &'static str;
+    /// Its name in itself.
+    fn name(&self) -> &'static str;
     /// The engine's own language that is nearest to it, for pages and sheets.
     fn pages(&self) -> ReportLanguage;
     fn reason(&self, reason: &Reason) -> String;
@@ -52,7 +56,7 @@ pub trait Speech {
 
 /// That of the language in use.
 pub fn speech() -> &'static dyn Speech {
-    spoken!(language())
+    language().speech()
 }
 
 thread_local! {
@@ -60,16 +64,36 @@ thread_local! {
 }
 
 impl Language {
-    const ALL: [Self; 2] = [Self::English, Self::Korean];
+    pub const ALL: [Self; 2] = [Self::English, Self::Korean];
 
-    pub fn tag(self) -> &'static str {
-        match self {
-            Self::English => "en",
-            Self::Korean => "ko",
-        }
+    fn speech(self) -> &'static dyn Speech {
+        spoken!(self)
     }
 
-    fn from_tag(tag: &str) -> Self {
+    pub fn tag(self) -> &'static str {
+        self.speech().tag()
+    }
+
+    pub fn name(self) -> &'static str {
+        self.speech().name()
+    }
+
+    /// The engine's own language for its pages.
+    pub fn pages(self) -> ReportLanguage {
+        self.speech().pages()
+    }
+
+    /// The language that the engine's pages in one of its own are in.
+    pub fn of_pages(pages: ReportLanguage) -> Self {
+        Self::ALL.into_iter().find(|language| language.pages() == pages).unwrap_or(Self::English)
+    }
+
+    /// The languages that pages can be in.
+    pub fn with_pages() -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(|language| Self::of_pages(language.pages()) == *language)
+    }
+
+    pub fn from_tag(tag: &str) -> Self {
         Self::ALL.into_iter().find(|language| tag.starts_with(language.tag())).unwrap_or(Self::English)
     }
 
@@ -235,5 +259,19 @@ mod tests {
         assert_eq!(Language::from_tag("ko-KR"), Language::Korean);
         assert_eq!(Language::from_tag("fr"), Language::English);
         assert_eq!(Language::English.other().other(), Language::English);
+        for language in Language::ALL {
+            assert_eq!(Language::from_tag(language.tag()), language);
+            assert!(Language::ALL.iter().all(|other| *other == language || other.name() != language.name()));
+        }
+    }
+
+    #[test]
+    fn pages_are_in_the_language_that_was_chosen_for_them() {
+        let offered: Vec<_> = Language::with_pages().collect();
+        assert_eq!(offered, [Language::English, Language::Korean]);
+        for language in offered {
+            assert_eq!(Language::of_pages(Language::from_tag(language.tag()).pages()), language);
+        }
+        assert_eq!(Language::of_pages(ReportLanguage::Korean), Language::Korean);
     }
 }

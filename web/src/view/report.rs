@@ -2,7 +2,7 @@
 
 use leptos::html::Div;
 use leptos::prelude::*;
-use sightline::project::{Paper, ReportLanguage, ReportSettings, Section};
+use sightline::project::{Paper, ReportSettings, Section};
 
 use super::field::Field;
 use super::icon::{Glyph, Icon};
@@ -11,7 +11,7 @@ use super::shell::TitleBar;
 use crate::browser::{event, file, paper};
 use crate::edit::report::switch;
 use crate::format;
-use crate::i18n::{Text, object, text};
+use crate::i18n::{Language, Text, object, text};
 use crate::store::Desk;
 use crate::store::report::report_language;
 
@@ -114,10 +114,7 @@ fn Sections() -> impl IntoView {
 #[component]
 fn Pages() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let language = move || match settings(desk, report_language) {
-        ReportLanguage::English => "en",
-        ReportLanguage::Korean => "ko",
-    };
+    let language = move || Language::of_pages(settings(desk, report_language));
     let paper = move || match settings(desk, |s| s.paper) {
         Paper::A4 => "a4",
         Paper::Letter => "letter",
@@ -125,12 +122,13 @@ fn Pages() -> impl IntoView {
     view! {
         <section class="report-fields">
             <label><span>{text::report_language}</span>
-                <select name="report-language" prop:value=language on:change=move |e| {
-                    let chosen = if event::value(&e) == "ko" { ReportLanguage::Korean } else { ReportLanguage::English };
-                    desk.edit_report(|s| s.language = Some(chosen));
+                <select name="report-language" prop:value=move || language().tag() on:change=move |e| {
+                    let chosen = Language::from_tag(&event::value(&e));
+                    desk.edit_report(|s| s.language = Some(chosen.pages()));
                 }>
-                    <option value="en" selected=move || language() == "en">"English"</option>
-                    <option value="ko" selected=move || language() == "ko">"한국어"</option>
+                    {Language::with_pages().map(|own| view! {
+                        <option value=own.tag() selected=move || language() == own>{own.name()}</option>
+                    }).collect_view()}
                 </select>
             </label>
             <label><span>{text::paper_size}</span>

@@ -143,10 +143,10 @@ fn Head() -> impl IntoView {
                 <button class="text-button" title=text::keys_title on:click=move |_| desk.help.set(true)><span>"?"</span> <span class="visually-hidden">{text::keys_title}</span></button>
                 <button
                     class="text-button"
-                    aria-label=move || format!("{}, {}", text::other_language(), text::switch_language())
+                    aria-label=move || format!("{}, {}", language().other().name(), text::switch_language())
                     on:click=move |_| i18n::set_language(language().other())
                 >
-                    {text::other_language}
+                    {move || language().other().name()}
                 </button>
                 <button
                     class="text-button"

@@ -1,4 +1,4 @@
-//! The shooting plan on paper: stations with places, aims and rolls, and a checklist in both languages.
+//! The shooting plan on paper: stations with places, aims and rolls, and a checklist in every language.
 
 use std::sync::Arc;
 
@@ -12,10 +12,15 @@ use crate::i18n::Language;
 use crate::i18n::planning::{Words, words};
 use crate::store::Desk;
 
-/// A phrase in both languages, once where they say the same.
-fn both(say: fn(&dyn Words) -> &'static str) -> String {
-    let [english, korean] = [Language::English, Language::Korean].map(|language| say(words(language)));
-    if english == korean { english.to_owned() } else { format!("{english} / {korean}") }
+/// A phrase in every language, once where they say the same.
+fn in_all(say: fn(&dyn Words) -> &'static str) -> String {
+    let mut phrases = Vec::new();
+    for phrase in Language::ALL.map(|language| say(words(language))) {
+        if !phrases.contains(&phrase) {
+            phrases.push(phrase);
+        }
+    }
+    phrases.join(" / ")
 }
 
 #[component]
@@ -71,14 +76,14 @@ pub fn ShootingPlan() -> impl IntoView {
     ];
     view! {
         <section class="shooting-plan">
-            <h1>{both(|w| w.shooting_plan())} " " {name}</h1>
-            <p>{both(|w| w.stations())} ", " {unit}</p>
+            <h1>{in_all(|w| w.shooting_plan())} " " {name}</h1>
+            <p>{in_all(|w| w.stations())} ", " {unit}</p>
             <table>
-                <thead><tr>{heads.map(|head| view! { <th>{both(head)}</th> }).collect_view()}</tr></thead>
+                <thead><tr>{heads.map(|head| view! { <th>{in_all(head)}</th> }).collect_view()}</tr></thead>
                 <tbody>{rows}</tbody>
             </table>
-            <h2>{both(|w| w.checklist())}</h2>
-            <ul>{checks.map(|check| view! { <li>"☐ " {both(check)}</li> }).collect_view()}</ul>
+            <h2>{in_all(|w| w.checklist())}</h2>
+            <ul>{checks.map(|check| view! { <li>"☐ " {in_all(check)}</li> }).collect_view()}</ul>
         </section>
     }
 }
