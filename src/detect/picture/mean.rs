@@ -98,19 +98,23 @@ impl Levels {
         }
     }
 
-    #[inline(always)]
-    fn at(&self, x: usize, y: usize) -> &[f32] {
-        &self.levels[y * self.stride + x..][..LANES]
-    }
-
     /// Convolves columns: hands over column, row and sums of every sixteen of these rows.
     #[inline(never)]
     pub fn down(&self, kernel: &[f32], rows: Range<usize>, mut take: impl FnMut(usize, usize, [f32x4; 4])) {
         let last = self.levels.len() / self.stride - 1;
+        let row = |y: usize| &self.levels[y * self.stride..][..self.stride];
+        // the rows at each distance, looked up once for all of a tile's columns
+        let mut pairs = Vec::with_capacity(kernel.len());
         for tile in (0..self.stride).step_by(TILE) {
             for y in rows.clone() {
+                pairs.clear();
+                pairs.extend((0..kernel.len()).map(|t| [row(y.saturating_sub(t)), row((y + t).min(last))]));
                 for x in (tile..self.stride.min(tile + TILE)).step_by(LANES) {
-                    take(x, y, weighted(kernel, |t| [self.at(x, y.saturating_sub(t)), self.at(x, (y + t).min(last))]));
+                    let sums = weighted(kernel, |t| {
+                        let [above, below] = pairs[t];
+                        [&above[x..x + LANES], &below[x..x + LANES]]
+                    });
+                    take(x, y, sums);
                 }
             }
         }
