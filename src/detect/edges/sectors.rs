@@ -21,14 +21,13 @@ const ENTRIES: usize = (UNKNOWNS + 1) * (UNKNOWNS + 2) / 2;
 #[derive(Clone, Copy)]
 struct Normal {
     sums: [f64; ENTRIES],
-    /// Edges in the sums, and rays without an edge.
+    /// Edges in the sums.
     count: usize,
-    missing: usize,
 }
 
 impl Normal {
     fn none() -> Self {
-        Self { sums: [0.0; ENTRIES], count: 0, missing: 0 }
+        Self { sums: [0.0; ENTRIES], count: 0 }
     }
 
     fn add(&mut self, [m0, m1, m2, m3, m4]: [f64; UNKNOWNS], distance: f64) {
@@ -43,11 +42,7 @@ impl Normal {
     }
 
     fn without(&self, other: &Self) -> Self {
-        Self {
-            sums: std::array::from_fn(|i| self.sums[i] - other.sums[i]),
-            count: self.count - other.count,
-            missing: self.missing - other.missing,
-        }
+        Self { sums: std::array::from_fn(|i| self.sums[i] - other.sums[i]), count: self.count - other.count }
     }
 
     /// Root mean square of what is left after the adjustment: the last pivot of the bordered matrix is e'e.
@@ -78,35 +73,53 @@ pub(crate) fn promising(edges: &Edges, outline: &Outline, shares: &[f64]) -> Vec
     let count = edges.len();
     let rays: Vec<Option<([f64; 5], f64)>> = (0..count)
         .map(|k| {
-            let [x, y] = edges.place(k);
-            let (rim, distance) = outline.nearest(x, y);
-            (edges.strength[k] > 0.0).then_some((rim.moves, distance))
+            (edges.strength[k] > 0.0).then(|| {
+                let [x, y] = edges.place(k);
+                let (rim, distance) = outline.nearest(x, y);
+                (rim.moves, distance)
+            })
         })
         .collect();
     // what lies far off belongs to something else
     let mut sizes = Vec::new();
     let typical = median::of_sizes(rays.iter().flatten().map(|(_, distance)| distance.abs() as f32), &mut sizes);
     let limit = (3.0 * 1.4826 * typical).max(1.0 + 0.05 * outline.semi_axes().1);
-    // running sums over the rays, twice around
-    let mut running = vec![Normal::none()];
+    let near = |ray: &Option<([f64; UNKNOWNS], f64)>| ray.filter(|(_, distance)| distance.abs() <= limit);
+    // twice around: edges up to each ray, which tell without any sums of most sectors that they leave too few
+    let mut taken = Vec::with_capacity(2 * count + 1);
+    taken.push(0);
     for ray in rays.iter().chain(&rays) {
-        let mut next = running[running.len() - 1];
-        match ray {
-            Some((moves, distance)) if distance.abs() <= limit => next.add(*moves, *distance),
-            _ => next.missing += 1,
+        taken.push(taken[taken.len() - 1] + usize::from(near(ray).is_some()));
+    }
+    let ray = |turn: f64| (turn * count as f64).ceil() as usize;
+    let place = |place: usize| place as f64 / PLACES as f64;
+    let enough = |share: f64, from: f64| {
+        let sector = ray(from)..ray(from + share);
+        let inside = taken[sector.end] - taken[sector.start];
+        let left = taken[count] - inside;
+        let missing = (count - taken[count]) - (sector.len() - inside);
+        left >= 8.max(count / 3) && missing as f64 <= OTHERS * count as f64
+    };
+    if !shares.iter().any(|share| (0..PLACES).any(|k| enough(*share, place(k)))) {
+        return Vec::new();
+    }
+    // running sums over the same rays
+    let mut running = Vec::with_capacity(2 * count + 1);
+    let mut sums = Normal::none();
+    running.push(sums);
+    for ray in rays.iter().chain(&rays) {
+        if let Some((moves, distance)) = near(ray) {
+            sums.add(moves, distance);
         }
-        running.push(next);
+        running.push(sums);
     }
     let all = running[count];
-    let ray = |turn: f64| (turn * count as f64).ceil() as usize;
     let best_of = |share: &f64| {
-        let scatter = |place: usize| {
-            let from = place as f64 / PLACES as f64;
-            let rest = all.without(&running[ray(from + share)].without(&running[ray(from)]));
-            let enough = rest.count >= 8.max(count / 3) && rest.missing as f64 <= OTHERS * count as f64;
-            enough.then(|| rest.rms()).flatten().map(|rms| (rms.hypot(EVEN), from))
+        let scatter = |from: f64| {
+            let rest = || all.without(&running[ray(from + share)].without(&running[ray(from)]));
+            enough(*share, from).then(|| rest().rms()).flatten().map(|rms| (rms.hypot(EVEN), from))
         };
-        let best = (0..PLACES).filter_map(scatter).min_by(|a, b| a.0.total_cmp(&b.0));
+        let best = (0..PLACES).filter_map(|k| scatter(place(k))).min_by(|a, b| a.0.total_cmp(&b.0));
         best.map(|(_, from)| (*share, from))
     };
     shares.iter().filter_map(best_of).collect()
