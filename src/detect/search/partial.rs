@@ -33,6 +33,9 @@ pub(crate) fn most(chain: &[Chord], limits: &Limits) -> Option<Outline> {
     }
     let running = ends.running();
     let total = running[ends.count];
+    // no ellipse that the ends span is larger, so what is further off than this is hopeless whatever its size
+    let largest = ends.scale * ends.half[0].min(ends.half[1]) / SPANNED;
+    let hopeless = (1.01 * HOPELESS * good(largest)) as f32;
     let mut best: Option<(Outline, f32)> = None;
     let windows = WINDOWS.min(ends.count / 2);
     for k in 0..windows {
@@ -48,25 +51,25 @@ pub(crate) fn most(chain: &[Chord], limits: &Limits) -> Option<Outline> {
         if !is_possible(&outline, limits, least) {
             continue;
         }
-        let nearest = best.map_or(f32::INFINITY, |(_, nearest)| nearest);
+        let nearest = best.map_or(hopeless, |(_, nearest)| nearest);
         if let Some(distance) = ends.most_within(&outline, nearest) {
             best = Some((outline, distance));
         }
     }
     let (outline, distance) = best?;
-    if f64::from(distance) > HOPELESS * good(&outline) {
+    if f64::from(distance) > HOPELESS * good(outline.semi_axes().1) {
         return None;
     }
     // what all can follow gives way to the cover: only those as near as the better half count
     let limit = f64::from(2.0 * distance).max(STEPS);
     let outline = ends.placed(&ends.within(&outline, limit).ellipse()?);
-    let follows = || ends.most_within(&outline, good(&outline) as f32).is_some();
+    let follows = || ends.most_within(&outline, good(outline.semi_axes().1) as f32).is_some();
     (is_possible(&outline, limits, least) && follows()).then_some(outline)
 }
 
-/// Distance, in pixels, within which the ends of an ellipse follow it.
-fn good(outline: &Outline) -> f64 {
-    GOOD[0] + GOOD[1] * outline.semi_axes().1
+/// Distance, in pixels, within which the ends of an ellipse of this semi-minor axis follow it.
+fn good(b: f64) -> f64 {
+    GOOD[0] + GOOD[1] * b
 }
 
 /// Ends of the runs in their order around the blob, counted from its middle in units of its size.
@@ -154,7 +157,8 @@ impl Ends {
         let mut distances = [0f32; ENDS];
         let [x, y] = [&self.x, &self.y].map(|values| values.as_chunks::<4>().0);
         // Sampson's distance, as [`Outline::distance`]
-        for ((distance, x), y) in distances.as_chunks_mut::<4>().0.iter_mut().zip(x).zip(y) {
+        let places = x.iter().zip(y).take(self.count.div_ceil(4));
+        for (distance, (x, y)) in distances.as_chunks_mut::<4>().0.iter_mut().zip(places) {
             let (x, y) = (f32x4::new(*x) - u, f32x4::new(*y) - v);
             let (c, s) = (q * x - r * y, p * y - r * x);
             let (gx, gy) = (q * c - r * s, p * s - r * c);
