@@ -2,9 +2,11 @@
 //!
 //! A ring is read as a picture of a model: dot, gap, n equal sectors of one of two levels, and clear ground outside, all
 //! blurred as the dot's own rim is. [`polar`] samples it, [`bands`] is the model of a ray, [`radial`] separates gap, ring and
-//! outside in each direction, [`sectors`] divides the ring into sectors, [`judge`](mod@judge) decides what that is.
+//! outside in each direction, [`sectors`] divides the ring into sectors, [`discs`] draws discs in their places,
+//! [`judge`](mod@judge) decides what that is.
 
 mod bands;
+mod discs;
 mod judge;
 mod light;
 mod parts;
@@ -134,7 +136,7 @@ impl<'a, T: Sample> Around<'a, T> {
         let (a, b) = outline.semi_axes();
         let sine = (1.0 - (b / a) * (b / a)).max(0.0).sqrt();
         let largest = a * sine / (0.6 * self.size.max(CAMERA) as f64);
-        let bands = Bands::of(rays.clone(), design);
+        let bands = Rc::new(Bands::of(rays.clone(), design));
         let of = |boost: f64| {
             let frame = Frame::new(outline, boost);
             let sampled = (boost != 0.0).then(|| Polar::sample(plane, &frame, rays));

@@ -23,6 +23,7 @@ pub(super) struct Band {
 }
 
 /// The bands of every ray and sample.
+#[derive(Debug)]
 pub(super) struct Bands {
     pub rays: Rc<Rays>,
     /// Inner and outer radius of the ring.

@@ -1,14 +1,15 @@
 //! What a ring is as a code of a family: one gate after the other.
 //!
 //! A ring is a code when every sector is clearly one of two levels and the same at its inner and its outer half, when the
-//! gap is clear, and the ground outside beside each set sector, when its rims are where the design has them, when sectors end
-//! on the grid of n and not better on that of another family, and when the family has the code. Where a few sectors only leave
-//! a doubt, the codes that remain are its candidates. A margin is a level's distance from half-way, 1 when it is as clear as
-//! dot and background; the code's margin is that of its worst sector.
+//! gap is clear, and the ground outside beside each set sector, when its rims are where the design has them, when sectors explain
+//! it better than discs in their places, when they end on the grid of n and not better on that of another family, and when the
+//! family has the code. Where a few sectors only leave a doubt, the codes that remain are its candidates. A margin is a level's
+//! distance from half-way, 1 when it is as clear as dot and background; the code's margin is that of its worst sector.
 
 use std::cell::OnceCell;
 
 use super::Reading;
+use super::discs;
 use super::radial::Radial;
 use super::sectors::Division;
 use crate::detect::acceptance::code as limits;
@@ -172,6 +173,11 @@ pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
     if off_rims > 1.0 {
         return Reading::Plain;
     }
+    // dots around a dot are no ring
+    let of_discs = discs::rivalry(radial, division);
+    if of_discs > limits::DISCS[0] {
+        return Reading::Plain;
+    }
     let ratio = rivalry(family, division, tones);
     if ratio > limits::BETTER {
         return Reading::Plain;
@@ -187,7 +193,7 @@ pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
         CodeNote::Disturbed
     } else if !in_doubt.is_empty() {
         CodeNote::BetweenLevels
-    } else if ratio > limits::AS_GOOD || off_grid > 1.0 || left > 1.0 {
+    } else if of_discs > limits::DISCS[1] || ratio > limits::AS_GOOD || off_grid > 1.0 || left > 1.0 {
         CodeNote::OtherFamily
     } else if is_by_chance(shares, division.arcs(), radial) {
         CodeNote::Uncertain

@@ -111,6 +111,12 @@ impl Rays {
         (p * c + r * s).hypot(r * c + q * s)
     }
 
+    /// Pixels a radius of the target's plane between lines across this direction of it.
+    pub fn pixels_along(&self, [x, y]: [f64; 2]) -> f64 {
+        let Outline { p, q, r, .. } = self.outline;
+        self.area * x.hypot(y) / (q * x - r * y).hypot(p * y - r * x).max(f64::MIN_POSITIVE)
+    }
+
     /// The shares of what lies within the first of these radii, and between each and the next, that reach a radius in a direction.
     #[inline]
     pub fn bands<const N: usize>(&self, radius: f64, rims: [f64; N], direction: usize) -> [f64; N] {

@@ -44,6 +44,9 @@ const LOOKS: usize = 60;
 #[derive(Clone, Debug)]
 pub(super) struct Radial {
     pub rays: Rc<Rays>,
+    pub bands: Rc<Bands>,
+    /// What was sampled, as shares of the dot's contrast.
+    pub polar: Polar,
     design: [f64; 2],
     middle: f64,
     pub ring: Vec<f64>,
@@ -147,7 +150,7 @@ impl Radial {
         target: &Target,
         frame: &Frame,
         polar: &Polar,
-        bands: &Bands,
+        bands: &Rc<Bands>,
     ) -> Option<Self> {
         let whole = between([START, bands.design[1] + 0.1]);
         let rays = &bands.rays;
@@ -168,7 +171,7 @@ impl Radial {
         let mut polar = polar.clone();
         polar.normalise(rays, background, contrast);
         off.iter_mut().for_each(|level| *level /= contrast);
-        Some(Self::separate(&polar, bands, off))
+        Some(Self::separate(polar, bands, off))
     }
 
     /// The same with what stands around the ring in this frame.
@@ -197,7 +200,7 @@ impl Radial {
         std::f64::consts::TAU / n as f64 * self.middle * self.rays.area.sqrt()
     }
 
-    fn separate(polar: &Polar, bands: &Bands, ground: Vec<f64>) -> Self {
+    fn separate(polar: Polar, bands: &Rc<Bands>, ground: Vec<f64>) -> Self {
         let [inner, outer] = bands.design;
         let count = bands.rays.directions.len();
         let [mut ring, mut gap, mut halves, mut outside] = [(); 4].map(|()| Vec::with_capacity(count));
@@ -231,6 +234,8 @@ impl Radial {
         let share = (outer - inner) / (outer + GROUND - START);
         Self {
             rays: bands.rays.clone(),
+            bands: bands.clone(),
+            polar,
             design: [inner, outer],
             middle: (inner + outer) / 2.0,
             ring,

@@ -242,6 +242,21 @@ impl Division {
         found.iter().copied().collect()
     }
 
+    /// What a direction shows of the set sectors, each at its own level.
+    pub fn seen(&self, direction: usize) -> f64 {
+        let set = self.shares[direction].of(self.levels.len()).filter(|(k, _)| self.is_set(*k));
+        set.map(|(k, share)| share * self.levels[k]).sum()
+    }
+
+    /// Direction of the middle of each set sector, and its level.
+    pub fn set_middles(&self) -> impl Iterator<Item = ([f64; 2], f64)> {
+        let n = self.levels.len();
+        (0..n).filter(|k| self.is_set(*k)).map(move |k| {
+            let (s, c) = (self.phase + std::f64::consts::TAU * (k as f64 + 0.5) / n as f64).sin_cos();
+            ([c, s], self.levels[k])
+        })
+    }
+
     /// Whether a sector is set.
     pub fn is_set(&self, sector: usize) -> bool {
         self.bits >> (self.levels.len() - 1 - sector) & 1 == 1

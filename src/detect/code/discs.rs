@@ -1,0 +1,76 @@
+//! Discs where a ring has its set sectors.
+//!
+//! Dots around a dot can lie on the grid of a family, in the ring's middle, and be as bright as sectors. What tells them from sectors is
+//! their shape: the ends of sectors are straight rays and their rims arcs of the ring's circles, a disc leaves the corners free. Both are
+//! drawn as levels of the ring's plane,
+//!
+//! ```text
+//! sectors:  y(r, t) = B[r1, r2](r) Σ x_k S_k(t)          discs:  y(r, t) = Σ x_k Φ((ρ - |p(r, t) - p_k|) m / s)
+//! ```
+//!
+//! with the shares B and S of ring and sector, the levels x of set sectors and the discs' centres p_k in their middles, m pixels a
+//! radius across the disc's rim and the blur s; each is scaled to the picture by least squares.
+
+use super::polar::{Rays, radius, step};
+use super::radial::Radial;
+use super::sectors::Division;
+
+/// Radii of the discs, and distances of their centres from the ring's middle, in widths of the ring.
+const SIZES: [f64; 4] = [0.3, 0.4, 0.5, 0.6];
+const ASIDE: [f64; 3] = [-0.1, 0.0, 0.1];
+
+/// Square of what a ring's sectors leave of the picture over that of discs in their places.
+pub(super) fn rivalry(radial: &Radial, division: &Division) -> f64 {
+    let bands = &radial.bands;
+    let [inner, outer] = bands.design;
+    let sectors = left(radial, |j, k| division.seen(j) * bands.row(j)[k].basis[1]);
+    let width = outer - inner;
+    let all = SIZES.iter().flat_map(|size| ASIDE.map(|aside| [*size, aside]));
+    let discs = all.map(|[size, aside]| {
+        let discs = Discs::of(division, (inner + outer) / 2.0 + aside * width, size * width);
+        left(radial, |j, k| discs.level(&bands.rays, j, radius(bands.samples.start + k)))
+    });
+    sectors / discs.fold(f64::INFINITY, f64::min)
+}
+
+/// Sum of squares that a model of a direction's sample leaves beside the dot, scaled to fit.
+fn left(radial: &Radial, model: impl Fn(usize, usize) -> f64) -> f64 {
+    let bands = &radial.bands;
+    let (mut squares, mut products, mut own) = (0.0, 0.0, 0.0);
+    for (j, arc) in bands.rays.arc.iter().enumerate() {
+        let levels = &radial.polar.row(j)[bands.samples.clone()];
+        for (k, (level, band)) in levels.iter().zip(bands.row(j)).enumerate().filter(|(_, (level, _))| !level.is_nan())
+        {
+            let (level, model) = (f64::from(*level) - band.dot, model(j, k));
+            squares += arc * level * level;
+            products += arc * level * model;
+            own += arc * model * model;
+        }
+    }
+    squares - products * products / own.max(f64::MIN_POSITIVE)
+}
+
+struct Discs {
+    /// Centre and level of each.
+    discs: Vec<([f64; 2], f64)>,
+    size: f64,
+}
+
+impl Discs {
+    fn of(division: &Division, distance: f64, size: f64) -> Self {
+        let discs = division.set_middles().map(|([c, s], level)| ([distance * c, distance * s], level)).collect();
+        Self { discs, size }
+    }
+
+    fn level(&self, rays: &Rays, direction: usize, radius: f64) -> f64 {
+        let [c, s] = rays.directions[direction];
+        let nearest = |(centre, level): &([f64; 2], f64)| {
+            let [x, y] = [radius * c - centre[0], radius * s - centre[1]];
+            let distance = x.hypot(y);
+            // the rim that is nearest is seen across
+            (distance < 2.5 * self.size)
+                .then(|| level * step((self.size - distance) * rays.pixels_along([x, y]) / rays.blur))
+        };
+        self.discs.iter().filter_map(nearest).fold(0.0, f64::max)
+    }
+}
