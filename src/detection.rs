@@ -202,7 +202,7 @@ pub enum CodeNote {
     Disturbed,
     /// A sector lies between light and dark.
     BetweenLevels,
-    /// The sectors may be those of another family.
+    /// The sectors may be those of another family, or dots that stand around the target.
     OtherFamily,
     /// Nothing speaks against it alone, but much is near its limit, or it is small, blurred or a single arc: it may be one by chance.
     Uncertain,

@@ -262,7 +262,7 @@ declare! { desk {
     code_no_code: "its bits are no code of the family";
     code_disturbed: "something lies beside the ring or on it";
     code_between_levels: "a sector lies between light and dark";
-    code_other_family: "its sectors may be those of another family";
+    code_other_family: "its sectors may be those of another family, or dots around it";
     code_uncertain: "its ring may look like a code by chance: it is small, blurred or a single arc";
     code_several_families: "it is a code of several families";
     picture_sharpened(percent, radius): "sharpened by {percent} % (radius {radius} px), undone where that hides targets";

@@ -254,7 +254,7 @@ translate! { Korean desk {
     code_no_code: "이 종류에 없는 비트 배열";
     code_disturbed: "링 위나 옆에 다른 것이 있음";
     code_between_levels: "밝기가 흑백 사이인 구획이 있음";
-    code_other_family: "다른 코드 종류의 구획일 수 있음";
+    code_other_family: "다른 코드 종류의 구획이거나 둘레에 놓인 점일 수 있음";
     code_uncertain: "링이 작거나 흐리거나 호 하나뿐이어서 우연히 코드처럼 보일 수 있음";
     code_several_families: "여러 종류의 코드에 해당함";
     picture_sharpened(percent, radius): "선명화 {percent} %(반경 {radius} px), 이 때문에 표적이 가려지는 곳은 되돌려 측정함";
