@@ -175,7 +175,9 @@ pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
     }
     // dots around a dot are no ring
     let of_discs = discs::rivalry(radial, division);
-    if of_discs > limits::DISCS[0] {
+    let is_shaped = radial.sector(family.bits() as usize) >= limits::SHAPED;
+    let [most, doubtful] = if is_shaped { limits::DISCS } else { [limits::DISCS_SMALL; 2] };
+    if of_discs > most {
         return Reading::Plain;
     }
     let ratio = rivalry(family, division, tones);
@@ -193,7 +195,7 @@ pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
         CodeNote::Disturbed
     } else if !in_doubt.is_empty() {
         CodeNote::BetweenLevels
-    } else if of_discs > limits::DISCS[1] || ratio > limits::AS_GOOD || off_grid > 1.0 || left > 1.0 {
+    } else if of_discs > doubtful || ratio > limits::AS_GOOD || off_grid > 1.0 || left > 1.0 {
         CodeNote::OtherFamily
     } else if is_by_chance(shares, division.arcs(), radial) {
         CodeNote::Uncertain
