@@ -56,7 +56,8 @@ test('a part that does not come is told, and is had when it is asked for again',
     // what comes of the engine with the first task that is not a photo's
     await context.route('**/worker_split_networks.wasm', (route) => route.abort());
     await page.click('button.sample');
-    await page.getByText('a part of the engine could not be loaded').waitFor();
+    // the sample's photos are rendered and measured before
+    await page.getByText('a part of the engine could not be loaded').waitFor({ timeout: 100_000 });
     await context.unroute('**/worker_split_networks.wasm');
     await page.click('button.sample');
     await page.waitForSelector('[data-result=sigma0]', { timeout: 100_000 });
