@@ -2,8 +2,9 @@
 //!
 //! A weak edge must not break what strong ones enclose (noise inside a dark dot), and a weak target has no strong edges.
 //! So the edges of a row are found once, with the lowest threshold, and linked several times: every level sees only the
-//! edges above its own threshold, three times that of the level below. Few edges are left after the first step, so that
-//! the levels cost little. The picture at a quarter of its size is searched in the same way, in every second of its rows
+//! edges above its own threshold, three times that of the level below; the highest are shares of the picture's range, for
+//! what lies before a target in a tone of its own. Few edges are left after the first step, so that the levels cost little.
+//! The picture at a quarter of its size is searched in the same way, in every second of its rows
 //! too, for what is large or so far out of focus that three pixels do not cross its edge.
 
 pub(crate) mod blob;
@@ -20,7 +21,7 @@ use self::blob::{Limits, NoBlob};
 use self::component::{Chord, Linker};
 use self::halves::Parts;
 use self::scan::Edge;
-use super::acceptance::picture::{QUARTERED, SEARCHED};
+use super::acceptance::picture::{QUARTERED, SEARCHED, STRONG};
 use super::acceptance::size::{BLOB_LARGE, LARGE, SEARCHED_FLAT};
 use super::edges::look;
 use super::ellipse::outline::Outline;
@@ -51,7 +52,7 @@ pub(crate) struct Blobs {
     parts: Parts,
 }
 
-/// Levels of contrast, each three times the one below.
+/// Levels of contrast, each three times the one below, up to the strong ones.
 const LEVELS: u32 = 4;
 /// Axis ratio from which on outlines of the search go on to be measured.
 fn flattest(options: &DetectOptions) -> f64 {
@@ -161,15 +162,17 @@ impl Pass {
         };
         let rows = (BLOB_LARGE * limits.max_diameter / limits.step as f64).min(1e6) as usize + 8;
         let lowest = lowest.min(65535.0) as u32;
-        // a level above half the range would see hardly an edge
-        let levels = (0..LEVELS)
+        let mut thresholds: Vec<u32> = (0..LEVELS)
             .map(|k| lowest.saturating_mul(3u32.pow(k)))
-            .take_while(|&t| t == lowest || f64::from(t) < 0.5 * range)
-            .map(|threshold| Level {
-                threshold,
-                linkers: wanted.iter().map(|&bright| (bright, Linker::new(rows))).collect(),
-                blobs: Blobs::default(),
-            });
+            .take_while(|&t| t == lowest || f64::from(t) < STRONG[0] * range)
+            .collect();
+        let highest = thresholds.last().copied();
+        thresholds.extend(STRONG.map(|share| (share * range) as u32).iter().filter(|t| Some(**t) > highest));
+        let levels = thresholds.into_iter().map(|threshold| Level {
+            threshold,
+            linkers: wanted.iter().map(|&bright| (bright, Linker::new(rows))).collect(),
+            blobs: Blobs::default(),
+        });
         Self { limits, levels: levels.collect(), edges: Vec::new(), runs: Vec::new(), tried: HashSet::new() }
     }
 
