@@ -43,7 +43,7 @@ pub use colours::colours_apart;
 use measure::Measure;
 use normal::BLUR;
 use outline::Outline;
-use pass::Pass;
+use pass::{Pass, Soft};
 use picture::character::{APART, Character};
 use picture::noise::{self, Levels};
 use picture::sharpening::{self, Sharpening};
@@ -149,7 +149,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let mut processed = character.is_processed(&levels);
     levels.developed = processed && !character.is_clipped();
     let mut picture = report(&levels, &character);
-    let mut passed = pass::pass(plane, levels, options, processed && character.is_compressed(), false, &[]);
+    let mut passed = pass::pass(plane, levels, options, processed && character.is_compressed(), None, &[]);
     if !processed && !levels.stairs {
         // Dots too small for flat sides of a row's steps show in their own rims what was done to the picture.
         let outlines: Vec<Outline> = passed.detection.targets.iter().map(outline_of).collect();
@@ -293,7 +293,8 @@ fn pass_softened<T: Sample>(
         developed: own.developed,
         ..levels
     };
-    let mut passed = pass::pass(soft.plane(), levels, options, true, true, known);
+    let mut passed =
+        pass::pass(soft.plane(), levels, options, true, Some(Soft { scale: soft.scale, blur: sigma }), known);
     for target in passed.detection.targets.iter_mut().chain(&mut passed.grounds) {
         target.contrast /= soft.scale;
         target.quality.noise /= soft.scale;

@@ -92,11 +92,14 @@ pub(crate) mod picture {
         EDGE: [f64; 3] = [3.0, 0.015, 2.5], Derived "the fall between two bilinear samples has 0.94 of the noise: chance passes once in 1400 places";
         /// Smallest difference over three pixels that starts an edge of the search, in the same units.
         SEARCHED: [f64; 3] = [6.5, 0.03, 5.0], Derived "4.6 sigmas of a difference of two samples: chance passes four times in a million";
+        /// The same in the quartered picture, whose noise is less than half.
+        QUARTERED: [f64; 3] = [3.0, 0.03, 4.0], Derived "six sigmas: means of eight samples have 0.35 of the noise";
         /// Strong differences, as shares of the picture's range: what lies before a target in a tone between its own and the paper's has
         /// weaker edges than the target.
         STRONG: [f64; 2] = [0.45, 0.65], Measured "targets behind cables of `photos -- conditions`: of 1200 1142 are found or told as hidden instead of 1064; 0.35 to 0.75 tried";
-        /// The same in the quartered picture, whose noise is less than half.
-        QUARTERED: [f64; 3] = [3.0, 0.03, 4.0], Derived "six sigmas: means of eight samples have 0.35 of the noise";
+        /// Least rise of the edges of every target found, in the second level of the search, for which covered ones are not looked for
+        /// on the lowest.
+        FAINTER: f64 = 1.4, Judged "covered ones may be fainter than those that are seen: what shades one often covers it";
         /// Least semi-minor axis, and contrast, of rims that tell of a sharpening.
         RIM: f64 = 5.0, Judged "smaller insides have no level of their own";
         RIM_CONTRAST: f64 = 8.0, Derived "rounding is then a sixteenth of the profile";

@@ -3,7 +3,8 @@
 use super::measure::{Found, Measure};
 use super::part::Part;
 use super::picture::noise;
-use super::{Outline, Plane, code, search};
+use super::search::{self, Hidden};
+use super::{Outline, Plane, code};
 use crate::detect::acceptance::place::BESIDE;
 use crate::detection::{Codes, DetectOptions, Method, MethodResult, Target};
 use crate::image::Sample;
@@ -70,7 +71,7 @@ fn at<T: Sample, R>(
         let Part { left, top, width, height, samples } = Part::of(&plane, u, v, size);
         let part = Plane::new(width, height, &samples);
         let levels = noise::levels(&part);
-        let mut candidates: Vec<(f64, Outline, bool)> = search::search(&part, &levels, options)
+        let mut candidates: Vec<(f64, Outline, bool)> = search::search(&part, &levels, options, Hidden::None)
             .into_iter()
             .flat_map(|blobs| blobs.candidates)
             .map(|candidate| {

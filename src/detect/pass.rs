@@ -11,7 +11,7 @@ use super::picture::noise::Levels;
 use super::rendered::colour::{Colour, Correlation};
 use super::search::blob::NoBlob;
 use super::search::census::Census;
-use super::search::{self, Blobs, Candidate};
+use super::search::{self, Blobs, Candidate, Hidden};
 use crate::detection::{DetectOptions, Detection, Reason, Target};
 use crate::image::{Plane, Sample};
 
@@ -24,6 +24,13 @@ pub(super) struct Pass {
     pub colours: Vec<([f64; 2], Colour)>,
     /// Outlines that were no targets by themselves.
     pub doubtful: Vec<Outline>,
+}
+
+/// What a picture that was made of another one shows of that one's targets: times their contrast, and blurred by so many pixels.
+#[derive(Clone, Copy)]
+pub(super) struct Soft {
+    pub scale: f64,
+    pub blur: f64,
 }
 
 impl Pass {
@@ -52,10 +59,10 @@ pub(super) fn pass<T: Sample>(
     levels: Levels,
     options: &DetectOptions,
     coloured: bool,
-    soft: bool,
+    soft: Option<Soft>,
     known: &[Target],
 ) -> Pass {
-    let blobs = search::search(&plane, &levels, options);
+    let blobs = search::search(&plane, &levels, options, Hidden::Clear);
     let mut census = Census::new(plane.width, plane.height, code::have_spots(options.codes));
     known.iter().for_each(|target| census.know(target));
     census.expect(blobs.iter().map(|blobs| blobs.shapeless.len() + blobs.unlike.len()).sum());
@@ -91,6 +98,15 @@ pub(super) fn pass<T: Sample>(
         }
     }
     covered.extend(blobs.iter().flat_map(|blobs| &blobs.partial));
+    // what is known is certain, what was found beside it is judged by it later
+    let clear = match soft {
+        Some(soft) if known.len() >= ENOUGH => are_clear(&levels, known, soft),
+        _ => are_clear(&levels, &census.targets, Soft { scale: 1.0, blur: 0.0 }),
+    };
+    if !clear {
+        let faint = search::search(&plane, &levels, options, Hidden::Faint);
+        covered.extend(faint.into_iter().flat_map(|blobs| blobs.partial));
+    }
     for Candidate { outline, bright } in &covered {
         if !census.is_free(outline) {
             continue;
@@ -110,12 +126,18 @@ pub(super) fn pass<T: Sample>(
     let shapeless = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
     doubtful.extend(shapeless.filter_map(|no| disc(no, options)));
     if let Some(alike) = alike::of(&mut measure, known, &census.targets)
-        && (soft || alike.swallows())
+        && (soft.is_some() || alike.swallows())
     {
         take_alike(&mut measure, &mut census, &mut colours, &doubtful, &alike, Wanted::Disc);
     }
     let grounds = std::mem::take(&mut census.grounds);
     Pass { detection: census.finish(), grounds, colours, doubtful }
+}
+
+/// Whether targets are enough, and all of them so clear that covered ones of the same photo are seen above the lowest level.
+fn are_clear(levels: &Levels, targets: &[Target], Soft { scale, blur }: Soft) -> bool {
+    let is_clear = |t: &Target| search::is_clear(levels, scale * t.contrast.abs(), t.quality.edge_width.hypot(blur));
+    targets.len() >= ENOUGH && targets.iter().all(is_clear)
 }
 
 /// The outline, as far as it is known, of something without a shape that may still be a target by what the others show.

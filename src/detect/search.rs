@@ -21,7 +21,7 @@ use self::blob::{Limits, NoBlob};
 use self::component::{Chord, Linker};
 use self::halves::Parts;
 use self::scan::Edge;
-use super::acceptance::picture::{QUARTERED, SEARCHED, STRONG};
+use super::acceptance::picture::{FAINTER, QUARTERED, SEARCHED, STRONG};
 use super::acceptance::size::{BLOB_LARGE, LARGE, SEARCHED_FLAT};
 use super::edges::look;
 use super::ellipse::outline::Outline;
@@ -50,10 +50,23 @@ pub(crate) struct Blobs {
     pub too_large: usize,
     /// What may be a part of a target that something divides.
     parts: Parts,
+    /// Whether hidden ones are looked for.
+    hidden: bool,
+}
+
+/// Which of the targets that something covers in part are looked for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Hidden {
+    None,
+    /// Those whose edges reach above the lowest level: most of what has no shape is on the lowest.
+    Clear,
+    /// Those of the lowest level; nothing else is of use then.
+    Faint,
 }
 
 /// Levels of contrast, each three times the one below, up to the strong ones.
 const LEVELS: u32 = 4;
+
 /// Axis ratio from which on outlines of the search go on to be measured.
 fn flattest(options: &DetectOptions) -> f64 {
     SEARCHED_FLAT * options.min_axis_ratio
@@ -69,9 +82,32 @@ pub(crate) fn threshold(levels: &Levels) -> f64 {
     above(levels, SEARCHED)
 }
 
+/// The levels from the lowest on.
+fn thresholds(lowest: f64, range: f64) -> Vec<u32> {
+    let lowest = lowest.min(65535.0) as u32;
+    let thrice = (0..LEVELS).map(|k| lowest.saturating_mul(3u32.pow(k)));
+    let mut all: Vec<u32> = thrice.take_while(|&t| t == lowest || f64::from(t) < STRONG[0] * range).collect();
+    let highest = all.last().copied();
+    all.extend(STRONG.map(|share| (share * range) as u32).iter().filter(|t| Some(**t) > highest));
+    all
+}
+
+/// Whether targets of this contrast and blur have edges that [`Hidden::Clear`] sees, as have fainter ones of the same photo.
+pub(crate) fn is_clear(levels: &Levels, contrast: f64, blur: f64) -> bool {
+    let [_, second, ..] = thresholds(threshold(levels), levels.range)[..] else { return true };
+    // what an edge rises by over three pixels, its own width included
+    let rise = contrast * libm::erf(1.5 / (2.0 * (blur * blur + 1.0 / 12.0)).sqrt());
+    rise > FAINTER * f64::from(second)
+}
+
 /// Searches a picture at its own and at a quarter of its size, row by row: each is fetched from memory once. Blobs of strong
 /// edges come first, those of the quartered picture last.
-pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &DetectOptions) -> Vec<Blobs> {
+pub(crate) fn search<T: Sample>(
+    plane: &Plane<T>,
+    levels: &Levels,
+    options: &DetectOptions,
+    hidden: Hidden,
+) -> Vec<Blobs> {
     let limits = Limits {
         min_diameter: options.min_diameter,
         max_diameter: options.max_diameter,
@@ -80,8 +116,12 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
         height: plane.height,
         step: 2,
     };
-    let look = |outline: &Outline, bright| look::first(plane, levels, outline, bright);
-    let mut whole = Pass::new(threshold(levels), levels.range, options.polarity, limits);
+    let look = |outline: &Outline, bright| match hidden {
+        Hidden::Faint => Err(Reason::NotAnEllipse),
+        _ => look::first(plane, levels, outline, bright),
+    };
+    let new = |lowest, limits| Pass::new(&thresholds(lowest, levels.range), options.polarity, limits, hidden);
+    let mut whole = new(threshold(levels), limits);
     let limits = Limits {
         min_diameter: LARGE.max(options.min_diameter) / 4.0,
         max_diameter: options.max_diameter / 4.0,
@@ -91,8 +131,7 @@ pub(crate) fn search<T: Sample>(plane: &Plane<T>, levels: &Levels, options: &Det
         step: 2,
     };
     let large = options.max_diameter > LARGE && plane.width >= 32 && plane.height >= 32;
-    let weak = above(levels, QUARTERED);
-    let mut quarter = large.then(|| Pass::new(weak, levels.range, options.polarity, limits));
+    let mut quarter = large.then(|| new(above(levels, QUARTERED), limits));
     let mut reduced = Vec::new();
     let look_enlarged = |outline: &Outline, bright| look(&enlarged(outline), bright);
     for y in (0..plane.height).step_by(whole.limits.step) {
@@ -154,24 +193,25 @@ struct Level {
 }
 
 impl Pass {
-    fn new(lowest: f64, range: f64, polarity: PolarityChoice, limits: Limits) -> Self {
+    fn new(thresholds: &[u32], polarity: PolarityChoice, limits: Limits, hidden: Hidden) -> Self {
         let wanted: &[bool] = match polarity {
             PolarityChoice::Auto => &[true, false],
             PolarityChoice::Bright => &[true],
             PolarityChoice::Dark => &[false],
         };
         let rows = (BLOB_LARGE * limits.max_diameter / limits.step as f64).min(1e6) as usize + 8;
-        let lowest = lowest.min(65535.0) as u32;
-        let mut thresholds: Vec<u32> = (0..LEVELS)
-            .map(|k| lowest.saturating_mul(3u32.pow(k)))
-            .take_while(|&t| t == lowest || f64::from(t) < STRONG[0] * range)
-            .collect();
-        let highest = thresholds.last().copied();
-        thresholds.extend(STRONG.map(|share| (share * range) as u32).iter().filter(|t| Some(**t) > highest));
-        let levels = thresholds.into_iter().map(|threshold| Level {
+        let taken = if hidden == Hidden::Faint { 1 } else { thresholds.len() };
+        let levels = thresholds[..taken].iter().enumerate().map(|(k, &threshold)| Level {
             threshold,
             linkers: wanted.iter().map(|&bright| (bright, Linker::new(rows))).collect(),
-            blobs: Blobs::default(),
+            blobs: Blobs {
+                hidden: match hidden {
+                    Hidden::None => false,
+                    Hidden::Clear => k > 0 || thresholds.len() == 1,
+                    Hidden::Faint => true,
+                },
+                ..Blobs::default()
+            },
         });
         Self { limits, levels: levels.collect(), edges: Vec::new(), runs: Vec::new(), tried: HashSet::new() }
     }
@@ -237,7 +277,8 @@ impl Blobs {
                     outlines.for_each(&mut enter);
                 }
                 // one that is covered in part, divided, or joined with what lies in front of it
-                if matches!(no.reason, Reason::NotAnEllipse | Reason::TooFlat | Reason::TooLarge)
+                if self.hidden
+                    && matches!(no.reason, Reason::NotAnEllipse | Reason::TooFlat | Reason::TooLarge)
                     && let [first, .., last] = chain
                     && tried.insert([first.x0, first.x1, first.y, last.x0, last.x1, last.y].map(f32::to_bits))
                 {
