@@ -96,7 +96,7 @@ pub(crate) mod picture {
         QUARTERED: [f64; 3] = [3.0, 0.03, 4.0], Derived "six sigmas: means of eight samples have 0.35 of the noise";
         /// Strong differences, as shares of the picture's range: what lies before a target in a tone between its own and the paper's has
         /// weaker edges than the target.
-        STRONG: [f64; 2] = [0.45, 0.65], Measured "targets behind cables of `photos -- conditions`: of 1200 1142 are found or told as hidden instead of 1064; 0.35 to 0.75 tried";
+        STRONG: [f64; 2] = [0.45, 0.65], Measured "targets behind cables of `photos -- conditions`: of 1200 1134 are found or told as hidden instead of 1064; 0.15 to 0.75 tried";
         /// Least rise of the edges of every target found, in the second level of the search, for which covered ones are not looked for
         /// on the lowest.
         FAINTER: f64 = 1.4, Judged "covered ones may be fainter than those that are seen: what shades one often covers it";
@@ -347,7 +347,7 @@ pub(crate) mod levels {
         UNEVEN: f64 = 0.25, Judged "what hides more is reported as hidden";
         /// Largest share of the outline that may be missing without anything in front of it.
         UNEXPLAINED: f64 = 0.2, Measured "0.1 costs 0.07 of the hidden targets of `photos -- conditions`";
-        /// Noise that is believed of a surround, in units of the picture's; and at least, in levels.
+        /// Noise that is believed of a surround, in units of the picture's; and at least, in the distance of two levels.
         BELIEVED: f64 = 1.1, Judged "where the surround is not plane, what the whole picture has is believed";
         ROUNDING: f64 = 0.3, Derived "rounding leaves 0.29";
         /// Least part of the rays that a ring of the surround has, in tenths.

@@ -229,6 +229,7 @@ impl<T: Sample> Measure<'_, T> {
                 strip: None,
                 saturation: self.levels.saturation,
                 stairs: false,
+                quantum: self.levels.quantum,
                 developed: self.levels.developed,
                 prior: Some(prior),
             };

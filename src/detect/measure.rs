@@ -224,7 +224,7 @@ impl<'a, T: Sample> Measure<'a, T> {
 
     /// Noise around a target; where the surround is not plane, what the whole picture has is believed.
     pub(super) fn noise(&self, surround: &Surround) -> f64 {
-        surround.noise.clamp(self.levels.noise, BELIEVED * self.levels.noise).max(ROUNDING)
+        surround.noise.clamp(self.levels.noise, BELIEVED * self.levels.noise).max(ROUNDING * self.levels.quantum)
     }
 
     /// The fit of the rendered ellipse, checked against what it started from.
@@ -265,6 +265,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             strip: strip(&found.ellipse.outline, &found.kept, found.blur),
             saturation: self.levels.saturation,
             stairs: self.levels.stairs,
+            quantum: self.levels.quantum,
             developed: self.levels.developed,
             prior: self.prior,
         };

@@ -82,19 +82,20 @@ pub(crate) fn threshold(levels: &Levels) -> f64 {
     above(levels, SEARCHED)
 }
 
-/// The levels from the lowest on.
-fn thresholds(lowest: f64, range: f64) -> Vec<u32> {
+/// The levels from the lowest on, and how many of them are strong.
+fn thresholds(lowest: f64, range: f64) -> (Vec<u32>, usize) {
     let lowest = lowest.min(65535.0) as u32;
     let thrice = (0..LEVELS).map(|k| lowest.saturating_mul(3u32.pow(k)));
     let mut all: Vec<u32> = thrice.take_while(|&t| t == lowest || f64::from(t) < STRONG[0] * range).collect();
-    let highest = all.last().copied();
+    let (steps, highest) = (all.len(), all.last().copied());
     all.extend(STRONG.map(|share| (share * range) as u32).iter().filter(|t| Some(**t) > highest));
-    all
+    let strong = all.len() - steps;
+    (all, strong)
 }
 
 /// Whether targets of this contrast and blur have edges that [`Hidden::Clear`] sees, as have fainter ones of the same photo.
 pub(crate) fn is_clear(levels: &Levels, contrast: f64, blur: f64) -> bool {
-    let [_, second, ..] = thresholds(threshold(levels), levels.range)[..] else { return true };
+    let [_, second, ..] = thresholds(threshold(levels), levels.range).0[..] else { return true };
     // what an edge rises by over three pixels, its own width included
     let rise = contrast * libm::erf(1.5 / (2.0 * (blur * blur + 1.0 / 12.0)).sqrt());
     rise > FAINTER * f64::from(second)
@@ -120,7 +121,7 @@ pub(crate) fn search<T: Sample>(
         Hidden::Faint => Err(Reason::NotAnEllipse),
         _ => look::first(plane, levels, outline, bright),
     };
-    let new = |lowest, limits| Pass::new(&thresholds(lowest, levels.range), options.polarity, limits, hidden);
+    let new = |lowest, limits| Pass::new(thresholds(lowest, levels.range), options.polarity, limits, hidden);
     let mut whole = new(threshold(levels), limits);
     let limits = Limits {
         min_diameter: LARGE.max(options.min_diameter) / 4.0,
@@ -179,6 +180,8 @@ fn enlarged(outline: &Outline) -> Outline {
 struct Pass {
     limits: Limits,
     levels: Vec<Level>,
+    /// How many of them are shares of the range.
+    strong: usize,
     edges: Vec<Edge>,
     runs: Vec<Chord>,
     /// Blobs without a shape that were looked at closely: other levels see many of them again.
@@ -193,33 +196,42 @@ struct Level {
 }
 
 impl Pass {
-    fn new(thresholds: &[u32], polarity: PolarityChoice, limits: Limits, hidden: Hidden) -> Self {
+    fn new(
+        (mut thresholds, mut strong): (Vec<u32>, usize),
+        polarity: PolarityChoice,
+        limits: Limits,
+        hidden: Hidden,
+    ) -> Self {
         let wanted: &[bool] = match polarity {
             PolarityChoice::Auto => &[true, false],
             PolarityChoice::Bright => &[true],
             PolarityChoice::Dark => &[false],
         };
         let rows = (BLOB_LARGE * limits.max_diameter / limits.step as f64).min(1e6) as usize + 8;
-        let taken = if hidden == Hidden::Faint { 1 } else { thresholds.len() };
-        let levels = thresholds[..taken].iter().enumerate().map(|(k, &threshold)| Level {
+        let single = thresholds.len() == 1;
+        if hidden == Hidden::Faint {
+            thresholds.truncate(1);
+            strong = 0;
+        }
+        let levels = thresholds.into_iter().enumerate().map(|(k, threshold)| Level {
             threshold,
             linkers: wanted.iter().map(|&bright| (bright, Linker::new(rows))).collect(),
             blobs: Blobs {
                 hidden: match hidden {
                     Hidden::None => false,
-                    Hidden::Clear => k > 0 || thresholds.len() == 1,
+                    Hidden::Clear => k > 0 || single,
                     Hidden::Faint => true,
                 },
                 ..Blobs::default()
             },
         });
-        Self { limits, levels: levels.collect(), edges: Vec::new(), runs: Vec::new(), tried: HashSet::new() }
+        Self { limits, levels: levels.collect(), strong, edges: Vec::new(), runs: Vec::new(), tried: HashSet::new() }
     }
 
     /// Takes the next row, the y-th of the picture.
     #[inline(never)]
     fn row<T: Sample>(&mut self, samples: &[T], y: usize, look: &impl Fn(&Outline, bool) -> Result<(), Reason>) {
-        let Self { limits, levels, edges, runs, tried } = self;
+        let Self { limits, levels, edges, runs, tried, .. } = self;
         let lowest = levels.first().map_or(T::MAX, |level| level.threshold.min(T::MAX));
         scan::edges(samples, T::of(lowest), edges);
         for level in levels {
@@ -231,9 +243,9 @@ impl Pass {
         }
     }
 
-    /// The blobs of each level, strong edges first.
+    /// The blobs of each level, strong edges first; but of those that are shares of the range last: they cut small outlines short.
     fn end(self, look: &impl Fn(&Outline, bool) -> Result<(), Reason>) -> Vec<Blobs> {
-        let Self { limits, levels, mut tried, .. } = self;
+        let Self { limits, levels, strong, mut tried, .. } = self;
         let all = levels.into_iter().rev().map(|mut level| {
             for (bright, linker) in &mut level.linkers {
                 linker.end(&mut |chain| level.blobs.judge(chain, *bright, &limits, look, &mut tried));
@@ -242,7 +254,9 @@ impl Pass {
             level.blobs.partial.extend(parts.joined(&limits));
             level.blobs
         });
-        all.collect()
+        let mut all: Vec<Blobs> = all.collect();
+        all.rotate_left(strong);
+        all
     }
 }
 

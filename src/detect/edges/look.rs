@@ -254,7 +254,8 @@ mod tests {
 
     #[test]
     fn a_cable_may_cross_a_disc_and_a_star_is_none() {
-        let levels = Levels { noise: 1.0, range: 160.0, saturation: 255.0, stairs: false, developed: false };
+        let levels =
+            Levels { noise: 1.0, range: 160.0, saturation: 255.0, stairs: false, quantum: 1.0, developed: false };
         let first = |samples: &[u8]| stands_out(&Plane::new(SIZE, SIZE, samples), &levels, &disc(), true, 7, 5);
         let crossed = picture(|x, y| x.hypot(y) < 10.0 && (x - y).abs() > 2.5);
         assert_eq!(first(&crossed), Ok(()));

@@ -20,6 +20,8 @@ pub(crate) struct Levels {
     pub saturation: f64,
     /// Whether it is a drawing of few grey levels, whose edges are the stairs of its pixels.
     pub stairs: bool,
+    /// Distance of two levels: more than one where the scale has few, as the sixteen of a scanner.
+    pub quantum: f64,
     /// Whether a camera has sharpened or compressed it, while its edges do not end at the end of the scale.
     pub developed: bool,
 }
@@ -70,11 +72,19 @@ pub(crate) fn levels_at<T: Sample>(plane: &Plane<T>, apart: usize) -> Levels {
     let (differences, share, normal) = if mostly_clipped { (whole, 0.25, 0.3186) } else { (differences, 0.5, 0.6745) };
     let noise = quantile(&differences, share).unwrap_or(0.0) / (normal * 6f64.sqrt());
     let range = quantile(&values, 0.999).unwrap_or(0.0) - quantile(&values, 0.001).unwrap_or(0.0);
-    let count = values.iter().filter(|n| **n > 0).count();
-    let stairs = noise < limits::DRAWN && count <= limits::FEW;
+    let occupied: Vec<usize> = (0..bins).filter(|level| values[*level] > 0).collect();
+    let stairs = noise < limits::DRAWN && occupied.len() <= limits::FEW;
+    let quantum = if occupied.len() > limits::FEW { quantum(&occupied) } else { 1 } as f64;
     // nothing is clipped where there is nothing between the levels
     let saturation = if stairs { bins as f64 } else { f64::from(end) };
-    Levels { noise, range: range.max(0.0), saturation, stairs, developed: false }
+    Levels { noise, range: range.max(0.0), saturation, stairs, quantum, developed: false }
+}
+
+/// Distance of the levels of a scale that has few, by those of it that occur: all lie on it but for rounding. One where they are chance.
+fn quantum(occupied: &[usize]) -> usize {
+    let gaps = || occupied.windows(2).map(|two| two[1] - two[0]);
+    let least = gaps().min().unwrap_or(1);
+    if gaps().all(|gap| gap <= least + 1 || gap + 1 >= 2 * least) { least } else { 1 }
 }
 
 /// Quantile of a histogram of integers; a value stands for the interval of half a step to both sides (from 0 on for 0).
@@ -131,6 +141,20 @@ mod tests {
                 (60.0 + 0.2 * f64::from(k % 200) + sigma * normal).round() as u8
             })
             .collect()
+    }
+
+    #[test]
+    fn a_scale_of_few_levels_is_told_from_levels_that_occur_by_chance() {
+        for (count, low, high) in [(10, 0.0, 255.0), (16, 40.0, 210.0), (32, 5.0, 250.0)] {
+            let step: f64 = (high - low) / f64::from(count - 1);
+            let mut scale: Vec<usize> = (0..count).map(|k| (low + step * f64::from(k)).round() as usize).collect();
+            assert!((quantum(&scale) as f64 - step).abs() < 1.0, "{scale:?}");
+            // of which not all occur
+            scale.remove(3);
+            assert!((quantum(&scale) as f64 - step).abs() < 1.0, "{scale:?}");
+        }
+        assert_eq!(quantum(&[3, 21, 40, 66, 84, 101, 131, 150, 190, 211]), 1);
+        assert_eq!(quantum(&[20, 21, 23, 60, 61, 200]), 1);
     }
 
     #[test]

@@ -39,6 +39,8 @@ pub(crate) struct Region<'a> {
     pub saturation: f64,
     /// Whether edges are the stairs of the pixels.
     pub stairs: bool,
+    /// Distance of two grey levels.
+    pub quantum: f64,
     /// Whether what is left all around is what a camera does to edges.
     pub developed: bool,
     /// What is known of blur and contrast, if anything.

@@ -270,6 +270,8 @@ impl Workspace {
         let profile = if region.stairs { limits::STAIRS } else { limits::LENS };
         let least =
             (limits::OUTLIER * region.surround.noise.max(limits::QUIET)).max(sharp).max(profile * state.contrast.abs());
+        // rounding to levels that lie apart moves a sample by up to half of that
+        let least = least + (region.quantum - 1.0) / 2.0;
         least.max(limits::OUTLIER * self.band.robust_deviation(least / limits::OUTLIER))
     }
 

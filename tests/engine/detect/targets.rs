@@ -337,3 +337,50 @@ fn the_marks_of_a_calibration_field_are_found_where_another_program_found_them()
     // two programs on compressed photos: a regression gate a tenth above what was measured
     assert!(sd_u < 0.057 && sd_v < 0.077, "{sd_u} {sd_v}");
 }
+
+/// Scanners and old files have sixteen levels, or a few more: rounding is then most of the noise, and no error of the picture.
+#[test]
+fn a_few_grey_levels_are_enough_for_honest_centres() {
+    for count in [12, 14, 16, 24, 32] {
+        for (noise, seed) in [(0.0, 1), (1.5, 2)] {
+            let mut random = Uniform(100 * seed + count);
+            let (low, high) = (random.within(0.0, 50.0), random.within(200.0, 255.0));
+            let step = (high - low) / (count - 1) as f64;
+            let mut canvas = Canvas::new(800, 640, high - random.within(5.0, 30.0));
+            let blur = random.within(0.5, 1.5);
+            let spots: Vec<Spot> = (0..80)
+                .map(|k| {
+                    let place = |i: u64| 40.0 + 80.0 * i as f64 + random.within(-4.0, 4.0);
+                    let [u, v] = [k % 10, k / 10].map(place);
+                    let a = random.within(4.0, 24.0);
+                    let (b, angle) = (a * random.within(0.5, 1.0), random.within(0.0, 3.1));
+                    Spot { u, v, a, b, angle, contrast: low + 20.0 - canvas.levels[0] }
+                })
+                .filter(|spot| spot.b > 3.0)
+                .collect();
+            spots.iter().for_each(|spot| canvas.add(spot, blur));
+            let mut picture = canvas.expose(noise, seed);
+            if let Samples::U8(samples) = &mut picture.samples {
+                let coarse = |level: f64| (low + ((level - low) / step).round() * step).round() as u8;
+                samples.iter_mut().for_each(|sample| *sample = coarse(f64::from(*sample)));
+            }
+            let found = detected(&picture, &DetectOptions { codes: Codes::None, ..DetectOptions::default() }).targets;
+            let pairs: Vec<_> = spots.iter().filter_map(|s| nearest(&found, s.u, s.v).map(|t| (s, t))).collect();
+            let squares = pairs.iter().map(|(spot, target)| {
+                ((target.u - spot.u) / target.sigma_u).powi(2) + ((target.v - spot.v) / target.sigma_v).powi(2)
+            });
+            let normal = (squares.sum::<f64>() / (2 * pairs.len()) as f64).sqrt();
+            println!(
+                "{count} levels {step:.1} apart, noise {noise}: {} of {}, error/sigma {normal:.2}",
+                pairs.len(),
+                spots.len()
+            );
+            assert!(
+                found.len() == pairs.len() && pairs.len() + 1 >= spots.len(),
+                "{count} levels: {} found",
+                pairs.len()
+            );
+            assert!((0.7..1.6).contains(&normal), "{count} levels: error/sigma {normal}");
+        }
+    }
+}
