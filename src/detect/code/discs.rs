@@ -74,3 +74,68 @@ impl Discs {
         self.discs.iter().filter_map(nearest).fold(0.0, f64::max)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::super::{Around, outline_of};
+    use super::*;
+    use crate::detect::detect;
+    use crate::detect::outline::Outline;
+    use crate::detection::{Codes, DetectOptions};
+    use crate::image::{GreyView, Plane, SamplesView};
+    use crate::ring_code::Design;
+
+    const SIZE: usize = 140;
+    const SECTORS: u32 = 14;
+    const SET: [u32; 6] = [0, 2, 3, 6, 9, 11];
+
+    /// Rivalry in a picture of a dot and what lies around it, given in the plane of its circle of radius 1.
+    fn seen(design: Design, is_ink: impl Fn(f64, f64) -> bool) -> f64 {
+        const FINE: usize = 6;
+        let outline = Outline::from_axes(70.3, 69.6, 15.0, 11.0, 0.4);
+        let ink = |k: usize, fine: usize| {
+            let place = |whole: usize, part: usize| whole as f64 + (part as f64 + 0.5) / FINE as f64;
+            let [x, y] = outline.normalised(place(k % SIZE, fine % FINE), place(k / SIZE, fine / FINE));
+            usize::from(x.hypot(y) < 1.0 || is_ink(x, y))
+        };
+        let share = |k: usize| (0..FINE * FINE).map(|fine| ink(k, fine)).sum::<usize>() as f64 / (FINE * FINE) as f64;
+        let samples: Vec<u8> = (0..SIZE * SIZE).map(|k| (210.0 - 170.0 * share(k)).round() as u8).collect();
+        let view = GreyView::new(SIZE, SIZE, SamplesView::U8(&samples)).expect("a picture");
+        let found =
+            detect(&view, &DetectOptions { codes: Codes::None, ..DetectOptions::default() }).expect("valid options");
+        let is_dot = |target: &&crate::detection::Target| (target.u - outline.u).hypot(target.v - outline.v) < 0.5;
+        let target = found.targets.iter().find(is_dot).expect("the dot");
+        assert!((outline_of(target).semi_axes().0 - 15.0).abs() < 0.3);
+        let plane = Plane::new(SIZE, SIZE, &samples);
+        let around = Around::of(&plane, target, target.quality.edge_width, 6000);
+        let radial = around.straightest(design).expect("a ring");
+        rivalry(&radial, &radial.divide(SECTORS).expect("sectors"))
+    }
+
+    #[test]
+    fn sectors_are_told_from_discs_in_their_places() {
+        for design in [Design::Schneider, Design::Metashape] {
+            let [inner, outer] = design.ring();
+            let ring = seen(design, |x, y| {
+                let sector = (y.atan2(x).rem_euclid(TAU) / TAU * f64::from(SECTORS)) as u32;
+                (inner..outer).contains(&x.hypot(y)) && SET.contains(&sector)
+            });
+            assert!(ring < 0.1, "{design:?}: {ring}");
+            for size in [0.4, 0.5, 0.6] {
+                let discs = seen(design, |x, y| {
+                    SET.iter().any(|k| {
+                        let (sine, cosine) = ((f64::from(*k) + 0.5) / f64::from(SECTORS) * TAU).sin_cos();
+                        let middle = (inner + outer) / 2.0;
+                        (x - middle * cosine).hypot(y - middle * sine) < size * (outer - inner)
+                    })
+                });
+                assert!(discs > 5.0, "{design:?} {size}: {discs}");
+            }
+        }
+    }
+}
