@@ -102,7 +102,7 @@ pub(crate) fn is_clear(levels: &Levels, contrast: f64, blur: f64) -> bool {
 }
 
 /// Searches a picture at its own and at a quarter of its size, row by row: each is fetched from memory once. Blobs of strong
-/// edges come first, those of the quartered picture last.
+/// edges come first, then those of the levels that are shares of the range, those of the quartered picture last.
 pub(crate) fn search<T: Sample>(
     plane: &Plane<T>,
     levels: &Levels,
@@ -313,5 +313,40 @@ impl Blobs {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[cfg(target_arch = "wasm32")]
+    use wasm_bindgen_test::wasm_bindgen_test as test;
+
+    use super::*;
+
+    #[test]
+    fn covered_targets_too_faint_for_the_second_level_are_seen_on_the_lowest() {
+        let options = DetectOptions::default();
+        let levels =
+            Levels { noise: 0.5, range: 200.0, saturation: 255.0, stairs: false, quantum: 1.0, developed: false };
+        let second = thresholds(threshold(&levels), levels.range).0[1];
+        // a disc of which a bar covers a sixth on the right
+        let seen = |contrast: f64| {
+            let sample = |k: usize| {
+                let [x, y] = [(k % 120) as f64 + 0.5 - 60.3, (k / 120) as f64 + 0.5 - 59.6];
+                let share = (20.5 - x.hypot(y)).clamp(0.0, 1.0);
+                (if (13.0..24.0).contains(&x) { 240.0 } else { 200.0 - contrast * share }).round() as u8
+            };
+            let samples: Vec<u8> = (0..120 * 120).map(sample).collect();
+            [Hidden::None, Hidden::Clear, Hidden::Faint].map(|hidden| {
+                let blobs = search(&Plane::new(120, 120, &samples), &levels, &options, hidden);
+                let is_it = |found: &&Candidate| (found.outline.u - 60.3).hypot(found.outline.v - 59.6) < 1.0;
+                blobs.iter().flat_map(|blobs| &blobs.partial).filter(is_it).count() > 0
+            })
+        };
+        let faint = f64::from(second) - 2.0;
+        assert_eq!(seen(faint), [false, false, true]);
+        assert!(!is_clear(&levels, faint, 0.5));
+        let clear = 2.0 * f64::from(second);
+        assert!(seen(clear)[1] && is_clear(&levels, clear, 0.5));
     }
 }
