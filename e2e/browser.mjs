@@ -1,9 +1,13 @@
-// The page in a headless browser: `cargo xtask test page` serves dist/ and names its address and the browser.
+// The page in a headless browser: `cargo xtask test page` serves what it has built and names its folder, its address and the browser.
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
 
 import { chromium } from 'playwright-core';
+
+/** The folder of the page. */
+export const dist = process.env.SIGHTLINE_DIST || fileURLToPath(new URL('../dist', import.meta.url));
 
 const FLAGS = [
   '--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',

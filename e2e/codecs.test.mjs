@@ -5,8 +5,9 @@ import { copyFileSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { pathToFileURL } from 'node:url';
 
-import { open } from './browser.mjs';
+import { dist, open } from './browser.mjs';
 import { detect, drop, idle, photos, sample } from './desk.mjs';
 
 let writtenTo;
@@ -83,7 +84,7 @@ test('HEIC and RAW are opened and measured, and without one no decoder is fetche
 
 test('the single file has the decoders inside', { timeout: 120_000 }, async () => {
   const folder = written();
-  const address = new URL('../dist/sightline.html', import.meta.url).href;
+  const address = pathToFileURL(join(dist, 'sightline.html')).href;
   const { page, errors, close } = await open({ address, width: 1366, height: 768 });
   try {
     await page.waitForSelector('.sample');

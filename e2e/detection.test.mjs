@@ -1,16 +1,13 @@
 // The same photo gives the same targets on the page and in Node, bit for bit, whatever the number of workers.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { test } from 'node:test';
 
-import * as sightline from '../pkg/sightline.js';
 import { compare } from '../tests/face/compare.mjs';
+import { sightline } from '../tests/face/engine.mjs';
 import { tiff } from '../tests/face/tiff.mjs';
 import { open } from './browser.mjs';
 import { data, detect, downloads, files, go, idle, photos, sample, scratch, unzipped } from './desk.mjs';
-
-sightline.initSync({ module: readFileSync(fileURLToPath(new URL('../pkg/sightline_bg.wasm', import.meta.url))) });
 
 /** Opens the page with so many cores, lets `work` fill it, and hands back the project file that it saves, as entries. */
 async function saved(cores, button, work) {

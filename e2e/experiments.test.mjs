@@ -1,14 +1,10 @@
 // The papers' experiments on the page: each runs in the background, shows its figures, and hands on its numbers and its project.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
-import { fileURLToPath } from 'node:url';
 import { test } from 'node:test';
 
-import * as sightline from '../pkg/sightline.js';
+import { sightline } from '../tests/face/engine.mjs';
 import { open } from './browser.mjs';
 import { adjust, downloads, drop, figure, idle, notice, rows, scratch, unzipped } from './desk.mjs';
-
-sightline.initSync({ module: readFileSync(fileURLToPath(new URL('../pkg/sightline_bg.wasm', import.meta.url))) });
 
 const NAMES = ['kang', 'film', 'lee-calibration', 'lee-structure', 'kim', 'sensor'];
 const show = (page, name) => page.click(`.tabs [data-experiment=${name}]`);

@@ -6,12 +6,11 @@ import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
 import { test } from 'node:test';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { pathToFileURL } from 'node:url';
 
-import { open } from './browser.mjs';
+import { dist, open } from './browser.mjs';
 import { adjust, detect, downloads, drop, go, idle, photos, rows, sample, scratch, unzipped } from './desk.mjs';
 
-const dist = fileURLToPath(new URL('../dist', import.meta.url));
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.png': 'image/png', '.webmanifest': 'application/manifest+json' };
 
 /** A static host without special headers, with the page on a path of its own. */

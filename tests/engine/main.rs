@@ -82,6 +82,7 @@ mod support {
     pub mod conditions;
     pub mod data;
     pub mod dense;
+    pub mod extent;
     pub mod grid_fit;
     pub mod networks;
     pub mod painter;

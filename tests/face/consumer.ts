@@ -1,7 +1,7 @@
 // A program that uses the declarations of pkg/; it is compiled, not run.
 import { readFileSync } from 'node:fs';
-import * as sightline from '../../pkg/sightline.js';
-import type { Camera, Project, SightlineError } from '../../pkg/sightline.js';
+import * as sightline from 'sightline';
+import type { Camera, Project, SightlineError } from 'sightline';
 
 sightline.initSync({ module: readFileSync('pkg/sightline_bg.wasm') });
 const camera: Camera = { id: 1, width: 2272, height: 1704, pixel_pitch: null, model: 'brown', c: 7.5, free: ['c', 'k1'], sigma: { x0: 0.1 } };

@@ -5,14 +5,14 @@ import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 
-import { document, root, sightline, thrown } from './engine.mjs';
+import { document, pkg, root, sightline, thrown } from './engine.mjs';
 
 /** Compiles a text against pkg/ with literals of results in it; the compiler's complaints. */
 function complaints(body) {
   const folder = join(root, 'e2e/out');
   mkdirSync(folder, { recursive: true });
   const file = join(folder, 'literals.ts');
-  writeFileSync(file, `import type * as S from '../../pkg/sightline.js';\n${body}\nexport {};\n`);
+  writeFileSync(file, `import type * as S from '${pkg}/sightline.js';\n${body}\nexport {};\n`);
   const options = ['--strict', '--exactOptionalPropertyTypes', '--noEmit', '--target', 'es2022', '--module', 'nodenext', '--lib', 'es2022,dom', '--types', ''];
   const compiler = join(root, 'e2e/node_modules/typescript/bin/tsc');
   const { status, stdout } = spawnSync(process.execPath, [compiler, ...options, file], { encoding: 'utf8' });
@@ -167,7 +167,7 @@ test('the comparison notices a field too many and one too few', () => {
 });
 
 test('the options that are declared are those that exist', () => {
-  const declared = readFileSync(join(root, 'pkg/sightline.d.ts'), 'utf8');
+  const declared = readFileSync(join(pkg, 'sightline.d.ts'), 'utf8');
   for (const [name, action] of [
     ['AdjustOptions', (options) => sightline.adjust(sightline.simulate(network()), options)],
     ['DetectOptions', (options) => sightline.detectGray(1, 1, new Uint8Array(1), options)],

@@ -1,13 +1,14 @@
 // The engine as any page or script loads it, and the data with independent answers where a machine has it.
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
-
-import * as sightline from '../../pkg/sightline.js';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
-sightline.initSync({ module: readFileSync(join(root, 'pkg/sightline_bg.wasm')) });
-export { root, sightline };
+/** Where the engine lies: `cargo xtask test` names what it has built. */
+const pkg = process.env.SIGHTLINE_PKG || join(root, 'pkg');
+const sightline = await import(pathToFileURL(join(pkg, 'sightline.js')));
+sightline.initSync({ module: readFileSync(join(pkg, 'sightline_bg.wasm')) });
+export { pkg, root, sightline };
 
 const folder = process.env.SIGHTLINE_DATA || join(root, '../shared/data');
 /** Whether the data is here; where it is, no test is skipped. */

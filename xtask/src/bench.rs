@@ -1,5 +1,6 @@
 //! `cargo xtask bench`: what is measured of the engine, as wasm in Node on one thread, and how often the page may be killed.
 
+use crate::build::{Products, Profile};
 use crate::install;
 use crate::process::{cargo, program, run};
 use crate::{Outcome, build, suites};
@@ -25,7 +26,7 @@ pub fn command(names: &[String]) -> Outcome {
     }
     if names.is_empty() || names.iter().any(|name| name != "estimation") {
         install::node()?;
-        build::pkg()?;
+        Products::of(Profile::Release)?.build_pkg()?;
     }
     for (name, part) in PARTS {
         if names.is_empty() || names.iter().any(|wanted| wanted == name) {

@@ -12,35 +12,89 @@ use crate::install::{self, TARGET};
 use crate::process::{cargo, output, program, root, run};
 use crate::{Outcome, kept, offline, page, parts};
 
-/// How the page is built.
-#[derive(Clone, Copy, PartialEq)]
+/// How modules are compiled.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Profile {
-    /// While it is worked on: in minutes, and in seconds after a change.
-    Serve,
+    /// While the page is worked on and for daily tests: in minutes, and in seconds after a change.
+    Fast,
     /// As it is handed out.
     Release,
 }
 
 impl Profile {
-    fn name(self) -> &'static str {
+    /// Cargo's profile, and its folder below the target directory.
+    fn names(self) -> [&'static str; 2] {
         match self {
-            Self::Serve => "serve",
-            Self::Release => "release",
+            Self::Fast => ["dev", "debug"],
+            Self::Release => ["release", "release"],
         }
     }
 }
 
-/// Leaves the engine as an ES module in pkg/.
-pub fn pkg() -> Outcome {
-    modules(Profile::Release, &["sightline-face", "sightline-codecs"])?;
-    assemble_pkg()
+/// Where the products of a profile lie. Only what may be handed out is left in the root.
+pub struct Products {
+    profile: Profile,
+    /// The engine as an ES module.
+    pub pkg: PathBuf,
+    /// The page.
+    pub dist: PathBuf,
 }
 
-fn assemble_pkg() -> Outcome {
-    let folder = root().join("pkg");
-    empty(&folder)?;
-    bindings(Profile::Release, "sightline_face", &folder, "sightline", true)?;
-    bindings(Profile::Release, "sightline_codecs", &folder, "codecs", true)?;
+impl Products {
+    /// The folders of a profile's products: below the root, or below cargo's target directory.
+    pub fn of(profile: Profile) -> Outcome<Self> {
+        let parent = match profile {
+            Profile::Release => root(),
+            Profile::Fast => PathBuf::from(target_directory()?).join("fast"),
+        };
+        Ok(Self { profile, pkg: parent.join("pkg"), dist: parent.join("dist") })
+    }
+
+    /// The engine as an ES module.
+    pub fn build_pkg(&self) -> Outcome {
+        modules(self.profile, &["sightline-face", "sightline-codecs"])?;
+        assemble_pkg(self.profile, &self.pkg)
+    }
+
+    /// The page as it is served while it is worked on: index.html with Trunk's assets resolved, the page's module and the workers' with
+    /// their glue. It gets its [decoders](Self::build_decoders) afterwards.
+    pub fn build_page(&self) -> Outcome {
+        modules(self.profile, &["sightline-desk", "sightline-worker"])?;
+        assemble_dist(self.profile, &self.dist, Decoders::Later)
+    }
+
+    /// The decoders of HEIC and RAW photos of a page that stands without them.
+    pub fn build_decoders(&self) -> Outcome {
+        modules(self.profile, &["sightline-codecs"])?;
+        changed(&self.dist, &[("sightline_codecs", page::CODECS)])
+    }
+
+    /// A project of the TypeScript compiler with the program that uses pkg/ as `sightline`; the file's path.
+    pub fn declarations_project(&self) -> Outcome<PathBuf> {
+        let face = root().join("tests/face");
+        let project = json!({
+            "extends": face.join("tsconfig.json"),
+            "compilerOptions": { "paths": { "sightline": [self.pkg.join("sightline.d.ts")] } },
+            "files": [face.join("consumer.ts"), self.pkg.join("sightline.d.ts")],
+        });
+        let path = PathBuf::from(target_directory()?).join("declarations.json");
+        write(&path, project.to_string().as_bytes())?;
+        Ok(path)
+    }
+
+    /// Everything, compiled together: what the modules have in common is built once.
+    pub fn build_all(&self) -> Outcome {
+        modules(self.profile, &["sightline-face", "sightline-desk", "sightline-worker", "sightline-codecs"])?;
+        // Not one after the other: cargo would compile what they share with the features of each.
+        assemble_pkg(self.profile, &self.pkg)?;
+        assemble_dist(self.profile, &self.dist, Decoders::Now)
+    }
+}
+
+fn assemble_pkg(profile: Profile, folder: &Path) -> Outcome {
+    empty(folder)?;
+    bindings(profile, "sightline_face", folder, "sightline", true)?;
+    bindings(profile, "sightline_codecs", folder, "codecs", true)?;
     let metadata = metadata()?;
     let engine = metadata["packages"].as_array().into_iter().flatten().find(|package| package["name"] == "sightline");
     let engine = engine.ok_or("cargo metadata does not list sightline")?;
@@ -62,66 +116,55 @@ fn assemble_pkg() -> Outcome {
     Ok(())
 }
 
-/// Leaves the page in dist/: index.html with Trunk's assets resolved, the page's module and the workers' with their glue. What is served
-/// gets its [`decoders`] afterwards.
-pub fn dist(profile: Profile) -> Outcome {
-    let later = (profile == Profile::Release).then_some("sightline-codecs");
-    let packages: Vec<_> = ["sightline-desk", "sightline-worker"].into_iter().chain(later).collect();
-    modules(profile, &packages)?;
-    assemble_dist(profile)
+/// When the decoders of HEIC and RAW photos are built.
+#[derive(PartialEq)]
+enum Decoders {
+    Now,
+    Later,
 }
 
-fn assemble_dist(profile: Profile) -> Outcome {
-    let folder = root().join("dist");
-    empty(&folder)?;
+fn assemble_dist(profile: Profile, folder: &Path, decoders: Decoders) -> Outcome {
+    empty(folder)?;
     match profile {
         Profile::Release => {
             links_no_engine()?;
-            first(&parts::PAGE, "sightline-desk", &folder)?;
-            first(&parts::WORKER, "sightline-worker", &folder)?;
-            bindings(profile, "sightline_codecs", &folder, page::CODECS, false)?;
-            view3d(&folder)?;
-            offline::icons(&folder)?;
+            first(&parts::PAGE, "sightline-desk", folder)?;
+            first(&parts::WORKER, "sightline-worker", folder)?;
+            view3d(folder)?;
+            offline::icons(folder)?;
         }
-        Profile::Serve => {
+        Profile::Fast => {
             let view = files(&root().join("web/view3d"))?;
-            kept::product(&shelf()?, "view3d", &view, &folder, view3d)?;
-            kept::product(&shelf()?, "icons", &[], &folder, offline::icons)?;
-            changed(&folder, &[("sightline-desk", page::MODULE), ("sightline-worker", page::WORKER)])?;
+            kept::product(&shelf()?, "view3d", &view, folder, view3d)?;
+            kept::product(&shelf()?, "icons", &[], folder, offline::icons)?;
+            changed(folder, &[("sightline-desk", page::MODULE), ("sightline-worker", page::WORKER)])?;
         }
     }
-    page::assemble(&root(), &folder)?;
-    offline::seal(&folder)?;
+    if decoders == Decoders::Now {
+        match profile {
+            Profile::Fast => changed(folder, &[("sightline_codecs", page::CODECS)])?,
+            Profile::Release => bindings(profile, "sightline_codecs", folder, page::CODECS, false)?,
+        }
+    }
+    page::assemble(&root(), folder)?;
+    offline::seal(folder)?;
     for cut in [parts::PAGE, parts::WORKER] {
         report("dist", &folder.join(format!("{}_bg.wasm", cut.module)));
-        for part in cut.later(&folder)? {
+        for part in cut.later(folder)? {
             report("dist", &folder.join(part));
         }
     }
-    if profile == Profile::Release {
+    if decoders == Decoders::Now {
         report("dist", &folder.join(format!("{}_bg.wasm", page::CODECS)));
     }
     Ok(())
 }
 
-/// Leaves the decoders of HEIC and RAW photos in the dist/ that is served: the page stands without them.
-pub fn decoders() -> Outcome {
-    modules(Profile::Serve, &["sightline-codecs"])?;
-    changed(&root().join("dist"), &[("sightline_codecs", page::CODECS)])
-}
-
-/// Both, compiled together: what they have in common is built once.
-pub fn all() -> Outcome {
-    modules(Profile::Release, &["sightline-face", "sightline-desk", "sightline-worker", "sightline-codecs"])?;
-    // Not one after the other: cargo would compile what they share with the features of each.
-    assemble_pkg()?;
-    assemble_dist(Profile::Release)
-}
-
 /// Compiles packages of the workspace as wasm.
 fn modules(profile: Profile, packages: &[&str]) -> Outcome {
     install::target()?;
-    let mut arguments = vec!["build", "--profile", profile.name(), "--target", TARGET];
+    let [name, _] = profile.names();
+    let mut arguments = vec!["build", "--profile", name, "--target", TARGET];
     arguments.extend(packages.iter().flat_map(|package| ["--package", package]));
     run(&mut cargo(&arguments))
 }
@@ -184,10 +227,13 @@ pub const NATIVE: [&str; 8] = [
     "sightline-protocol",
 ];
 
+/// The targets of [`NATIVE`] that test the engine from outside.
+pub const FROM_OUTSIDE: [&str; 3] = ["--test", "*", "--examples"];
+
 /// Builds the examples of the engine natively, asked for as the tests are, so that nothing is compiled again for other features,
 /// and gives their folder.
 pub fn examples() -> Outcome<String> {
-    run(cargo(&["test", "--no-run"]).args(NATIVE))?;
+    run(cargo(&["test", "--no-run"]).args(NATIVE).args(FROM_OUTSIDE))?;
     Ok(format!("{}/debug/examples", target_directory()?))
 }
 
@@ -280,7 +326,7 @@ fn first(parts: &parts::Parts, module: &str, folder: &Path) -> Outcome {
 
 /// Where what is served is kept from one time to the next.
 fn shelf() -> Outcome<PathBuf> {
-    Ok(format!("{}/{TARGET}/serve/page", target_directory()?).into())
+    Ok(format!("{}/fast/kept", target_directory()?).into())
 }
 
 /// Modules of the page while it is worked on, with their names there: only what has changed is bound anew, side by side. The page's own is
@@ -289,7 +335,7 @@ fn changed(folder: &Path, modules: &[(&str, &str)]) -> Outcome {
     let shelf = &shelf()?;
     std::thread::scope(|threads| {
         let bind_one = |(module, name): &(&str, &str)| {
-            let module = linked(Profile::Serve, module)?;
+            let module = linked(Profile::Fast, module)?;
             kept::product(shelf, name, std::slice::from_ref(&module), folder, |made| bind(&module, made, name, false))
         };
         let bound: Vec<_> = modules.iter().map(|one| threads.spawn(move || bind_one(one))).collect();
@@ -299,7 +345,8 @@ fn changed(folder: &Path, modules: &[(&str, &str)]) -> Outcome {
 
 /// A module as cargo left it.
 fn linked(profile: Profile, module: &str) -> Outcome<PathBuf> {
-    Ok(format!("{}/{TARGET}/{}/{module}.wasm", target_directory()?, profile.name()).into())
+    let [_, folder] = profile.names();
+    Ok(format!("{}/{TARGET}/{folder}/{module}.wasm", target_directory()?).into())
 }
 
 fn bindings(profile: Profile, module: &str, folder: &Path, name: &str, typescript: bool) -> Outcome {

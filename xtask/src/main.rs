@@ -15,6 +15,8 @@ mod suites;
 
 use std::process::ExitCode;
 
+use build::{Products, Profile};
+
 /// Outcome of a command; the text is one line for the user.
 type Outcome<T = ()> = Result<T, String>;
 
@@ -24,7 +26,9 @@ cargo xtask <command>
   build [--single-file]
                        leave the page in dist/ and the engine with its JavaScript face in pkg/; with --single-file also
                        dist/sightline.html, the whole page in one file that opens from a disk
-  test [suite ...]     run everything, or only the suites named: native wasm face types page
+  test [all] [suite ...]
+                       run every suite, or only those named: native wasm face types page; the daily extent, on modules that are
+                       compiled fast. With `all` the full extent, on the modules that are handed out: see CONTRIBUTING.md
   bench [part ...]     measure the engine, or only the parts named: detect codes border growth estimation orient field;
                        field takes in 100 large photos, makes a million damaged calls of the face and kills the page 200 times
   check                licences of the dependency tree, invariants of the code, the code map; works offline";
@@ -46,12 +50,13 @@ fn run(arguments: &[String]) -> Outcome {
         "serve" => serve::command(rest),
         "build" => match rest {
             [flag] if flag == "--single-file" => {
-                build::all()?;
-                single::write_to(&process::root().join("dist"))
+                let products = Products::of(Profile::Release)?;
+                products.build_all()?;
+                single::write_to(&products.dist)
             }
             _ => {
                 none_of(rest)?;
-                build::all()
+                Products::of(Profile::Release)?.build_all()
             }
         },
         "test" => suites::command(rest),

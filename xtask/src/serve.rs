@@ -7,9 +7,8 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::OnceLock;
 
 use crate::Outcome;
-use crate::build::{self, Profile};
+use crate::build::{Products, Profile};
 use crate::page::CODECS;
-use crate::process::root;
 
 /// `serve [--port N]`.
 pub fn command(arguments: &[String]) -> Outcome {
@@ -20,7 +19,8 @@ pub fn command(arguments: &[String]) -> Outcome {
         }
         _ => return Err("serve [--port N]".into()),
     };
-    build::dist(Profile::Serve)?;
+    let products = Products::of(Profile::Fast)?;
+    products.build_page()?;
     let listener = match port {
         Some(port) => listen(port)?,
         None => (8080..8100).find_map(|port| listen(port).ok()).map_or_else(|| listen(0), Ok)?,
@@ -29,12 +29,12 @@ pub fn command(arguments: &[String]) -> Outcome {
     let decoders = OnceLock::new();
     std::thread::scope(|threads| {
         threads.spawn(|| {
-            if let Err(fault) = build::decoders() {
+            if let Err(fault) = products.build_decoders() {
                 eprintln!("HEIC and RAW photos are not decoded: {fault}");
             }
             decoders.set(()).ok();
         });
-        answer(listener, &root().join("dist"), Some(&decoders));
+        answer(listener, &products.dist, Some(&decoders));
     });
     Ok(())
 }
@@ -160,6 +160,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
+    use crate::process::root;
 
     /// What the server answers to a request.
     fn ask(stream: &mut TcpStream, path: &str) -> std::io::Result<String> {

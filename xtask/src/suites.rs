@@ -1,12 +1,14 @@
 //! `cargo xtask test`: every suite, one after the other, and one line that sums them up.
 
-use std::cell::OnceCell;
 use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::OnceLock;
 use std::time::Instant;
 
+use crate::build::{self, Products, Profile};
 use crate::install::{self, TARGET};
 use crate::process::{cargo, program, root, run, watch};
-use crate::{Outcome, build, serve, single};
+use crate::{Outcome, serve, single};
 
 /// Tests counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,108 +18,169 @@ struct Count {
     skipped: usize,
 }
 
-/// A suite: its name on the command line and how it runs.
-type Suite = (&'static str, fn(&Products) -> Outcome<Count>);
-
-/// What several suites are run on, built once, when the first of them needs it.
-struct Products {
-    /// Whether the page is among what is wanted: then it is compiled together with pkg/.
-    with_page: bool,
-    built: OnceCell<Outcome>,
+/// How far the tests go.
+#[derive(Clone, Copy, PartialEq)]
+enum Extent {
+    /// What every change is asked, on modules that are compiled fast: a part of the seeded cases, the engine's unit tests as wasm only.
+    Daily,
+    /// Everything, on the modules that are handed out.
+    All,
 }
 
-impl Products {
+/// A suite: its name on the command line and how it runs.
+type Suite = (&'static str, fn(&Run) -> Outcome<Count>);
+
+/// One run of the tests.
+struct Run {
+    extent: Extent,
+    /// Whether the page is among the suites: then it is compiled together with pkg/.
+    with_page: bool,
+    products: Products,
+    built: OnceLock<Outcome>,
+}
+
+impl Run {
+    /// Builds what several suites test, once, when the first of them needs it.
     fn build(&self) -> Outcome {
-        let build = || if self.with_page { build::all() } else { build::pkg() };
+        let build = || if self.with_page { self.products.build_all() } else { self.products.build_pkg() };
         self.built.get_or_init(build).clone()
+    }
+
+    fn is_all(&self) -> bool {
+        self.extent == Extent::All
     }
 }
 
 const SUITES: [Suite; 5] = [("native", native), ("wasm", wasm), ("face", face), ("types", types), ("page", browser)];
 
-/// `test [suite ...]`.
-pub fn command(names: &[String]) -> Outcome {
+/// `test [all] [suite ...]`.
+pub fn command(arguments: &[String]) -> Outcome {
+    let (extent, names) = match arguments {
+        [first, names @ ..] if first == "all" => (Extent::All, names),
+        names => (Extent::Daily, names),
+    };
     if let Some(name) = names.iter().find(|name| SUITES.iter().all(|(suite, _)| suite != name)) {
         let known = SUITES.map(|(suite, _)| suite).join(", ");
         return Err(format!("there is no suite {name}; the suites are {known}"));
     }
     let wanted = |name: &str| names.is_empty() || names.iter().any(|wanted| wanted == name);
-    let products = Products { with_page: wanted("page"), built: OnceCell::new() };
+    let profile = if extent == Extent::All { Profile::Release } else { Profile::Fast };
+    let all = Run { extent, with_page: wanted("page"), products: Products::of(profile)?, built: OnceLock::new() };
     let (mut total, mut lines) = (Count::default(), Vec::new());
-    for (name, suite) in SUITES {
-        if !wanted(name) {
-            continue;
+    std::thread::scope(|threads| {
+        // While native tests are compiled and run, one core or the other is often free: modules are built beside them.
+        if wanted("native") && ["face", "types", "page"].into_iter().any(wanted) {
+            threads.spawn(|| all.build());
         }
-        println!("== {name}");
-        let began = Instant::now();
-        let (count, note) = match suite(&products) {
-            Ok(count) => (count, String::new()),
-            // A suite that cannot run is a failure, and the others still say what they have to say.
-            Err(message) => (Count { failed: 1, ..Count::default() }, format!(": {message}")),
-        };
-        total = total.plus(count);
-        let seconds = began.elapsed().as_secs();
-        lines.push(format!("{name}: {count} in {seconds} s{note}"));
-    }
+        for (name, suite) in SUITES {
+            if !wanted(name) {
+                continue;
+            }
+            println!("== {name}");
+            let began = Instant::now();
+            let (count, note) = match suite(&all) {
+                Ok(count) => (count, String::new()),
+                // A suite that cannot run is a failure, and the others still say what they have to say.
+                Err(message) => (Count { failed: 1, ..Count::default() }, format!(": {message}")),
+            };
+            total = total.plus(count);
+            let seconds = began.elapsed().as_secs();
+            lines.push(format!("{name}: {count} in {seconds} s{note}"));
+        }
+    });
     println!("==\n{}", lines.join("\n"));
     println!("{total}");
     if total.failed == 0 { Ok(()) } else { Err("the tests failed".into()) }
 }
 
-fn native(_: &Products) -> Outcome<Count> {
+/// The engine from outside, and every other package; in the full extent the engine's unit tests and examples in its documentation too.
+fn native(all: &Run) -> Outcome<Count> {
     // Sheets of targets are printed and measured.
     install::poppler();
     // Tests whose data is missing pass and write their names here.
     let list = format!("{}/skipped-tests", build::target_directory()?);
     let _ = std::fs::remove_file(&list);
-    let mut command = cargo(&["test", "--no-fail-fast"]);
-    let mut count = counted(command.args(build::NATIVE).env("SIGHTLINE_SKIPPED", &list), rust_count)?;
+    let mut count = Count::default();
+    let mut tests = |targets: &[&str], harness: &[&str]| {
+        let mut command = cargo(&["test", "--no-fail-fast"]);
+        command.args(targets).arg("--").args(harness).env("SIGHTLINE_SKIPPED", &list);
+        if all.is_all() {
+            command.env("SIGHTLINE_EXTENT", "all");
+        }
+        count = count.plus(counted(&mut command, rust_count)?);
+        Ok::<_, String>(())
+    };
+    if all.is_all() {
+        tests(&build::NATIVE, &["--include-ignored"])?;
+    } else {
+        tests(&[&build::NATIVE[..], &build::FROM_OUTSIDE].concat(), &[])?;
+        // Without the engine's own, which run as wasm.
+        tests(&[&build::NATIVE[2..], &["--lib", "--bins"]].concat(), &[])?;
+    }
+    // By itself, as it was built to run this.
+    tests(&["--package", "xtask"], &[])?;
     let skipped: BTreeSet<String> =
         std::fs::read_to_string(&list).unwrap_or_default().lines().map(str::to_owned).collect();
     count.skipped += skipped.len();
     count.passed = count.passed.saturating_sub(skipped.len());
-    // By itself, as it was built to run this.
-    Ok(count.plus(counted(&mut cargo(&["test", "--package", "xtask"]), rust_count)?))
+    Ok(count)
 }
 
 /// The engine's unit tests as wasm. What it does from outside is compared with the native engine in the face suite.
-fn wasm(_: &Products) -> Outcome<Count> {
+fn wasm(_: &Run) -> Outcome<Count> {
     install::target()?;
     install::node()?;
-    counted(&mut cargo(&["test", "--target", TARGET, "--package", "sightline", "--lib", "--no-fail-fast"]), rust_count)
+    // Asked for together with the page's modules, so that dependencies have the features that those have, and are compiled once.
+    let packages = ["--package", "sightline", "--package", "sightline-desk", "--package", "sightline-worker"];
+    counted(cargo(&["test", "--target", TARGET, "--lib", "--no-fail-fast"]).args(packages), rust_count)
 }
 
-fn face(products: &Products) -> Outcome<Count> {
+fn face(all: &Run) -> Outcome<Count> {
     install::packages()?;
-    products.build()?;
+    all.build()?;
     // Its numbers are compared with those that the engine gives natively.
-    node_tests("tests/face", &[("SIGHTLINE_EXAMPLES", &build::examples()?)])
+    let pkg = text(&all.products.pkg)?;
+    node_tests("tests/face", all, &[("SIGHTLINE_EXAMPLES", &build::examples()?), ("SIGHTLINE_PKG", &pkg)])
 }
 
 /// The declarations of pkg/ with a program that uses them, under the strictest compiler.
-fn types(products: &Products) -> Outcome<Count> {
+fn types(all: &Run) -> Outcome<Count> {
     install::packages()?;
-    products.build()?;
-    let compiled = watch(
-        &mut program("node", &["e2e/node_modules/typescript/bin/tsc", "--project", "tests/face/tsconfig.json"]),
-        |_| (),
-    )?;
+    all.build()?;
+    let project = all.products.declarations_project()?;
+    let compiled =
+        watch(&mut program("node", &["e2e/node_modules/typescript/bin/tsc", "--project", &text(&project)?]), |_| ())?;
     Ok(Count { passed: usize::from(compiled), failed: usize::from(!compiled), skipped: 0 })
 }
 
 /// The page in a headless browser, against a server of dist/.
-fn browser(products: &Products) -> Outcome<Count> {
+fn browser(all: &Run) -> Outcome<Count> {
     install::packages()?;
     install::poppler();
     let chromium = install::chromium()?;
     install::korean_font();
     // The page's numbers are compared with those that Node has.
-    products.build()?;
-    single::write_to(&root().join("dist"))?;
-    let address = serve::background(root().join("dist"))?;
-    // Photos in formats that only a program writes.
-    let examples = build::examples()?;
-    node_tests("e2e", &[("SIGHTLINE_URL", &address), ("CHROMIUM", &chromium), ("SIGHTLINE_EXAMPLES", &examples)])
+    all.build()?;
+    single::write_to(&all.products.dist)?;
+    let address = serve::background(all.products.dist.clone())?;
+    let variables = [
+        ("SIGHTLINE_URL", address),
+        ("CHROMIUM", chromium),
+        ("SIGHTLINE_PKG", text(&all.products.pkg)?),
+        ("SIGHTLINE_DIST", text(&all.products.dist)?),
+        // Photos in formats that only a program writes.
+        ("SIGHTLINE_EXAMPLES", build::examples()?),
+    ];
+    let mut variables: Vec<_> = variables.iter().map(|(name, value)| (*name, value.as_str())).collect();
+    // Most tests begin with the sample: it is made once.
+    let sample = format!("{}/Sample.sightline", build::target_directory()?);
+    run(program("node", &["e2e/sample.mjs", &sample]).envs(variables.iter().copied()))?;
+    variables.push(("SIGHTLINE_SAMPLE", &sample));
+    node_tests("e2e", all, &variables)
+}
+
+fn text(path: &Path) -> Outcome<String> {
+    path.to_str().map(str::to_owned).ok_or_else(|| format!("{} is not UTF-8", path.display()))
 }
 
 /// What lasts, for `cargo xtask bench field`: a hundred large photos in one sitting, a million damaged calls of the face, and the page killed
@@ -125,8 +188,9 @@ fn browser(products: &Products) -> Outcome<Count> {
 pub fn field() -> Outcome {
     install::packages()?;
     let chromium = install::chromium()?;
-    build::all()?;
-    let address = serve::background(root().join("dist"))?;
+    let products = Products::of(Profile::Release)?;
+    products.build_all()?;
+    let address = serve::background(products.dist)?;
     run(program("node", &["benches/field.mjs", "dist"]).env("CHROMIUM", &chromium))?;
     let calls = ["--test", "--test-reporter=spec", "tests/face/calls.test.mjs"];
     run(program("node", &calls).env("SIGHTLINE_CALLS", "1000000"))?;
@@ -135,22 +199,36 @@ pub fn field() -> Outcome {
     run(&mut command)
 }
 
-/// The `*.test.mjs` of a folder under Node's own test runner.
-fn node_tests(folder: &str, variables: &[(&str, &str)]) -> Outcome<Count> {
-    let mut files = Vec::new();
+/// Tests of the page that only the full extent has: the sizes and parts of what is handed out, and other browsers.
+const ONLY_ALL: [&str; 2] = ["browsers.test.mjs", "parts.test.mjs"];
+/// Tests that measure how long something takes, or need all of the machine: none runs beside them.
+const ALONE: [&str; 4] = ["calls.test.mjs", "experiments.test.mjs", "kills.test.mjs", "stopping.test.mjs"];
+
+/// The `*.test.mjs` of a folder under Node's own test runner, two files at a time where they bear it.
+fn node_tests(folder: &str, all: &Run, variables: &[(&str, &str)]) -> Outcome<Count> {
+    let mut names = Vec::new();
     for entry in std::fs::read_dir(root().join(folder)).map_err(|error| format!("{folder}: {error}"))? {
         let name = entry.map_err(|error| format!("{folder}: {error}"))?.file_name();
-        files.extend(name.to_str().filter(|name| name.ends_with(".test.mjs")).map(|name| format!("{folder}/{name}")));
+        names.extend(name.to_str().filter(|name| name.ends_with(".test.mjs")).map(str::to_owned));
     }
-    if files.is_empty() {
+    if names.is_empty() {
         return Err(format!("{folder} holds no *.test.mjs"));
     }
-    files.sort();
-    // Forced to exit: what a failed test leaves open (a browser) must not keep the run from ending.
-    let flags = ["--test", "--test-concurrency=1", "--test-force-exit", "--test-reporter=spec"];
-    let mut command = program("node", &flags);
-    command.args(&files).envs(variables.iter().copied());
-    counted(&mut command, node_count)
+    names.retain(|name| all.is_all() || !ONLY_ALL.contains(&name.as_str()));
+    names.sort();
+    let (alone, together): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| ALONE.contains(&name.as_str()));
+    let mut count = Count::default();
+    for (files, at_a_time) in [(together, 2), (alone, 1)] {
+        if files.is_empty() {
+            continue;
+        }
+        // Forced to exit: what a failed test leaves open (a browser) must not keep the run from ending.
+        let at_a_time = format!("--test-concurrency={at_a_time}");
+        let mut command = program("node", &["--test", &at_a_time, "--test-force-exit", "--test-reporter=spec"]);
+        command.args(files.iter().map(|name| format!("{folder}/{name}"))).envs(variables.iter().copied());
+        count = count.plus(counted(&mut command, node_count)?);
+    }
+    Ok(count)
 }
 
 /// Runs a program that reports tests; one that fails without a failed test counts as one.

@@ -2,6 +2,7 @@
 
 use crate::support::coded_patch::{Curve, Kind, coded_patch};
 use crate::support::data::data;
+use crate::support::extent;
 use crate::support::painter::Uniform;
 use sightline::decode;
 use sightline::detect::{detect, detect_shot, read_codes};
@@ -177,8 +178,10 @@ fn read(plate: &Plate, codes: Codes) -> Detection {
 fn every_family_is_read_rightly_or_not_at_all() {
     let mut random = Uniform(1);
     let (mut legible, mut read_of_all, mut parts) = (0, 0, 0);
-    for family in Family::ALL {
-        for (seed, blur, dark) in [(1, 0.6, false), (2, 1.1, true)] {
+    for (k, family) in Family::ALL.into_iter().enumerate() {
+        // daily one of the two, in turn
+        let kinds = [[(1, 0.6, false), (2, 1.1, true)], [(2, 1.1, true), (1, 0.6, false)]][k % 2];
+        for &(seed, blur, dark) in extent::of(&kinds, 1) {
             let plate = plate(family, blur, dark, &mut random, seed);
             let found = read(&plate, family.into());
             let codes = |detection: &Detection| -> Vec<_> {
@@ -207,13 +210,13 @@ fn every_family_is_read_rightly_or_not_at_all() {
     }
     println!("{read_of_all} of {legible} codes read, {parts} parts of rings left out");
     assert!(100 * read_of_all >= 97 * legible, "{read_of_all} of {legible}");
-    assert!(legible > 250 && parts > 0, "{legible} {parts}");
+    assert!(legible > extent::cases(120, 250) && parts > 0, "{legible} {parts}");
 }
 
 /// What shines or is dirty in a dot's centre says nothing of its level.
 #[test]
 fn a_mark_in_the_centre_of_a_dot_changes_no_code() {
-    for (family, dark) in [(Family::Ring12, true), (Family::Ring14, false), (Family::Ring20, true)] {
+    for &(family, dark) in extent::of(&[(Family::Ring14, false), (Family::Ring20, true), (Family::Ring12, true)], 1) {
         let look = Look { radii: [7.0, 14.0], blur: 0.7, dark, even: false };
         let marked = |spot: f64| {
             let mut coded = laid_out(family, family.codes(), &look, &mut Uniform(22));
@@ -307,10 +310,11 @@ fn small_dots(random: &mut Uniform) -> Look {
 fn small_codes_of_a_camera_are_found_with_honest_standard_errors() {
     let mut random = Uniform(7);
     let mut small = Small::default();
-    for family in [Family::Ring12, Family::Metashape12] {
-        for (seed, made) in
-            [None, Some((0.0, 60)), Some((0.0, 90)), Some((1.0, 60)), Some((1.0, 90))].into_iter().enumerate()
-        {
+    for (k, family) in [Family::Ring12, Family::Metashape12].into_iter().enumerate() {
+        // daily two of the five for each family, others for each
+        let mut kinds = [None, Some((0.0, 60)), Some((0.0, 90)), Some((1.0, 60)), Some((1.0, 90))];
+        kinds.rotate_left(2 * k);
+        for (seed, &made) in extent::of(&kinds, 2).iter().enumerate() {
             let mut plate = plate_of(family, family.codes(), small_dots(&mut random), &mut random, seed as u64);
             if let Some((amount, quality)) = made {
                 plate.samples = handed_over(&plate, amount, quality);
@@ -351,7 +355,7 @@ fn small_codes_on_a_sensor_are_found_with_honest_standard_errors() {
     let mut random = Uniform(8);
     let mut small = Small::default();
     for family in [Family::Ring12, Family::Metashape12] {
-        for seed in 0..3 {
+        for seed in 0..extent::cases(1, 3) as u64 {
             let plate = plate_of(family, family.codes(), small_dots(&mut random), &mut random, seed);
             let options = DetectOptions { codes: family.into(), ..DetectOptions::default() };
             small.add(&plate, &detect_shot(&on_sensor(&plate, seed), &options).expect("valid options"));
@@ -360,27 +364,29 @@ fn small_codes_on_a_sensor_are_found_with_honest_standard_errors() {
     small.assert_honest();
 }
 
-/// Pictures of the short form; `cargo xtask bench codes` draws 200 000.
-const PICTURES: usize = 1200;
+/// Random pictures; `cargo xtask bench codes` draws 200 000.
+fn pictures() -> usize {
+    extent::cases(300, 1200)
+}
 
 #[test]
 fn nothing_that_looks_like_a_code_is_read_as_one() {
-    let (legible, read) = read_of(PICTURES, Curve::Flat, 42);
-    assert!(legible > 180 && 100 * read >= 97 * legible, "{read} of {legible}");
+    let (legible, read) = read_of(pictures(), Curve::Flat, 42);
+    assert!(legible > extent::cases(45, 180) && 100 * read >= 97 * legible, "{read} of {legible}");
 }
 
 /// Where levels follow a camera's curve, blurred edges lie aside.
 #[test]
 fn codes_are_read_under_the_curve_of_cameras() {
-    let (legible, read) = read_of(PICTURES / 2, Curve::Camera, 43);
-    assert!(legible > 90 && 100 * read >= 97 * legible, "{read} of {legible}");
+    let (legible, read) = read_of(pictures() / 2, Curve::Camera, 43);
+    assert!(legible > extent::cases(22, 90) && 100 * read >= 97 * legible, "{read} of {legible}");
 }
 
 /// Of eight families that could be meant none is taken for another's ring, nor for anything else.
 #[test]
 fn nothing_that_looks_like_a_code_of_any_family_is_read_as_one() {
-    let (legible, read) = read_among(PICTURES / 3, Curve::Flat, 44, |_| Codes::Auto);
-    assert!(legible > 60 && 100 * read >= 95 * legible, "{read} of {legible}");
+    let (legible, read) = read_among(pictures() / 3, Curve::Flat, 44, |_| Codes::Auto);
+    assert!(legible > extent::cases(15, 60) && 100 * read >= 95 * legible, "{read} of {legible}");
 }
 
 fn read_of(pictures: usize, curve: Curve, seed: u64) -> (usize, usize) {
@@ -592,7 +598,7 @@ fn codes_switched_on_remove_no_target() {
     let mut kept = 0;
     // of 20 bits the larger discs, cut off where their sectors end, fill them
     let families = [Family::Ring12, Family::Ring16, Family::Metashape14];
-    for (seed, family) in families.into_iter().enumerate() {
+    for (seed, &family) in extent::of(&families, 1).iter().enumerate() {
         let look = Look { radii: [6.0, 10.0], blur: random.within(0.6, 1.0), dark: seed % 2 == 0, even: true };
         let mut coded = laid_out(family, family.codes(), &look, &mut random);
         coded.iter_mut().for_each(|target| target.squeeze = target.squeeze.max(0.7));
@@ -622,5 +628,5 @@ fn codes_switched_on_remove_no_target() {
             kept += usize::from(!is_part);
         }
     }
-    assert!(kept > 100, "{kept}");
+    assert!(kept > extent::cases(33, 100), "{kept}");
 }

@@ -7,7 +7,7 @@ use sightline::{decode, image};
 
 use crate::support::camera_model::{Camera, Tally};
 use crate::support::grid_fit::{self, Score};
-use crate::support::{camera_model, conditions, data};
+use crate::support::{camera_model, conditions, data, extent};
 
 fn read(name: &str) -> Option<Grey> {
     let bytes = data::data(&format!("photos/{name}"))?;
@@ -112,7 +112,7 @@ fn share_of(picture: &Grey, level: u8) -> f64 {
 #[test]
 fn cameras_drawn_at_random_are_told_by_their_sigmas_and_show_nothing_false() {
     let mut tally = Tally::default();
-    for seed in 0..20 {
+    for seed in 0..extent::cases(6, 20) as u64 {
         let camera = Camera::drawn(seed);
         let (picture, spots) = camera.picture(seed);
         let detection = detected(&picture, &DetectOptions::default());
@@ -124,7 +124,7 @@ fn cameras_drawn_at_random_are_told_by_their_sigmas_and_show_nothing_false() {
         assert!(off.fold(0.0, f64::max) < 0.002, "{camera}: {told:?}");
     }
     let all = tally.all();
-    assert!(all.others <= 6 && all.hits as f64 > 0.97 * all.targets as f64, "{tally}");
+    assert!(all.others <= extent::cases(2, 6) && all.hits as f64 > 0.97 * all.targets as f64, "{tally}");
     assert!((0.7..1.5).contains(&Tally::chi(&all)), "{tally}");
 }
 
@@ -152,7 +152,7 @@ fn targets_are_found_under_the_conditions_of_a_day() {
         let (name, least, most) = CONDITIONS.into_iter().find(|(name, ..)| *name == condition.name).expect("a limit");
         let mut tally = Tally::default();
         let mut hidden = 0;
-        for seed in 0..2 {
+        for seed in 0..extent::cases(1, 2) as u64 {
             let (picture, spots) = (condition.picture)(seed);
             let detection = detected(&picture, &condition.options);
             hidden += conditions::said_to_be_hidden(&detection, &spots);
@@ -184,7 +184,8 @@ fn reports(camera: Camera) -> [PictureReport; 2] {
 
 #[test]
 fn a_report_tells_how_much_a_camera_sharpened() {
-    for (sharpening, radius) in [(0.5, 1.0), (1.0, 1.0), (1.5, 1.0), (2.0, 1.0), (1.0, 0.6), (1.0, 1.5)] {
+    let kinds = [(0.5, 1.0), (1.0, 1.5), (1.0, 0.6), (1.0, 1.0), (1.5, 1.0), (2.0, 1.0)];
+    for &(sharpening, radius) in extent::of(&kinds, 3) {
         for report in reports(Camera { sharpening, radius, ..PLAIN }) {
             let [amount, sigma] = [report.sharpening, report.sharpening_radius];
             // An edge is steepened by amount x radius^2 to first order: only where it is much, or wide, it tells one from the other.
@@ -201,7 +202,7 @@ fn a_report_tells_how_much_a_camera_sharpened() {
 
 #[test]
 fn a_report_tells_noise_and_what_was_not_done() {
-    for noise in [1.0, 2.0, 5.0, 20.0] {
+    for &noise in extent::of(&[1.0, 20.0, 2.0, 5.0], 2) {
         for report in reports(Camera { noise, ..PLAIN }) {
             // of the paper, whose level is 190; the least noise is hardly more than the steps of its levels
             let ratio = report.noise / (noise * (0.5f64 + 0.5 * 190.0 / 255.0).sqrt());
@@ -216,7 +217,7 @@ fn a_report_tells_noise_and_what_was_not_done() {
 
 #[test]
 fn a_report_tells_compression_and_the_noise_that_pixels_share() {
-    for quality in [90, 70, 50, 30] {
+    for &quality in extent::of(&[90, 50, 70, 30], 2) {
         for report in reports(Camera { quality, ..PLAIN }) {
             assert!(report.compression > 0.4 && report.softened, "{quality}: {report:?}");
             // the coarser the steps of the coefficients the fewer of them carry the noise, and the wider they are

@@ -155,6 +155,7 @@ fn names_options_and_stopping() {
 /// does after demosaicing costs coordinates. (A colourless scene tells red and blue sites as much as green ones: demosaiced linearly, it has
 /// twice the samples.)
 #[test]
+#[ignore = "a quarter of a minute; the page's tests run this experiment too"]
 fn sensor() {
     let sensor = result("sensor");
     well_formed(&sensor);

@@ -16,6 +16,7 @@ use sightline::rotation;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+use crate::support::extent;
 use network::{Case, both, gauss, judged, unit};
 
 /// One photo of `count` control points, in space or in a plane; its truth.
@@ -57,7 +58,7 @@ fn single(seed: u64, count: usize, plane: bool, noise_px: f64) -> (Project, Pose
 fn few_control_points_give_the_best_pose_or_both() {
     let (mut right, mut ambiguous, mut runs) = (0, 0, 0);
     let mut failed = Vec::new();
-    for seed in 0..600 {
+    for seed in 0..extent::cases(150, 600) as u64 {
         let (count, plane, noise) = (4 + seed as usize % 3, seed / 3 % 2 == 1, [0.1, 0.3, 0.5][seed as usize / 6 % 3]);
         let (project, truth) = single(seed, count, plane, noise);
         let oriented = orient(&project).expect("a valid project");
@@ -87,7 +88,7 @@ fn few_control_points_give_the_best_pose_or_both() {
 fn seeded_networks_are_oriented_and_none_is_wrong_in_silence() {
     let (mut solvable, mut right) = (0, 0);
     let mut lost = Vec::new();
-    for seed in 0..42 {
+    for seed in 0..extent::cases(14, 42) as u64 {
         let case = Case::of(seed, 10);
         let network = network::network(&case);
         let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
@@ -108,7 +109,7 @@ fn seeded_networks_are_oriented_and_none_is_wrong_in_silence() {
 /// Photos with few measurements, which a rough model refuses, and the networks beyond them are oriented once everything else stands.
 #[test]
 fn photos_left_over_are_oriented_in_the_end() {
-    for seed in [206, 240, 247, 265, 300] {
+    for &seed in extent::of(&[206, 240, 247, 265, 300], 1) {
         let network = network::network(&Case::of(seed, 60));
         let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
         assert!(verdict.right && verdict.wrong.is_empty(), "seed {seed}: {verdict:?}");
@@ -130,7 +131,7 @@ fn photos_that_nothing_ties_to_the_others_keep_no_pose() {
 /// with every tenth name wrong had a photo 2° off that six of its nine measurements agreed with; all nine are right.
 #[test]
 fn measurements_that_a_rough_model_left_out_come_back() {
-    for seed in [258, 342, 594, 769] {
+    for &seed in extent::of(&[258, 342, 594, 769], 1) {
         let network = network::network(&Case::of(seed, 60));
         let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
         assert!(verdict.falsely_wrong == 0 && verdict.wrong.is_empty(), "seed {seed}: {verdict:?}");
@@ -143,7 +144,7 @@ fn measurements_that_a_rough_model_left_out_come_back() {
 /// Plates and reliefs of which no two photos share nine points, once with every tenth name wrong and c unknown: nothing was oriented.
 #[test]
 fn nearly_flat_objects_need_no_pair_of_photos_with_many_points() {
-    for seed in [29, 112, 218, 232] {
+    for &seed in extent::of(&[29, 112, 218, 232], 1) {
         let network = network::network(&Case::of(seed, 60));
         let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
         assert!(verdict.right && verdict.wrong.is_empty(), "seed {seed}: {verdict:?}");
@@ -163,7 +164,7 @@ fn a_weak_network_is_started_near_its_principal_distance() {
 /// their whole distance off, with right measurements called wrong for it and a sigma0 of 1; the third had no end.
 #[test]
 fn the_second_pose_of_a_wall_is_left_for_the_first() {
-    for seed in [832, 1367, 1406] {
+    for &seed in extent::of(&[832, 1367, 1406], 1) {
         let network = network::network(&Case::of(seed, 60));
         let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
         assert!(verdict.right && verdict.falsely_wrong == 0, "seed {seed}: {verdict:?}");
@@ -173,7 +174,7 @@ fn the_second_pose_of_a_wall_is_left_for_the_first() {
 /// Rough models of few photos carried the given principal distance of these networks away, and no adjustment came to an end.
 #[test]
 fn a_given_distance_is_held_where_the_network_fails_otherwise() {
-    for seed in [244, 356] {
+    for &seed in extent::of(&[244, 356], 1) {
         let network = network::network(&Case::of(seed, 60));
         let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
         assert!(verdict.right && !verdict.silent_c, "seed {seed}: {verdict:?}");
@@ -221,7 +222,7 @@ fn a_wrong_control_point_takes_no_photo_along() {
 /// 60 photos with 300 points, seen in six photos or in fifteen: whole and right.
 #[test]
 fn large_networks_are_oriented_whole() {
-    for seed in [1, 3, 8, 9] {
+    for &seed in extent::of(&[1, 3, 8, 9], 1) {
         let network = network::network(&Case::large(seed));
         let verdict = judged(&network, &orient(&network.given).expect("a valid project"));
         assert!(verdict.right && verdict.wrong.is_empty() && !verdict.silent_c, "seed {seed}: {verdict:?}");
@@ -231,7 +232,7 @@ fn large_networks_are_oriented_whole() {
 /// 600 bare dots in three to twelve photos: at least 98 % are found, none wrong, at the noise's own tolerance and at a wide one.
 #[test]
 fn bare_dots_get_their_own_names_or_none() {
-    for (seed, photos, tolerance) in [(1, 3, None), (2, 5, None), (3, 12, None), (4, 12, Some(10.0))] {
+    for &(seed, photos, tolerance) in extent::of(&[(1, 3, None), (4, 12, Some(10.0)), (2, 5, None), (3, 12, None)], 2) {
         let matched = dots::matched(seed, photos, 600, tolerance);
         println!("{photos} photos in {:.1} s: {matched:?}", matched.seconds);
         assert_eq!(matched.wrong, 0, "{photos} photos: {matched:?}");
