@@ -10,8 +10,9 @@ use sightline::project::{CoordinateSystem, DatumKind, End, Feature, FeatureKind,
 use crate::support::extent;
 use crate::support::networks::{Wanted, exact, noisy};
 
+/// Draws from a covariance, in the daily extent and in the full one.
 const DRAWS: [usize; 2] = [2_000, 12_000];
-/// Whole adjustments: the scatter of so many is known to 1.1 %.
+/// Whole adjustments likewise: the scatter of 4,000 is known to 1.1 %.
 const RUNS: [usize; 2] = [800, 4_000];
 
 fn feature(id: &str, kind: FeatureKind) -> Feature {
@@ -122,9 +123,10 @@ fn figures(f: &MeasuredFeature) -> Vec<(String, f64, Option<f64>)> {
     all
 }
 
-/// A limit for the ratio of standard errors that holds for the largest number of draws, for a smaller one: chance grows with its root.
+/// How far a standard error that is estimated from `count` draws may be off its value: `limit` for the largest number of draws, four of its
+/// own standard errors, 4/√(2n), for fewer.
 fn chance(limit: f64, count: usize, [_, most]: [usize; 2]) -> f64 {
-    limit * (most as f64 / count as f64).sqrt()
+    if count == most { limit } else { 4.0 / (2.0 * count as f64).sqrt() }
 }
 
 fn assert_draws_agree(project: &Project) {
@@ -206,7 +208,7 @@ fn assert_draws_agree(project: &Project) {
         .map(|((_, _, s), q)| q / runs / (s * s))
         .sum::<f64>()
         / points.iter().filter(|(_, _, s)| *s > 0.0).count() as f64;
-    assert!((mean.sqrt() - 1.0).abs() < chance(0.02, draws, DRAWS), "all points of all systems: {}", mean.sqrt());
+    assert!((mean.sqrt() - 1.0).abs() < if draws == DRAWS[1] { 0.02 } else { 0.05 }, "all points of all systems: {}", mean.sqrt());
 }
 
 #[test]
