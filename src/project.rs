@@ -249,7 +249,7 @@ pub struct Observation {
 }
 
 /// An image observation that orientation disabled.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SetAside {
     /// Identifier of the photo.
     #[serde(deserialize_with = "identifier")]
@@ -259,6 +259,9 @@ pub struct SetAside {
     pub point: String,
     /// Why.
     pub reason: SetAsideReason,
+    /// Its distance from where its point should have been, pixels; null where no place was known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distance_px: Option<f64>,
 }
 
 /// Why an observation was set aside.
@@ -271,6 +274,8 @@ pub enum SetAsideReason {
     PhotoNotOriented,
     /// Its point could not be determined.
     PointNotDetermined,
+    /// As many observations of its point speak for another place as for this one: which are right cannot be decided.
+    Undecided,
 }
 
 /// A measured distance between two points (scale bar).

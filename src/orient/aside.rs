@@ -84,6 +84,7 @@ pub(super) fn set_aside(project: &mut Project, block: &Block) {
             photo: observation.photo.clone(),
             point: observation.point.clone(),
             reason,
+            distance_px: None,
         }));
     }
     project.set_aside = listed;

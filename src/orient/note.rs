@@ -175,6 +175,25 @@ pub enum Note {
         /// Its distance from where the point should be, pixels; null behind the camera.
         distance_px: Option<f64>,
     },
+    /// A control point's given coordinates are not where the photos see it, oriented by the other control points.
+    ControlMisfit {
+        /// The point.
+        point: String,
+        /// Given minus seen, in the project's unit.
+        difference: [f64; 3],
+        /// Size of the difference in its standard errors, those of both.
+        sigma_ratio: f64,
+    },
+    /// Two control points whose given coordinates fit when they are exchanged.
+    ExchangedPoints {
+        /// The points.
+        points: [String; 2],
+    },
+    /// Points nearer to each other than their standard errors tell apart: one target under two names, most often.
+    DoublePoints {
+        /// The pairs.
+        pairs: Vec<(String, String)>,
+    },
 }
 
 pub(super) fn of_frame(block: &Block, frame: Option<Frame>, scaled: bool) -> Vec<Note> {

@@ -65,6 +65,7 @@ pub fn write(context: &Context, html: &mut Html) {
             SetAsideReason::Disagrees => words.aside_disagrees(),
             SetAsideReason::PhotoNotOriented => words.aside_photo(),
             SetAsideReason::PointNotDetermined => words.aside_point(),
+            SetAsideReason::Undecided => words.aside_undecided(),
         };
         table.row(vec![(*photo).to_owned(), (*point).to_owned(), reason.to_owned()]);
     }

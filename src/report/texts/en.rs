@@ -157,6 +157,9 @@ declare! {
     weak_unmodelled(sigma0): "The unmodelled part belongs to other weights: σ₀ is {sigma0}.";
     weak_insignificant(camera, name, ratio): "Camera {camera}: {name} is {ratio} of its standard deviations and not told from 0.";
     weak_suspected(n): "{n} {n:observation is|observations are} suspected of a gross error.";
+    control_misfit(point, size, sigmas, axis): "Control point {point} is {size} ({sigmas} sigma) from where the photos see it, mainly in {axis}.";
+    exchanged_points(a, b): "Control points {a} and {b} seem exchanged.";
+    double_points(n, pairs): "{n} {n:pair|pairs} of points are nearer to each other than their standard errors tell apart: {pairs}.";
 
     // Photos
     photo: "photo";
@@ -233,6 +236,7 @@ declare! {
     aside_disagrees: "orientation: disagrees with the other measurements";
     aside_photo: "orientation: its photo could not be oriented";
     aside_point: "orientation: its point could not be determined";
+    aside_undecided: "orientation: as many observations of its point speak for another place; which are right cannot be decided";
     aside_by_hand: "switched off in the document";
     left_out_before: "Left out before the adjustment";
     round: "round";

@@ -154,6 +154,9 @@ translate! { Korean {
     weak_unmodelled(sigma0): "모형화되지 않은 부분이 다른 가중치의 것입니다(σ₀ {sigma0}).";
     weak_insignificant(camera, name, ratio): "카메라 {camera}: {name} 값은 표준오차의 {ratio}배로 0과 구별되지 않습니다.";
     weak_suspected(n): "관측값 {n}개가 과대오차로 의심됩니다.";
+    control_misfit(point, size, sigmas, axis): "기준점 {point}의 좌표가 사진에서 구한 위치와 {size}({sigmas} 시그마) 다릅니다. 주로 {axis} 방향입니다.";
+    exchanged_points(a, b): "기준점 {a}{a:과|와} {b}의 좌표가 서로 바뀐 것으로 보입니다.";
+    double_points(n, pairs): "표준오차로 구분되지 않을 만큼 가까운 점 {n}쌍: {pairs}.";
 
     // Photos
     photo: "사진";
@@ -230,6 +233,7 @@ translate! { Korean {
     aside_disagrees: "표정: 다른 측정값과 맞지 않음";
     aside_photo: "표정: 사진을 표정하지 못함";
     aside_point: "표정: 점을 결정하지 못함";
+    aside_undecided: "표정: 같은 수의 관측값이 서로 다른 위치를 가리켜 어느 쪽이 맞는지 정할 수 없음";
     aside_by_hand: "문서에서 사용 안 함";
     left_out_before: "조정 전에 제외";
     round: "회";

@@ -885,6 +885,12 @@ declare! { desk {
     behind_camera_body: "Check these names: the solution is turned inside out there.";
     distance_unused(names): "Distances left out: {names}";
     distance_unused_body: "An end of it is not measured in two photos.";
+    control_misfit(point, size, axis): "Control point {point} is {size} from where the photos see it, mainly in {axis}";
+    control_misfit_body: "Check its coordinates and its name in the photos.";
+    exchanged_points(a, b): "Control points {a} and {b} seem exchanged";
+    exchanged_points_body: "With their coordinates exchanged they fit.";
+    double_points(pairs): "Points that may be one: {pairs}";
+    double_points_body: "They are nearer to each other than their standard errors tell apart: give them one name.";
     unsettled: "The search for gross errors came to no end";
     unsettled_body: "Too many observations contradict each other: look at names and control first.";
 }}

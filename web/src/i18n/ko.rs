@@ -859,6 +859,12 @@ translate! { Korean desk {
     behind_camera_body: "점번호를 확인하십시오. 해가 그곳에서 뒤집혀 있습니다.";
     distance_unused(names): "쓰지 않은 거리: {names}";
     distance_unused_body: "한쪽 끝이 두 사진에서 측정되지 않았습니다.";
+    control_misfit(point, size, axis): "기준점 {point}의 좌표가 사진에서 구한 위치와 {size} 다름, 주로 {axis} 방향";
+    control_misfit_body: "좌표와 사진에서의 점번호를 확인하십시오.";
+    exchanged_points(a, b): "기준점 {a}{a:과|와} {b}의 좌표가 서로 바뀐 것으로 보임";
+    exchanged_points_body: "두 점의 좌표를 맞바꾸면 맞습니다.";
+    double_points(pairs): "같은 점일 수 있는 점: {pairs}";
+    double_points_body: "표준오차로 구분되지 않을 만큼 가깝습니다. 한 점번호로 합치십시오.";
     unsettled: "과대오차 탐색이 끝나지 않았습니다";
     unsettled_body: "서로 어긋나는 관측이 너무 많습니다. 점번호와 기준점부터 확인하십시오.";
 }}
