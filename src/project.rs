@@ -52,7 +52,8 @@ pub struct Project {
     /// Datum.
     #[serde(default)]
     pub datum: Datum,
-    /// Observations that the last orientation disabled, with the reason; the next one looks at them anew.
+    /// Observations that the last orientation (or matching) disabled, with the reason; the next orientation looks at them anew, and an
+    /// adjustment takes back what fits.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set_aside: Vec<SetAside>,
     /// What is measured on the result.
@@ -248,7 +249,7 @@ pub struct Observation {
     pub target: Option<u32>,
 }
 
-/// An image observation that orientation disabled.
+/// An image observation that orientation, or the search for wrong names after matching, disabled.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SetAside {
     /// Identifier of the photo.
@@ -262,6 +263,26 @@ pub struct SetAside {
     /// Its distance from where its point should have been, pixels; null where no place was known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distance_px: Option<f64>,
+    /// What set it aside.
+    #[serde(default, skip_serializing_if = "SetAsideBy::is_orientation")]
+    pub by: SetAsideBy,
+}
+
+/// What set an observation aside.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SetAsideBy {
+    /// Orientation.
+    #[default]
+    Orientation,
+    /// The search for wrong names after matching.
+    Matching,
+}
+
+impl SetAsideBy {
+    fn is_orientation(&self) -> bool {
+        *self == Self::Orientation
+    }
 }
 
 /// Why an observation was set aside.

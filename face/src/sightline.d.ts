@@ -201,6 +201,8 @@ export interface Project {
     reason: "disagrees" | "photo_not_oriented" | "point_not_determined" | "undecided";
     /** Distance from where the point should have been. */
     distance_px?: number | null;
+    /** ["orientation"] */
+    by?: "orientation" | "matching";
   }[];
   /** What is measured on every result of this document. */
   features?: Feature[];
@@ -948,6 +950,8 @@ export type Note =
       | { why: "seen_once" | "behind_camera"; photo: string }
       | { why: "too_few_oriented_photos"; photos: number }
       | { why: "near_parallel"; angle: number }
+      /** As many rays meet in one place as in another: the photos of each. */
+      | { why: "undecided"; first: string[]; second: string[] }
     ))
   | { note: "measurement_disagrees"; photo: string; point: string; distance_px: number | null }
   /** Given minus where the photos see the point, oriented by the other control points; its size in standard errors of both. */

@@ -64,7 +64,7 @@ fn main_axis(difference: &[f64; 3]) -> &'static str {
 }
 
 /// A weakness in a sentence.
-fn said(context: &Context, advice: &Advice) -> String {
+pub fn said(context: &Context, advice: &Advice) -> String {
     let words = context.words;
     let name = |name: &str| name.parse().map_or(name.to_owned(), |p| parameter_name(p).to_owned());
     let pairs = |all: &[(String, String)]| {

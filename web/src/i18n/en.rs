@@ -752,6 +752,8 @@ declare! { desk {
     point_behind(photo): "It would lie behind the camera of photo {photo}: look for a wrong name.";
     point_disagrees: "Its rays do not meet: look for a wrong name in one of its photos.";
     point_no_coordinates: "It is a control or check point without coordinates.";
+    point_undecided(first, second):
+        "As many of its rays meet in one place (photos {first}) as in another ({second}): one name for two targets. Decide which is meant.";
     measurement_disagrees(point, photo): "Point {point} in photo {photo} disagrees with the other measurements";
     measurement_disagrees_body: "A wrong name, most often. Look at it, rename or exclude it.";
     behind: "behind";
@@ -1235,6 +1237,8 @@ declare! { errors {
     empty(what): "the project has no {what} to work on";
     initial_values(things): "initial values are missing for {things}";
     not_solved(causes): "the network cannot be solved: {causes}";
+    control_disagrees(disagreeing, n, agreeing):
+        "control points {disagreeing} do not fit the photos and the other control points; {n} do ({agreeing}): at least four, and half of all, must agree. Check coordinates, axes, unit and names";
     stopped: "stopped on request";
     and_more(names, more): "{names} and {more} more";
     no_datum(missing):

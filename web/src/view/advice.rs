@@ -488,6 +488,10 @@ fn note_item(note: &Note) -> Option<Item> {
                 PointReason::BehindCamera { photo } => text::point_behind(photo),
                 PointReason::RaysDisagree => text::point_disagrees().to_owned(),
                 PointReason::CoordinatesMissing => text::point_no_coordinates().to_owned(),
+                PointReason::Undecided { first, second } => {
+                    let listed = |photos: &[String]| listed(photos.iter().map(String::as_str));
+                    text::point_undecided(listed(first), listed(second))
+                }
             };
             let target = match reason {
                 PointReason::SeenOnce { photo } => Target::Observation { photo: photo.clone(), point: point.clone() },
