@@ -129,7 +129,10 @@ pub fn enough(project: &Project, numbering: &Numbering) -> Result<()> {
 /// Compares the control points of a document that has adjusted values, under the control datum. None where too few of them take
 /// part, or where it cannot be adjusted.
 pub fn compare(project: &Project, numbering: &Numbering, options: &AdjustOptions) -> Option<Findings> {
-    let (aside, used) = sides(project, numbering);
+    let (mut aside, used) = sides(project, numbering);
+    // A point whose measurements were mostly set aside is judged by all of them.
+    let (most_aside, used): (Vec<usize>, Vec<usize>) = used.into_iter().partition(|&k| mostly_aside(project, k));
+    aside.extend(&most_aside);
     if used.len() < FEWEST {
         return None;
     }
@@ -144,7 +147,8 @@ pub fn compare(project: &Project, numbering: &Numbering, options: &AdjustOptions
     let mut free = Vec::new();
     for &k in &aside {
         let Some((rows, xyz)) = meeting(project, numbering, k) else { continue };
-        rows.into_iter().for_each(|row| work.observations[row].enabled = true);
+        let own = numbering.sights.iter().enumerate().filter(|(_, sight)| sight.1 == k);
+        own.for_each(|(row, _)| work.observations[row].enabled = rows.contains(&row));
         work.points[k].role = Role::Check;
         work.points[k].xyz = Some(xyz);
         free.push(k);
@@ -232,6 +236,13 @@ fn seen(
     Some((all, applied(&session)))
 }
 
+/// Whether no more measurements of a point take part than were set aside as disagreeing.
+fn mostly_aside(project: &Project, point: usize) -> bool {
+    let id = &project.points[point].id;
+    let aside = project.set_aside.iter().filter(|s| s.point == *id && s.reason == SetAsideReason::Disagrees).count();
+    aside > 0 && project.observations.iter().filter(|o| o.point == *id && o.enabled).count() <= aside
+}
+
 /// What a standard error of a measurement is at a point, in the document's unit; the smallest of its photos.
 fn footprint(project: &Project, numbering: &Numbering, point: usize) -> Option<f64> {
     let xyz = Vector3::from(project.points[point].xyz?);
@@ -248,14 +259,15 @@ fn footprint(project: &Project, numbering: &Numbering, point: usize) -> Option<f
     (smallest.is_finite() && smallest > 0.0).then_some(smallest)
 }
 
-/// Rows of a point that were set aside and meet, the worst dropped one after the other, and where.
+/// Rows of a point, enabled or set aside, that meet, the worst dropped one after the other, and where.
 fn meeting(project: &Project, numbering: &Numbering, point: usize) -> Option<(Vec<usize>, [f64; 3])> {
     let id = &project.points[point].id;
     let aside: std::collections::HashSet<&str> =
         project.set_aside.iter().filter(|s| s.point == *id).map(|s| s.photo.as_str()).collect();
     let mut rays: Vec<(usize, f64, Ray)> = Vec::new();
     for (row, (o, &(photo, of))) in project.observations.iter().zip(&numbering.sights).enumerate() {
-        if of != point || !project.photos[photo].enabled || !aside.contains(o.photo.as_str()) {
+        let offered = o.enabled || aside.contains(o.photo.as_str());
+        if of != point || !project.photos[photo].enabled || !offered {
             continue;
         }
         let camera = project.cameras[numbering.cameras[photo]].of_photo(&project.photos[photo]);

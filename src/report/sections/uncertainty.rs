@@ -2,7 +2,7 @@
 //! Source: JCGM 100:2008 (Guide to the Expression of Uncertainty in Measurement), 6.2 and 7.2.
 
 use crate::adjustment::Given;
-use crate::project::{DatumKind, Role};
+use crate::project::DatumKind;
 use crate::report::context::{Context, listed, smallest};
 use crate::report::html::Html;
 use crate::report::names::parameter_name;
