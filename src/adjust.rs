@@ -3,31 +3,36 @@
 //! The rooms, each using only those before it: `linear` (tiles and small factors), `problem` (the numbered document, its
 //! values, what is known of it beforehand), `equations` (collinearity, Schur complement, ordering), `datum`, `statistics`
 //! (cofactors), `diagnosis` (rank defect, advice), `solve` (iteration, session), `gross_errors` (snooping, robust weights),
-//! `variance_components` and `report`.
+//! `variance_components`, `report` and `outside` (what took no part).
 
 mod datum;
 mod diagnosis;
 mod equations;
 mod gross_errors;
 mod linear;
+mod outside;
 mod problem;
 mod report;
 mod solve;
 mod statistics;
 mod variance_components;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use nalgebra::Matrix3;
 
 use crate::adjustment::{
-    AdjustOptions, Adjustment, Advice, Iteration, Measured, ResidualPlace, StatisticsChoice, Termination,
+    AdjustOptions, AdjustedPoint, Adjustment, Advice, Iteration, Measured, ResidualPlace, StatisticsChoice, Termination,
 };
 use crate::error::{Defect, Result};
 use crate::features::{self, Function};
-use crate::project::{Parameter, Project, Role};
+use crate::project::{Datum, DatumKind, Parameter, Project, Role};
 
 use diagnosis::judgement::judgement;
 use diagnosis::{advice, structure};
-use problem::additional::LeftOut;
+use outside::control::{Comparison, Findings};
+pub(crate) use outside::double_points::{Candidate, pairs as pairs_of_one};
+use problem::additional::{Key, LeftOut};
 use problem::network::Network;
 pub(crate) use problem::numbering::Numbering;
 use problem::{eccentric, far_points, unmodelled};
@@ -53,10 +58,12 @@ pub fn adjust(
     let sized = eccentric::sized(weighted, options.target_diameter)?;
     let numbering = Numbering::of(document);
     let ready = far_points::brought_back(sized, &numbering);
+    let mut record = Vec::new();
+    let ready = outside::retest::with_what_fits(ready, &numbering, options, &mut record);
     let project = ready.as_ref();
+    outside::control::enough(project, &numbering)?;
     let mut left_out = LeftOut::nothing(project);
     let mut log = Log { iterations: Vec::new(), on_iteration };
-    let mut record = Vec::new();
     let mut settled = true;
     let starts = far_points::control_starts(project, &numbering);
     let mut session = Session::new(project, &numbering, &left_out)?;
@@ -104,6 +111,7 @@ pub fn adjust(
     adjustment.variance_components = components.0;
     adjustment.gross_errors = record;
     adjustment.covariance = solution.covariance;
+    tell_of_what_is_outside(document, &session, &left_out, &mut adjustment);
     if !document.features.is_empty() || !document.systems.is_empty() {
         let stated = solution.cofactors.is_some();
         let mut carry = |functions: &[Function]| match stated {
@@ -115,6 +123,93 @@ pub fn adjust(
         (adjustment.features, adjustment.systems) = (features, systems);
     }
     Ok(adjustment)
+}
+
+/// Lists what took no part, with its size, and compares control with the photos where anything speaks against it.
+fn tell_of_what_is_outside(document: &Project, session: &Session, left_out: &LeftOut, adjustment: &mut Adjustment) {
+    let options = adjustment.options.clone();
+    let settled = adjustment.termination == Termination::Converged;
+    let stated = settled && options.statistics != StatisticsChoice::None;
+    let out = (0..adjustment.observations.len()).filter(|&row| !adjustment.observations[row].enabled);
+    let out: Vec<usize> = out.collect();
+    let predicted = if stated && !out.is_empty() {
+        let unit = outside::retest::unit(session, &options);
+        outside::retest::predicted(session, &out, left_out, unit, &options)
+    } else {
+        HashMap::new()
+    };
+    let doubted = |advice: &Advice| matches!(advice, Advice::Suspected { .. } | Advice::SigmasTooSmall { .. });
+    let failed = adjustment.global_test.as_ref().is_some_and(|test| test.statistic > test.upper);
+    let taken_out = left_out.given.iter().any(|key| matches!(key, Key::Control(..)));
+    let adjusted: HashSet<&str> = adjustment.points.iter().map(|point| point.id.as_str()).collect();
+    let control = document.points.iter().filter(|p| p.role == Role::Control && p.xyz.is_some());
+    let without = control.into_iter().any(|p| !adjusted.contains(p.id.as_str()));
+    let asked = failed || taken_out || without || adjustment.advice.iter().any(doubted);
+    let mut found = None;
+    if document.datum.kind == DatumKind::Control && stated && asked {
+        let numbering = session.numbering;
+        found = outside::control::compare(&report::values::applied(session), numbering, &options);
+    }
+    let found = found.unwrap_or_default();
+    adjustment.left_out = outside::list::left_out(document, adjustment, &predicted, &found.compared);
+    let mut advice = advice_on_control(document, &found);
+    advice.append(&mut adjustment.advice);
+    adjustment.advice = advice;
+    let pairs = double_points(document, adjustment);
+    if !pairs.is_empty() {
+        adjustment.advice.push(Advice::DoublePoints { pairs });
+    }
+}
+
+/// What is wrong with control: exchanged pairs, then points by themselves, the largest first.
+fn advice_on_control(document: &Project, found: &Findings) -> Vec<Advice> {
+    let (exchanged, wrong) = control_faults(document, found);
+    let exchanged = exchanged.into_iter().map(|points| Advice::ExchangedPoints { points });
+    let wrong = wrong.into_iter();
+    let wrong = wrong.map(|(point, difference, sigma_ratio)| Advice::ControlMisfit { point, difference, sigma_ratio });
+    exchanged.chain(wrong).collect()
+}
+
+/// A control point, given minus seen, and the size of that in standard errors.
+pub(crate) type ControlFault = (String, [f64; 3], f64);
+
+fn control_faults(document: &Project, found: &Findings) -> (Vec<[String; 2]>, Vec<ControlFault>) {
+    let id = |k: usize| document.points[k].id.clone();
+    let mut wrong: Vec<&Comparison> = found.compared.iter().filter(|c| c.wrong).collect();
+    wrong.sort_by(|a, b| b.ratio.total_cmp(&a.ratio));
+    let exchanged = |c: &&&Comparison| !found.exchanged.iter().any(|pair| pair.contains(&c.point));
+    (
+        found.exchanged.iter().map(|pair| pair.map(id)).collect(),
+        wrong.iter().filter(exchanged).map(|c| (id(c.point), c.difference, c.ratio)).collect(),
+    )
+}
+
+/// Exchanged pairs and wrong control points of an oriented document, as its photos, oriented by the other control points, see them;
+/// under the control datum, whatever the document's is. Nothing where it cannot be adjusted.
+pub(crate) fn wrong_control(project: &Project) -> (Vec<[String; 2]>, Vec<ControlFault>) {
+    let datum = Datum { kind: DatumKind::Control, points: None };
+    let project = Project { datum, ..project.clone() };
+    let found = outside::control::compare(&project, &Numbering::of(&project), &AdjustOptions::default());
+    control_faults(&project, &found.unwrap_or_default())
+}
+
+/// Pairs of adjusted points that may be one.
+fn double_points(document: &Project, adjustment: &Adjustment) -> Vec<(String, String)> {
+    let photos: HashMap<&str, usize> = document.photos.iter().enumerate().map(|(k, p)| (p.id.as_str(), k)).collect();
+    let mut places: HashMap<&str, Vec<(usize, [f64; 2])>> = HashMap::new();
+    for (o, _) in document.observations.iter().zip(&adjustment.observations).filter(|(_, adjusted)| adjusted.enabled) {
+        places.entry(&o.point).or_default().push((photos[o.photo.as_str()], [o.u, o.v]));
+    }
+    let candidate = |point: &AdjustedPoint| -> Option<(String, Candidate)> {
+        let [xx, xy, xz, yy, yz, zz] = point.covariance?;
+        let mut places = places.get(point.id.as_str()).cloned().unwrap_or_default();
+        places.sort_unstable_by_key(|place| place.0);
+        let covariance = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        Some((point.id.clone(), Candidate { xyz: point.xyz.into(), covariance, places }))
+    };
+    let (ids, candidates): (Vec<String>, Vec<Candidate>) = adjustment.points.iter().filter_map(candidate).unzip();
+    let pairs = pairs_of_one(&candidates).into_iter();
+    pairs.map(|[a, b]| (ids[a].clone(), ids[b].clone())).collect()
 }
 
 /// Measures the project's features and systems on an adjustment that was made of it before they were there. The equations are
@@ -235,7 +330,8 @@ pub(crate) fn groups_of(defect: &Defect, project: &Project, numbering: &Numberin
 }
 
 /// The project with the adjusted values as new initial values. What is given stays as given: control and check
-/// coordinates, observed projection centres and observed parameters.
+/// coordinates, observed projection centres and observed parameters. What an orientation had set aside and the adjustment has taken back
+/// is enabled.
 pub fn apply(project: &Project, adjustment: &Adjustment) -> Project {
     let mut applied = project.clone();
     for adjusted in &adjustment.cameras {
@@ -251,7 +347,7 @@ pub fn apply(project: &Project, adjustment: &Adjustment) -> Project {
             Some(id) => applied.photos.iter_mut().filter(|p| p.id == *id).for_each(|p| p.interior = Some(interior)),
         }
     }
-    let photos: std::collections::HashMap<&str, _> = adjustment.photos.iter().map(|p| (p.id.as_str(), p)).collect();
+    let photos: HashMap<&str, _> = adjustment.photos.iter().map(|p| (p.id.as_str(), p)).collect();
     for photo in &mut applied.photos {
         if let Some(adjusted) = photos.get(photo.id.as_str()) {
             if photo.sigma_position.is_none() {
@@ -260,11 +356,19 @@ pub fn apply(project: &Project, adjustment: &Adjustment) -> Project {
             photo.rotation = Some(adjusted.rotation);
         }
     }
-    let points: std::collections::HashMap<&str, _> = adjustment.points.iter().map(|p| (p.id.as_str(), p)).collect();
+    let points: HashMap<&str, _> = adjustment.points.iter().map(|p| (p.id.as_str(), p)).collect();
     for point in applied.points.iter_mut().filter(|p| p.role == Role::Tie) {
         if let Some(adjusted) = points.get(point.id.as_str()) {
             point.xyz = Some(adjusted.xyz);
         }
     }
+    // What was set aside and has taken part all the same is set aside no more.
+    let rows = applied.observations.iter_mut().zip(&adjustment.observations);
+    let mut back = HashSet::new();
+    for (observation, adjusted) in rows.filter(|(o, adjusted)| !o.enabled && adjusted.enabled) {
+        observation.enabled = true;
+        back.insert((adjusted.photo.as_str(), adjusted.point.as_str()));
+    }
+    applied.set_aside.retain(|aside| !back.contains(&(aside.photo.as_str(), aside.point.as_str())));
     applied
 }

@@ -7,6 +7,7 @@ mod camera;
 pub(crate) mod criteria;
 mod features;
 mod given;
+mod left_out;
 
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +18,7 @@ pub use criteria::Criteria;
 pub(crate) use criteria::is_distortion;
 pub use features::{FeatureResidual, Measured, MeasuredFeature, MeasuredSystem, Quantity, SystemPoint};
 pub use given::{Given, GivenObservation, GrossError, GrossErrorAction};
+pub use left_out::{LeftOutBy, LeftOutItem, LeftOutKind, LeftOutReason};
 
 /// How the iteration ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -467,6 +469,25 @@ pub enum Advice {
         /// Observations of other kinds, with w.
         given: Vec<(Given, f64)>,
     },
+    /// A control point's given coordinates are not where the photos see it.
+    ControlMisfit {
+        /// The point.
+        point: String,
+        /// Given minus seen, in the project's unit; seen: from everything else, without the point's own coordinates.
+        difference: [f64; 3],
+        /// Size of the difference in its standard errors, from the full covariance of both.
+        sigma_ratio: f64,
+    },
+    /// Two control points whose given coordinates fit when they are exchanged.
+    ExchangedPoints {
+        /// The points.
+        points: [String; 2],
+    },
+    /// Points nearer to each other than their standard errors tell apart: one target under two names, most often.
+    DoublePoints {
+        /// The pairs.
+        pairs: Vec<(String, String)>,
+    },
 }
 
 impl Advice {
@@ -548,6 +569,9 @@ pub struct Adjustment {
     /// What the network is weak in.
     #[serde(default)]
     pub advice: Vec<Advice>,
+    /// Every item of the input that took no part; empty when all took part.
+    #[serde(default)]
+    pub left_out: Vec<LeftOutItem>,
     /// Covariance matrix of the points asked for, three rows each in their order; null when none were.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Covariance>,

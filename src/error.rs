@@ -245,6 +245,13 @@ pub enum Error {
         /// The causes, most elementary first.
         defects: Vec<Defect>,
     },
+    /// So few control points agree with each other and with the photos that it cannot be told which of them are wrong.
+    ControlDisagrees {
+        /// Control points that agree.
+        agreeing: Vec<String>,
+        /// Control points whose measurements were all set aside, since they disagree.
+        disagreeing: Vec<String>,
+    },
     /// Initial orientation found no way in.
     CannotOrient {
         /// Why there are no initial values.
@@ -270,6 +277,7 @@ impl Error {
             Self::Empty { .. } => "empty",
             Self::MissingInitialValues { .. } => "missing_initial_values",
             Self::RankDefect { .. } => "rank_defect",
+            Self::ControlDisagrees { .. } => "control_disagrees",
             Self::CannotOrient { .. } => "cannot_orient",
             Self::Cancelled => "cancelled",
         }
@@ -303,6 +311,9 @@ impl Error {
             },
             Self::CannotOrient { photos, .. } => Place { photo: photos.first().cloned(), ..Place::default() },
             Self::RankDefect { defects } => defects.first().map(Defect::place).unwrap_or_default(),
+            Self::ControlDisagrees { disagreeing, .. } => {
+                Place { point: disagreeing.first().cloned(), ..Place::default() }
+            }
             Self::Empty { what } => Place::field(what.name()),
             Self::Cancelled => Place::default(),
         }
@@ -489,6 +500,18 @@ impl fmt::Display for Error {
             Self::RankDefect { defects } => {
                 f.write_str("the network cannot be solved: ")?;
                 f.write_str(&defects.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))?;
+            }
+            Self::ControlDisagrees { agreeing, disagreeing } => {
+                write!(
+                    f,
+                    "control points {} do not fit the photos and the other control points; ",
+                    listed(disagreeing)
+                )?;
+                match agreeing.len() {
+                    0 => f.write_str("none does")?,
+                    n => write!(f, "only {n} do ({})", listed(agreeing))?,
+                }
+                f.write_str(": at least four, and half of all, must agree; check coordinates, axes, unit and names")?;
             }
             Self::CannotOrient { reason, photos } => {
                 reason.fmt(f)?;

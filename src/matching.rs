@@ -5,8 +5,11 @@ mod coded;
 mod epipolar;
 mod epipolar_line;
 mod gross;
+mod join;
 mod photo;
+mod poses;
 mod predict;
+mod rounds;
 mod snap;
 mod uncoded;
 

@@ -16,6 +16,7 @@ mod ambiguity;
 mod aside;
 mod block;
 mod bridge;
+mod doubles;
 mod evidence;
 mod growth;
 mod models;
@@ -28,6 +29,7 @@ mod refine;
 mod remaining;
 mod second_look;
 mod seed;
+mod tied;
 mod ties;
 mod trial;
 
@@ -92,9 +94,13 @@ pub fn orient(project: &Project) -> Result<Oriented> {
     notes.extend(ambiguity::notes(project, &block));
     notes.extend(note::of_points(project, &block));
     notes.extend(note::of_observations(project, &block));
+    let doubles = doubles::notes(project, &block);
     let mut project = filled(project, &block);
     set_aside(&mut project, &block);
+    notes.extend(note::of_control(&project, frame));
+    notes.extend(doubles);
     if frame == Some(Frame::Own) {
+        aside::set_control_aside(&mut project);
         // Directions given in another system mean nothing in this one.
         project.points.iter_mut().for_each(|point| point.normal = None);
     }
@@ -152,6 +158,7 @@ impl Attempt {
         let mut looked = borne.clone();
         let mut settled;
         loop {
+            tied::release(&mut block);
             readmission::readmit(&mut block);
             settled = trial::settle(&mut block, as_project);
             let trial = as_project(&block);

@@ -52,7 +52,8 @@ pub struct Project {
     /// Datum.
     #[serde(default)]
     pub datum: Datum,
-    /// Observations that the last orientation disabled, with the reason; the next one looks at them anew.
+    /// Observations that the last orientation (or matching) disabled, with the reason; the next orientation looks at them anew, and an
+    /// adjustment takes back what fits.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub set_aside: Vec<SetAside>,
     /// What is measured on the result.
@@ -248,8 +249,8 @@ pub struct Observation {
     pub target: Option<u32>,
 }
 
-/// An image observation that orientation disabled.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// An image observation that orientation, or the search for wrong names after matching, disabled.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SetAside {
     /// Identifier of the photo.
     #[serde(deserialize_with = "identifier")]
@@ -259,6 +260,29 @@ pub struct SetAside {
     pub point: String,
     /// Why.
     pub reason: SetAsideReason,
+    /// Its distance from where its point should have been, pixels; null where no place was known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distance_px: Option<f64>,
+    /// What set it aside.
+    #[serde(default, skip_serializing_if = "SetAsideBy::is_orientation")]
+    pub by: SetAsideBy,
+}
+
+/// What set an observation aside.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SetAsideBy {
+    /// Orientation.
+    #[default]
+    Orientation,
+    /// The search for wrong names after matching.
+    Matching,
+}
+
+impl SetAsideBy {
+    fn is_orientation(&self) -> bool {
+        *self == Self::Orientation
+    }
 }
 
 /// Why an observation was set aside.
@@ -271,6 +295,8 @@ pub enum SetAsideReason {
     PhotoNotOriented,
     /// Its point could not be determined.
     PointNotDetermined,
+    /// As many observations of its point speak for another place as for this one: which are right cannot be decided.
+    Undecided,
 }
 
 /// A measured distance between two points (scale bar).

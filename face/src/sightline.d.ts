@@ -194,7 +194,16 @@ export interface Project {
   distances?: Distance[];
   datum?: Datum;
   /** Observations that the last orientation disabled, with the reason; the next one looks at them anew. */
-  set_aside?: { photo: string; point: string; reason: "disagrees" | "photo_not_oriented" | "point_not_determined" }[];
+  set_aside?: {
+    photo: string;
+    point: string;
+    /** undecided: as many observations of the point speak for another place as for this one. */
+    reason: "disagrees" | "photo_not_oriented" | "point_not_determined" | "undecided";
+    /** Distance from where the point should have been. */
+    distance_px?: number | null;
+    /** ["orientation"] */
+    by?: "orientation" | "matching";
+  }[];
   /** What is measured on every result of this document. */
   features?: Feature[];
   /** Coordinate systems laid through every result. */
@@ -484,8 +493,42 @@ export type Advice =
     }
   /** Observations whose |w| exceeds the critical value, told where the largest is too large for one of so many: image observations with the
    * largest (at most 20), others. */
-  | { kind: "suspected"; count: number; observations: [string, string, number][]; given: [Given, number][] };
+  | { kind: "suspected"; count: number; observations: [string, string, number][]; given: [Given, number][] }
+  /** Given minus where everything else sees the point, and its size in standard errors of the difference. */
+  | { kind: "control_misfit"; point: string; difference: [number, number, number]; sigma_ratio: number }
+  /** Two control points whose coordinates fit when they are exchanged. */
+  | { kind: "exchanged_points"; points: [string, string] }
+  /** Points nearer to each other than their standard errors tell apart. */
+  | { kind: "double_points"; pairs: [string, string][] };
 
+/** An item of the input that took no part in the adjustment. */
+export interface LeftOut {
+  /** control: a control point, or one of its coordinates (`given` has the axis). */
+  kind: "observation" | "control" | "distance" | "point" | "photo" | "position" | "parameter";
+  photo?: string;
+  point?: string;
+  /** What was observed, of other kinds than image coordinates: ends of a distance, axis of a coordinate. */
+  given?: Given;
+  /** document: somebody disabled it; adjustment: what it depends on did not take part. */
+  by: "orientation" | "matching" | "snooping" | "robust" | "document" | "adjustment";
+  reason:
+    | "disagrees"
+    | "photo_not_oriented"
+    | "point_not_determined"
+    | "undecided"
+    | "gross_error"
+    | "consequence"
+    | "no_weight"
+    | "disabled"
+    | "photo_disabled"
+    | "not_measured";
+  /** Image observations: distance from where the adjusted values place it. */
+  size_px?: number;
+  /** Others: adjusted minus given; of a control point the distance of the given coordinates from where the photos see it. */
+  size?: number;
+  /** The same in standard errors of the difference; absent without statistics. */
+  size_sigma?: number;
+}
 
 /** An estimated variance component. */
 export interface VarianceComponent {
@@ -582,6 +625,8 @@ export interface Adjustment {
   /** There when asked for. */
   variance_components?: VarianceComponent[];
   advice: Advice[];
+  /** Every item of the input that took no part; empty when all took part. */
+  left_out: LeftOut[];
   /** Of the points asked for, three rows each in their order. */
   covariance?: { points: string[]; matrix: number[][] };
   /** The document's features, measured on this result. */
@@ -905,8 +950,16 @@ export type Note =
       | { why: "seen_once" | "behind_camera"; photo: string }
       | { why: "too_few_oriented_photos"; photos: number }
       | { why: "near_parallel"; angle: number }
+      /** As many rays meet in one place as in another: the photos of each. */
+      | { why: "undecided"; first: string[]; second: string[] }
     ))
-  | { note: "measurement_disagrees"; photo: string; point: string; distance_px: number | null };
+  | { note: "measurement_disagrees"; photo: string; point: string; distance_px: number | null }
+  /** Given minus where the photos see the point, oriented by the other control points; its size in standard errors of both. */
+  | { note: "control_misfit"; point: string; difference: [number, number, number]; sigma_ratio: number }
+  /** Two control points whose coordinates fit when they are exchanged. */
+  | { note: "exchanged_points"; points: [string, string] }
+  /** Points nearer to each other than their standard errors tell apart. */
+  | { note: "double_points"; pairs: [string, string][] };
 
 export interface OrientedProject extends Project {
   notes: Note[];

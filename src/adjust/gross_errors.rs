@@ -1,7 +1,7 @@
 //! The search for gross errors: a robust start, data snooping and robust weights.
 
 mod reweighting;
-mod robust;
+pub mod robust;
 pub mod search;
 pub mod snooping;
 pub mod start;

@@ -79,7 +79,7 @@ pub enum Given {
 pub enum GrossErrorAction {
     /// Taken out by data snooping.
     Removed,
-    /// Taken back by data snooping.
+    /// Taken back by data snooping; in round 0 what orientation had set aside and fits, tested with its full covariance.
     Restored,
     /// Weighted down by less than half.
     Downweighted,

@@ -12,7 +12,7 @@ use crate::adjustment::{AdjustOptions, Adjustment, Iteration, Robust};
 use crate::error::Result;
 use crate::initial::intersection::{Ray, intersect};
 use crate::initial::robust::scale;
-use crate::project::{Project, Role};
+use crate::project::{Project, Role, SetAside, SetAsideBy, SetAsideReason};
 
 /// Robust standard deviations beyond which a ray does not belong to its point, and pixels it may be off in any case.
 const LIMIT_SIGMAS: f64 = 7.0;
@@ -54,6 +54,13 @@ pub fn without_gross_errors(
         for k in wrong {
             let observation = &mut project.observations[k];
             observation.enabled = false;
+            project.set_aside.push(SetAside {
+                photo: observation.photo.clone(),
+                point: observation.point.clone(),
+                reason: SetAsideReason::Disagrees,
+                distance_px: None,
+                by: SetAsideBy::Matching,
+            });
             removed.push(Doubtful {
                 photo: observation.photo.clone(),
                 u: observation.u,

@@ -41,8 +41,17 @@ impl OrientedPhoto {
 
     /// Whether an object point falls onto the sensor.
     pub fn shows(&self, point: &Vector3<f64>) -> bool {
+        self.on_sensor(self.pose.to_camera(point))
+    }
+
+    /// Whether ideal coordinates fall onto the sensor.
+    pub fn images(&self, [x, y]: [f64; 2]) -> bool {
+        self.on_sensor(Vector3::new(x, y, -1.0))
+    }
+
+    fn on_sensor(&self, in_camera: Vector3<f64>) -> bool {
         let (width, height) = (f64::from(self.camera.width), f64::from(self.camera.height));
-        pixel_from_camera_point(&self.camera, self.pose.to_camera(point))
+        pixel_from_camera_point(&self.camera, in_camera)
             .is_some_and(|[u, v]| u > 0.0 && v > 0.0 && u < width && v < height)
     }
 }

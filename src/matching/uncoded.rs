@@ -61,7 +61,8 @@ pub(super) struct Free {
     pub diameter_px: f64,
     /// Bright or dark.
     pub polarity: Polarity,
-    coded: bool,
+    /// Whether a code names it.
+    pub coded: bool,
 }
 
 /// An oriented photo with its targets.
@@ -76,12 +77,18 @@ pub(super) struct View<'a> {
 /// Names targets of oriented photos that have no name yet.
 ///
 /// `project` is oriented (better: adjusted) and holds the observations named so far; `targets` are all detected ones.
-/// New points are called "u1", "u2" … as far as these identifiers are free.
+/// New points are called "u1", "u2" … as far as these identifiers are free. Matching and adjusting take turns until nothing more is
+/// found ([`super::rounds`]); the project is left as it is.
 ///
 /// # Errors
 /// Those of [`Project::validate`]. Photos without orientation, and targets of photos that do not exist, are passed over.
 pub fn match_uncoded(project: &Project, targets: &[PhotoTargets], options: &MatchOptions) -> Result<Matching> {
     project.validate()?;
+    Ok(super::rounds::settled(project, targets, options))
+}
+
+/// What is found with the orientations and points as they are.
+pub(super) fn one_round(project: &Project, targets: &[PhotoTargets], options: &MatchOptions) -> Matching {
     let mut views = views(project, targets);
     let narrowest = tolerance_px(project, &views);
     let tolerance = options.tolerance_px.unwrap_or(narrowest);
@@ -90,10 +97,10 @@ pub fn match_uncoded(project: &Project, targets: &[PhotoTargets], options: &Matc
     views.iter_mut().for_each(|view| view.free.retain(|f| !f.coded));
     let mut search = Search { bounds: bounds(project), views, tolerance, min_rays: options.min_rays.max(3) };
     search.resolve(narrowest, project, &mut matching);
-    Ok(matching)
+    matching
 }
 
-fn views<'a>(project: &Project, targets: &'a [PhotoTargets]) -> Vec<View<'a>> {
+pub(super) fn views<'a>(project: &Project, targets: &'a [PhotoTargets]) -> Vec<View<'a>> {
     let by_photo: BTreeMap<&str, &PhotoTargets> = targets.iter().map(|t| (t.photo.as_str(), t)).collect();
     let mut named: BTreeMap<&str, Vec<[f64; 2]>> = BTreeMap::new();
     for o in project.observations.iter().filter(|o| o.enabled) {
@@ -118,7 +125,7 @@ fn views<'a>(project: &Project, targets: &'a [PhotoTargets]) -> Vec<View<'a>> {
     views
 }
 
-fn tolerance_px(project: &Project, views: &[View]) -> f64 {
+pub(super) fn tolerance_px(project: &Project, views: &[View]) -> f64 {
     let xyz: BTreeMap<&str, Vector3<f64>> =
         project.points.iter().filter_map(|p| Some((p.id.as_str(), Vector3::from(p.xyz?)))).collect();
     let by_id: BTreeMap<&str, &View> = views.iter().map(|v| (v.photo.id.as_str(), v)).collect();

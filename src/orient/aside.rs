@@ -3,7 +3,8 @@
 use std::collections::{HashMap, HashSet};
 
 use super::block::Block;
-use crate::project::{DatumKind, Observation, Project, Role, SetAside, SetAsideReason};
+use super::tied;
+use crate::project::{DatumKind, Observation, Project, Role, SetAside, SetAsideBy, SetAsideReason};
 
 /// Measurements a photo needs at least.
 const FEWEST: usize = 3;
@@ -41,6 +42,9 @@ pub(super) fn set_aside(project: &mut Project, block: &Block) {
         .map(|&row| (photo_at[&project.observations[row].photo], point_at[&project.observations[row].point]))
         .collect();
     let controlled = project.datum.kind == DatumKind::Control;
+    let undecided: HashSet<usize> = (0..project.points.len())
+        .filter(|&k| project.points[k].xyz.is_none() && tied::sides(block, k).is_some())
+        .collect();
     let mut reasons: Vec<Option<SetAsideReason>> = places
         .iter()
         .enumerate()
@@ -48,6 +52,8 @@ pub(super) fn set_aside(project: &mut Project, block: &Block) {
             let posed = project.photos[photo].position.is_some() && project.photos[photo].rotation.is_some();
             if !posed {
                 Some(SetAsideReason::PhotoNotOriented)
+            } else if undecided.contains(&point) {
+                Some(SetAsideReason::Undecided)
             } else if project.points[point].xyz.is_none() {
                 Some(SetAsideReason::PointNotDetermined)
             } else {
@@ -77,14 +83,44 @@ pub(super) fn set_aside(project: &mut Project, block: &Block) {
         }
     }
     let mut listed = Vec::new();
-    for (row, reason) in rows.into_iter().zip(reasons) {
+    for (sight, (row, reason)) in rows.into_iter().zip(reasons).enumerate() {
         let observation = &mut project.observations[row];
         observation.enabled = reason.is_none();
         listed.extend(reason.map(|reason| SetAside {
             photo: observation.photo.clone(),
             point: observation.point.clone(),
             reason,
+            distance_px: block.misfit_px(sight).filter(|px| px.is_finite()),
+            by: SetAsideBy::Orientation,
         }));
     }
     project.set_aside = listed;
+}
+
+/// Control points that decide the system of the adjustment, at least.
+const DATUM: usize = 3;
+
+/// Sets control aside that did not agree so far that the photos could be oriented by it: they are in a system of their own, in which given
+/// coordinates mean nothing.
+pub(super) fn set_control_aside(project: &mut Project) {
+    let control: HashSet<&str> =
+        project.points.iter().filter(|p| p.role == Role::Control && p.xyz.is_some()).map(|p| p.id.as_str()).collect();
+    let rows: Vec<usize> = (0..project.observations.len())
+        .filter(|&row| project.observations[row].enabled && control.contains(project.observations[row].point.as_str()))
+        .collect();
+    let measured: HashSet<&str> = rows.iter().map(|&row| project.observations[row].point.as_str()).collect();
+    if project.datum.kind != DatumKind::Control || measured.len() < DATUM {
+        return;
+    }
+    for row in rows {
+        let observation = &mut project.observations[row];
+        observation.enabled = false;
+        project.set_aside.push(SetAside {
+            photo: observation.photo.clone(),
+            point: observation.point.clone(),
+            reason: SetAsideReason::Disagrees,
+            distance_px: None,
+            by: SetAsideBy::Orientation,
+        });
+    }
 }

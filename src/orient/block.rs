@@ -3,10 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::camera::ideal_from_pixel;
 use crate::initial::intersection::{Intersection, Ray, intersect};
+use crate::initial::pose::image_jacobian;
 use crate::initial::robust::scale;
 use crate::initial::{Degeneracy, Pose};
 use crate::project::{Camera, Interior, LensColour, Parameter, Photo, Project, Role};
@@ -91,7 +92,7 @@ pub(super) struct Block {
 }
 
 /// Tolerances within which a ray is near the point of a pair: two rays place a point less well than all of them.
-const NEAR_A_PAIR: f64 = 4.0;
+pub(super) const NEAR_A_PAIR: f64 = 4.0;
 /// Among so many rays no other set is looked for once this share of them meets.
 const MANY: usize = 5;
 const MOST: f64 = 0.7;
@@ -340,6 +341,7 @@ impl Block {
         }
         let mut best: Option<(usize, f64, Intersection, Vec<usize>)> = None;
         let mut distinct = 0;
+        let mut largest: Vec<Vec<usize>> = Vec::new();
         for [a, b] in pairs_of(rays.len()) {
             let Ok(seed) = chosen(&[a, b]) else { continue };
             if excess(&seed.point, a).max(excess(&seed.point, b)) > 1.0 {
@@ -371,15 +373,21 @@ impl Block {
             let as_large = best.as_ref().is_some_and(|(n, ..)| set.len() == *n);
             if better && !as_large {
                 distinct = 1;
+                largest.clear();
             } else if as_large && !same {
                 distinct += 1;
+            }
+            if better || as_large {
+                largest.push(set.clone());
             }
             if better {
                 best = Some((set.len(), rms, found, set));
             }
         }
         let Some((size, _, found, set)) = best else { return Err(all.err().unwrap_or(Degeneracy::NoSolution)) };
-        if size == 2 && (rays.len() > 3 || distinct > 1) {
+        // As many rays meet elsewhere: nothing decides between the two places.
+        let tied = largest.iter().any(|other| !other.iter().any(|k| set.contains(k)));
+        if tied || size == 2 && (rays.len() > 3 || distinct > 1) {
             return Err(Degeneracy::NoSolution);
         }
         let out = everything.iter().filter(|k| !set.contains(k)).map(|&k| which[k]).collect();
@@ -445,15 +453,36 @@ impl Block {
     /// Largest misfit of a measurement that agrees. Wide, because what a rough model leaves is systematic: it is the
     /// wrong names, tens of pixels off, that have to stay out.
     pub fn limit_px(&self, sight: usize) -> f64 {
-        let own = self.sights[sight].sigma_px.min(ROUGH * longer_side(&self.cameras[0]));
-        (AGREEING * self.noise_px.unwrap_or(own).max(own)).max(SMALLEST_LIMIT_PX)
+        let camera = &self.cameras[self.views[self.sights[sight].photo].camera];
+        let own = self.sights[sight].sigma_px.min(ROUGH * longer_side(camera));
+        let limit = (AGREEING * self.noise_px.unwrap_or(own).max(own)).max(SMALLEST_LIMIT_PX);
+        limit.hypot(AGREEING * self.control_px(sight))
+    }
+
+    /// Standard error, in the photo, of where given coordinates of a control point place it, the larger half axis: what is measured there
+    /// may be off by so much without being wrong. 0 for other points, and for coordinates that are held.
+    fn control_px(&self, sight: usize) -> f64 {
+        let s = &self.sights[sight];
+        let mark = &self.marks[s.point];
+        let sigma = mark.sigma.filter(|_| self.anchored && mark.control && mark.known.is_some());
+        let (Some(sigma), Some(pose), Some(xyz)) = (sigma, self.views[s.photo].pose, mark.xyz) else { return 0.0 };
+        let sigma = Vector3::from(sigma.map(|s| s.filter(|s| *s > 0.0 && s.is_finite()).unwrap_or(0.0)));
+        let to_camera = pose.to_camera(&xyz);
+        if sigma == Vector3::zeros() || to_camera.z >= 0.0 {
+            return 0.0;
+        }
+        let by_point = image_jacobian(&to_camera) * pose.object_to_camera * Matrix3::from_diagonal(&sigma);
+        let c = by_point * by_point.transpose();
+        let (mean, half) = (0.5 * (c.m11 + c.m22), 0.5 * (c.m11 - c.m22));
+        let larger = (mean + half.hypot(c.m12)).sqrt() * self.pixels_per_unit(s.photo);
+        if larger.is_finite() { larger } else { 0.0 }
     }
 
     /// Whether a measurement is called wrong: it is far from its point, or its point's other rays leave no place to
     /// compare it with. Tails of real measurements, which an adjustment's own tests judge, are not.
     pub fn is_wrong(&self, sight: usize) -> bool {
         let noise = self.noise_px.unwrap_or(0.0).max(self.sights[sight].sigma_px);
-        let limit = (WRONG * noise).max(SMALLEST_WRONG_PX);
+        let limit = (WRONG * noise).max(SMALLEST_WRONG_PX).hypot(AGREEING * self.control_px(sight));
         !self.sights[sight].taken && self.misfit_px(sight).is_some_and(|misfit| misfit > limit)
     }
 
@@ -487,7 +516,7 @@ impl Block {
 }
 
 /// Pairs of `count` rays: all of few, the ones with every later distance in the list for many.
-fn pairs_of(count: usize) -> Vec<[usize; 2]> {
+pub(super) fn pairs_of(count: usize) -> Vec<[usize; 2]> {
     if count <= 8 {
         return (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b])).collect();
     }

@@ -4,8 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::absolute::Frame;
 use super::block::{Block, principal_distance_px};
+use super::tied;
+use crate::adjust::wrong_control;
 use crate::initial::Degeneracy;
-use crate::project::{Project, Role};
+use crate::project::{DatumKind, Project, Role};
 
 /// Where a principal distance that was missing comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -94,6 +96,13 @@ pub enum PointReason {
     RaysDisagree,
     /// It is a control or check point without coordinates.
     CoordinatesMissing,
+    /// As many of its rays meet in one place as in another: one name for two targets, and nothing tells which is meant.
+    Undecided {
+        /// Photos whose rays meet in the one place.
+        first: Vec<String>,
+        /// Photos whose rays meet in the other.
+        second: Vec<String>,
+    },
 }
 
 /// Something to say about an orientation.
@@ -174,6 +183,25 @@ pub enum Note {
         point: String,
         /// Its distance from where the point should be, pixels; null behind the camera.
         distance_px: Option<f64>,
+    },
+    /// A control point's given coordinates are not where the photos see it, oriented by the other control points.
+    ControlMisfit {
+        /// The point.
+        point: String,
+        /// Given minus seen, in the project's unit.
+        difference: [f64; 3],
+        /// Size of the difference in its standard errors, those of both.
+        sigma_ratio: f64,
+    },
+    /// Two control points whose given coordinates fit when they are exchanged.
+    ExchangedPoints {
+        /// The points.
+        points: [String; 2],
+    },
+    /// Points nearer to each other than their standard errors tell apart: one target under two names, most often.
+    DoublePoints {
+        /// The pairs.
+        pairs: Vec<(String, String)>,
     },
 }
 
@@ -270,10 +298,16 @@ pub(super) fn of_points(project: &Project, block: &Block) -> Vec<Note> {
         } else {
             let oriented: Vec<usize> =
                 mark.sights.iter().copied().filter(|&s| block.views[block.sights[s].photo].pose.is_some()).collect();
+            let sides = tied::sides(block, k);
             match (mark.sights.len(), oriented.len()) {
                 (0, _) => PointReason::NotMeasured,
                 (1, _) => PointReason::SeenOnce { photo: photo_of(mark.sights[0]) },
                 (_, photos @ (0 | 1)) => PointReason::TooFewOrientedPhotos { photos },
+                _ if sides.is_some() => {
+                    let named = |side: Vec<usize>| -> Vec<String> { side.into_iter().map(photo_of).collect() };
+                    let [first, second] = sides.unwrap_or_default().map(named);
+                    PointReason::Undecided { first, second }
+                }
                 _ => match block.intersection(k) {
                     Err(Degeneracy::NearParallel { angle }) => PointReason::NearParallel { angle },
                     Err(Degeneracy::BehindCamera { ray }) => {
@@ -302,4 +336,17 @@ pub(super) fn of_observations(project: &Project, block: &Block) -> Vec<Note> {
             })
         })
         .collect()
+}
+
+/// Control points that are not where the photos see them. The project is the oriented one.
+pub(super) fn of_control(oriented: &Project, frame: Option<Frame>) -> Vec<Note> {
+    let controlled = oriented.datum.kind == DatumKind::Control || frame == Some(Frame::Known);
+    if !controlled {
+        return Vec::new();
+    }
+    let (exchanged, wrong) = wrong_control(oriented);
+    let exchanged = exchanged.into_iter().map(|points| Note::ExchangedPoints { points });
+    let wrong = wrong.into_iter();
+    let wrong = wrong.map(|(point, difference, sigma_ratio)| Note::ControlMisfit { point, difference, sigma_ratio });
+    exchanged.chain(wrong).collect()
 }

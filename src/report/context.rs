@@ -1,12 +1,12 @@
 //! What every section reads: document, result, words, and the digits that numbers of a kind have.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::names;
 use super::number::{decimals_for, fixed, maybe};
 use super::texts::{Words, words};
 use crate::adjustment::{AdjustedObservation, Adjustment, Given};
-use crate::project::{Camera, Project, ReportLanguage, ReportSettings, Role};
+use crate::project::{Camera, Point, Project, ReportLanguage, ReportSettings, Role};
 
 /// What every section reads.
 pub struct Context<'a> {
@@ -100,6 +100,13 @@ impl<'a> Context<'a> {
             Role::Control => self.words.role_control(),
             Role::Check => self.words.role_check(),
         }
+    }
+
+    /// Control points that took part.
+    pub fn used_control(&self) -> impl Iterator<Item = &'a Point> {
+        let adjusted: HashSet<&str> = self.adjustment.points.iter().map(|point| point.id.as_str()).collect();
+        let control = self.project.points.iter().filter(|p| p.role == Role::Control && p.xyz.is_some());
+        control.filter(move |p| adjusted.contains(p.id.as_str()))
     }
 
     /// What was observed, by name.

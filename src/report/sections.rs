@@ -6,6 +6,7 @@ mod control;
 mod cover;
 mod features;
 mod gross_errors;
+mod left_out;
 mod lengths;
 mod network;
 mod observations;

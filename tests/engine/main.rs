@@ -45,6 +45,8 @@ mod experiments {
 
 /// From names to initial values.
 mod orient {
+    mod doubles;
+    mod left_out;
     mod naming;
     mod orientation;
     mod seeded;

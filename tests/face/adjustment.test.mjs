@@ -59,6 +59,25 @@ test('the fast tables say what the engine itself says', () => {
   assert.equal(applied.cameras[0].c, adjustment.cameras[0].c);
 });
 
+test('what takes no part is listed, whatever took it out', () => {
+  const project = sightline.simulate(network());
+  assert.deepEqual(sightline.adjust(project).left_out, []);
+  const [first, second] = project.observations;
+  Object.assign(first, { enabled: false });
+  Object.assign(second, { enabled: false, u: second.u + 148 });
+  project.set_aside = [first, second].map(({ photo, point }) => ({ photo, point, reason: 'disagrees' }));
+  const adjustment = sightline.adjust(project);
+  // What fits is back, on record.
+  const [item] = adjustment.left_out;
+  assert.equal(adjustment.left_out.length, 1);
+  assert.deepEqual([item.kind, item.photo, item.point, item.by, item.reason], ['observation', second.photo, second.point, 'orientation', 'disagrees']);
+  assert.ok(Math.abs(item.size_px - 148) < 1 && item.size_sigma > 500, JSON.stringify(item));
+  assert.deepEqual(adjustment.gross_errors.map(({ photo, point, action, round }) => [photo, point, action, round]), [[first.photo, first.point, 'restored', 0]]);
+  const applied = sightline.applyAdjustment(project, adjustment);
+  assert.deepEqual(applied.set_aside.map(({ point }) => point), [second.point]);
+  assert.deepEqual(applied.observations.filter(({ enabled }) => !enabled).length, 1);
+});
+
 test('a gross error in a distance is taken out by name, with its record', () => {
   const distances = [['p0', 'p7'], ['p3', 'p12'], ['p5', 'p14']].map(([from, to]) => ({ from, to, sigma: 0.01 }));
   const project = sightline.simulate(network({ distances }));

@@ -1,7 +1,7 @@
 //! Control points, check points and distances with their differences.
 
 use crate::adjustment::{Given, GivenObservation};
-use crate::project::{DatumKind, Role};
+use crate::project::DatumKind;
 use crate::report::context::{Context, listed};
 use crate::report::html::{Html, Table};
 use crate::report::number::{count, decimals_for, decimals_of, fixed, maybe};
@@ -18,7 +18,7 @@ fn fixed_points(context: &Context, html: &mut Html) {
     if context.project.datum.kind != DatumKind::Control {
         return;
     }
-    let control = context.project.points.iter().filter(|p| p.role == Role::Control && p.xyz.is_some());
+    let control = context.used_control();
     let held = |sigma: Option<[Option<f64>; 3]>| sigma.unwrap_or_default().iter().all(|s| s.is_none_or(|s| s == 0.0));
     let held: Vec<&str> = control.filter(|p| held(p.sigma)).map(|p| p.id.as_str()).collect();
     if !held.is_empty() {
@@ -33,7 +33,9 @@ fn observed(context: &Context, html: &mut Html) {
     for given in &context.adjustment.given {
         if matches!(given.what, Given::Control { .. } | Given::Position { .. }) {
             let decimals = decimals_for(given.sigma);
-            let mut row = vec![context.given_kind(&given.what).to_owned(), context.given_name(&given.what)];
+            let taken_out = if given.enabled { String::new() } else { format!(" ({})", words.took_no_part()) };
+            let name = format!("{}{taken_out}", context.given_name(&given.what));
+            let mut row = vec![context.given_kind(&given.what).to_owned(), name];
             row.extend(tested(context, given, decimals));
             table.row_of(class(context, given), row);
         }

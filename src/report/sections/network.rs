@@ -57,8 +57,14 @@ fn weakest(context: &Context) -> Table {
     table
 }
 
+/// The axis along which a difference is largest.
+fn main_axis(difference: &[f64; 3]) -> &'static str {
+    let largest = (0..3).max_by(|&a, &b| difference[a].abs().total_cmp(&difference[b].abs()));
+    ["X", "Y", "Z"][largest.unwrap_or_default()]
+}
+
 /// A weakness in a sentence.
-fn said(context: &Context, advice: &Advice) -> String {
+pub fn said(context: &Context, advice: &Advice) -> String {
     let words = context.words;
     let name = |name: &str| name.parse().map_or(name.to_owned(), |p| parameter_name(p).to_owned());
     let pairs = |all: &[(String, String)]| {
@@ -92,5 +98,12 @@ fn said(context: &Context, advice: &Advice) -> String {
             words.weak_insignificant(camera, &parameter_name(*parameter), &fixed(*ratio, 1))
         }
         Advice::Suspected { count: n, .. } => words.weak_suspected(&count(*n)),
+        Advice::ControlMisfit { point, difference, sigma_ratio } => {
+            let axis = &main_axis(difference);
+            let size = context.with_unit(difference[0].hypot(difference[1]).hypot(difference[2]));
+            words.control_misfit(point, &size, &fixed(*sigma_ratio, 0), axis)
+        }
+        Advice::ExchangedPoints { points: [a, b] } => words.exchanged_points(a, b),
+        Advice::DoublePoints { pairs: all } => words.double_points(&count(all.len()), &pairs(all)),
     }
 }

@@ -5,6 +5,8 @@ use crate::report::context::{Context, largest_w};
 use crate::report::html::{Html, Table};
 use crate::report::number::{count, decimals_for, fixed, maybe};
 
+use super::left_out::LeftOut;
+
 /// So many of the largest are printed.
 const SHOWN: usize = 20;
 
@@ -19,6 +21,10 @@ fn global(context: &Context, html: &mut Html) {
     let (words, a) = (context.words, context.adjustment);
     let criteria = &a.criteria;
     let mut pairs = vec![(words.sigma0_long().to_owned(), maybe(a.sigma0, 4))];
+    let left_out = LeftOut::of(context);
+    if !left_out.is_empty() {
+        pairs.push((words.left_out_short().to_owned(), left_out.sentence(context)));
+    }
     if let Some(test) = &a.global_test {
         let verdict = if test.passed { words.passed() } else { words.failed() };
         let interval = format!("{} … {}", fixed(test.lower, 1), fixed(test.upper, 1));

@@ -1,12 +1,12 @@
 //! What a client reads: what was measured, how accurate it is, on what it stands, what was left out.
 
 use crate::adjustment::Termination;
-use crate::project::{DatumKind, Role};
+use crate::project::DatumKind;
 use crate::report::context::{Context, listed};
 use crate::report::html::{Html, escaped};
 use crate::report::number::{count, fixed};
 
-use super::gross_errors::LeftOut;
+use super::left_out::{self, LeftOut};
 
 pub fn write(context: &Context, html: &mut Html) {
     let (words, adjustment) = (context.words, context.adjustment);
@@ -25,20 +25,22 @@ pub fn write(context: &Context, html: &mut Html) {
     for sentence in [datum(context), scale(context), tested(context)] {
         lead = format!("{lead} {sentence}");
     }
+    let left_out = LeftOut::of(context);
+    if !left_out.is_empty() {
+        lead = format!("{lead} {}", left_out.sentence(context));
+    }
     html.element("p", "lead", &lead);
     accuracy(context, html);
     checked(context, html);
-    let left_out = LeftOut::of(context);
-    html.p(&left_out.sentence(context));
+    left_out::summary(context, html);
 }
 
 /// What the coordinates refer to.
 pub fn datum(context: &Context) -> String {
     let words = context.words;
-    let of = |role| context.project.points.iter().filter(move |p| p.role == role && p.xyz.is_some());
     match context.project.datum.kind {
         DatumKind::Control => {
-            let ids: Vec<&str> = of(Role::Control).map(|point| point.id.as_str()).collect();
+            let ids: Vec<&str> = context.used_control().map(|point| point.id.as_str()).collect();
             words.datum_control(&count(ids.len()), &listed(ids.iter().copied(), 12))
         }
         DatumKind::Free => match &context.project.datum.points {

@@ -2,7 +2,7 @@
 //! Source: JCGM 100:2008 (Guide to the Expression of Uncertainty in Measurement), 6.2 and 7.2.
 
 use crate::adjustment::Given;
-use crate::project::{DatumKind, Role};
+use crate::project::DatumKind;
 use crate::report::context::{Context, listed, smallest};
 use crate::report::html::Html;
 use crate::report::names::parameter_name;
@@ -102,7 +102,7 @@ fn not_included(context: &Context) -> Vec<String> {
         all.push(words.gum_no_scale().to_owned());
     }
     let held = |sigma: Option<[Option<f64>; 3]>| sigma.unwrap_or_default().iter().any(|s| s.is_none_or(|s| s == 0.0));
-    let control = project.points.iter().filter(|p| p.role == Role::Control && p.xyz.is_some() && held(p.sigma));
+    let control = context.used_control().filter(|p| held(p.sigma));
     let control: Vec<&str> = control.map(|p| p.id.as_str()).collect();
     if project.datum.kind == DatumKind::Control && !control.is_empty() {
         all.push(words.gum_control_held(&listed(control.iter().copied(), 8)));

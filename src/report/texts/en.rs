@@ -62,11 +62,30 @@ declare! {
     check_points_agree(n, rms): "{n} check {n:point|points}, known beforehand and not used, differ from the result by {rms} (rms over all axes).";
     no_independent_check: "No check points were measured: there is no independent check of these coordinates.";
     nothing_left_out: "No measurement was left out.";
-    left_out_sentence(parts): "Left out: {parts}.";
-    n_by_snooping(n): "{n} by the search for gross errors";
-    n_by_orientation(n): "{n} by orientation";
-    n_by_hand(n): "{n} by hand";
-    n_photos_off(names): "photos {names}";
+    not_used(parts): "Not used: {parts}.";
+    left_of_observations(n, of): "{n} of {of} image observations";
+    left_of_control(n, of): "{n} of {of} control points";
+    left_of_coordinates(n): "{n} given {n:coordinate|coordinates}";
+    left_of_distances(n, of): "{n} of {of} distances";
+    left_of_photos(n, of): "{n} of {of} photos";
+    left_of_points(n, of): "{n} of {of} object points";
+    left_of_parameters(n): "{n} camera {n:parameter|parameters}";
+    left_largest(names): "The largest that were not used: {names}.";
+    left_out_short: "not used";
+    pixels(n): "{n} px";
+    left_out_by: "by";
+    image_observation: "image observation";
+    control_point: "control point";
+    by_orientation: "orientation";
+    by_matching: "matching";
+    by_snooping: "data snooping";
+    by_robust: "robust weights";
+    by_document: "document";
+    by_adjustment: "adjustment";
+    out_gross_error: "gross error";
+    out_no_weight: "no weight is left";
+    out_photo_disabled: "its photo is switched off in the document";
+    out_not_measured: "not measured in a photo that took part";
 
     // Uncertainty
     gum_statement(u, k, expanded, percent): "The combined standard uncertainty of a coordinate is u = {u} (root mean square over all points and axes). The expanded uncertainty is U = k u = ± {expanded} with the coverage factor k = {k}, for a level of confidence of about {percent} % under a normal distribution. Stated after the Guide to the Expression of Uncertainty in Measurement (JCGM 100:2008, 7.2).";
@@ -157,6 +176,9 @@ declare! {
     weak_unmodelled(sigma0): "The unmodelled part belongs to other weights: σ₀ is {sigma0}.";
     weak_insignificant(camera, name, ratio): "Camera {camera}: {name} is {ratio} of its standard deviations and not told from 0.";
     weak_suspected(n): "{n} {n:observation is|observations are} suspected of a gross error.";
+    control_misfit(point, size, sigmas, axis): "Control point {point} is {size} ({sigmas} sigma) from where the photos see it, mainly in {axis}.";
+    exchanged_points(a, b): "Control points {a} and {b} seem exchanged.";
+    double_points(n, pairs): "{n} {n:pair|pairs} of points are nearer to each other than their standard errors tell apart: {pairs}.";
 
     // Photos
     photo: "photo";
@@ -230,11 +252,11 @@ declare! {
 
     // Left out
     reason: "reason";
-    aside_disagrees: "orientation: disagrees with the other measurements";
-    aside_photo: "orientation: its photo could not be oriented";
-    aside_point: "orientation: its point could not be determined";
+    aside_disagrees: "disagrees with the other measurements";
+    aside_photo: "its photo could not be oriented";
+    aside_point: "its point could not be determined";
+    aside_undecided: "as many observations of its point speak for another place; which are right cannot be decided";
     aside_by_hand: "switched off in the document";
-    left_out_before: "Left out before the adjustment";
     round: "round";
     observation: "observation";
     action: "action";

@@ -59,11 +59,30 @@ translate! { Korean {
     check_points_agree(n, rms): "미리 알고 있으나 쓰지 않은 검사점 {n}점과의 차이는 {rms}입니다(전 축 RMS).";
     no_independent_check: "검사점이 없으므로 이 좌표에 대한 독립적인 점검은 없습니다.";
     nothing_left_out: "제외한 측정값은 없습니다.";
-    left_out_sentence(parts): "제외한 것: {parts}.";
-    n_by_snooping(n): "과대오차 탐색 {n}건";
-    n_by_orientation(n): "표정 {n}건";
-    n_by_hand(n): "사용자 {n}건";
-    n_photos_off(names): "사진 {names}";
+    not_used(parts): "사용하지 않음: {parts}.";
+    left_of_observations(n, of): "영상 관측값 {of}개 중 {n}개";
+    left_of_control(n, of): "기준점 {of}점 중 {n}점";
+    left_of_coordinates(n): "주어진 좌표 {n}개";
+    left_of_distances(n, of): "거리 {of}개 중 {n}개";
+    left_of_photos(n, of): "사진 {of}매 중 {n}매";
+    left_of_points(n, of): "대상점 {of}점 중 {n}점";
+    left_of_parameters(n): "카메라 변수 {n}개";
+    left_largest(names): "사용하지 않은 것 가운데 가장 큰 것: {names}.";
+    left_out_short: "사용하지 않음";
+    pixels(n): "{n} px";
+    left_out_by: "제외한 단계";
+    image_observation: "영상 관측값";
+    control_point: "기준점";
+    by_orientation: "표정";
+    by_matching: "정합";
+    by_snooping: "데이터 스누핑";
+    by_robust: "강인 가중치";
+    by_document: "문서";
+    by_adjustment: "조정";
+    out_gross_error: "과대오차";
+    out_no_weight: "가중치가 남지 않음";
+    out_photo_disabled: "사진이 문서에서 사용 안 함으로 되어 있음";
+    out_not_measured: "사용한 사진에서 측정되지 않음";
 
     // Uncertainty
     gum_statement(u, k, expanded, percent): "좌표의 합성표준불확도는 u = {u}입니다(모든 점과 축의 RMS). 확장불확도는 포함인자 k = {k}일 때 U = k u = ± {expanded}이며, 정규분포에서 신뢰수준은 약 {percent} %입니다. 측정불확도 표현 지침(JCGM 100:2008, 7.2)에 따라 적었습니다.";
@@ -154,6 +173,9 @@ translate! { Korean {
     weak_unmodelled(sigma0): "모형화되지 않은 부분이 다른 가중치의 것입니다(σ₀ {sigma0}).";
     weak_insignificant(camera, name, ratio): "카메라 {camera}: {name} 값은 표준오차의 {ratio}배로 0과 구별되지 않습니다.";
     weak_suspected(n): "관측값 {n}개가 과대오차로 의심됩니다.";
+    control_misfit(point, size, sigmas, axis): "기준점 {point}의 좌표가 사진에서 구한 위치와 {size}({sigmas} 시그마) 다릅니다. 주로 {axis} 방향입니다.";
+    exchanged_points(a, b): "기준점 {a}{a:과|와} {b}의 좌표가 서로 바뀐 것으로 보입니다.";
+    double_points(n, pairs): "표준오차로 구분되지 않을 만큼 가까운 점 {n}쌍: {pairs}.";
 
     // Photos
     photo: "사진";
@@ -227,11 +249,11 @@ translate! { Korean {
 
     // Left out
     reason: "까닭";
-    aside_disagrees: "표정: 다른 측정값과 맞지 않음";
-    aside_photo: "표정: 사진을 표정하지 못함";
-    aside_point: "표정: 점을 결정하지 못함";
+    aside_disagrees: "다른 측정값과 맞지 않음";
+    aside_photo: "사진을 표정하지 못함";
+    aside_point: "점을 결정하지 못함";
+    aside_undecided: "같은 수의 관측값이 다른 위치를 가리켜 어느 쪽이 맞는지 정할 수 없음";
     aside_by_hand: "문서에서 사용 안 함";
-    left_out_before: "조정 전에 제외";
     round: "회";
     observation: "관측값";
     action: "조치";

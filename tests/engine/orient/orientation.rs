@@ -142,7 +142,7 @@ fn marks(project: &mut Project, list: &str, sigma_px: f64, point_first: bool) {
     }
 }
 
-fn camcal(c: Option<f64>) -> Option<Project> {
+pub fn camcal(c: Option<f64>) -> Option<Project> {
     let mut project = Project::default();
     let (width, height) = (2272, 1704);
     let pitch = 5.43764 / f64::from(height);

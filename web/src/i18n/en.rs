@@ -752,6 +752,8 @@ declare! { desk {
     point_behind(photo): "It would lie behind the camera of photo {photo}: look for a wrong name.";
     point_disagrees: "Its rays do not meet: look for a wrong name in one of its photos.";
     point_no_coordinates: "It is a control or check point without coordinates.";
+    point_undecided(first, second):
+        "As many of its rays meet in one place (photos {first}) as in another ({second}): one name for two targets. Decide which is meant.";
     measurement_disagrees(point, photo): "Point {point} in photo {photo} disagrees with the other measurements";
     measurement_disagrees_body: "A wrong name, most often. Look at it, rename or exclude it.";
     behind: "behind";
@@ -885,6 +887,12 @@ declare! { desk {
     behind_camera_body: "Check these names: the solution is turned inside out there.";
     distance_unused(names): "Distances left out: {names}";
     distance_unused_body: "An end of it is not measured in two photos.";
+    control_misfit(point, size, axis): "Control point {point} is {size} from where the photos see it, mainly in {axis}";
+    control_misfit_body: "Check its coordinates and its name in the photos.";
+    exchanged_points(a, b): "Control points {a} and {b} seem exchanged";
+    exchanged_points_body: "With their coordinates exchanged they fit.";
+    double_points(pairs): "Points that may be one: {pairs}";
+    double_points_body: "They are nearer to each other than their standard errors tell apart: give them one name.";
     unsettled: "The search for gross errors came to no end";
     unsettled_body: "Too many observations contradict each other: look at names and control first.";
 }}
@@ -1229,6 +1237,8 @@ declare! { errors {
     empty(what): "the project has no {what} to work on";
     initial_values(things): "initial values are missing for {things}";
     not_solved(causes): "the network cannot be solved: {causes}";
+    control_disagrees(disagreeing, n, agreeing):
+        "control points {disagreeing} do not fit the photos and the other control points; {n} do ({agreeing}): at least four, and half of all, must agree. Check coordinates, axes, unit and names";
     stopped: "stopped on request";
     and_more(names, more): "{names} and {more} more";
     no_datum(missing):

@@ -23,6 +23,9 @@ pub fn sentence(error: &Error) -> String {
             initial_values(things(&[(some_photos(), photos), (some_points(), points), (some_cameras(), cameras)]))
         }
         Error::RankDefect { defects } => not_solved(defects.iter().map(defect).collect::<Vec<_>>().join("; ")),
+        Error::ControlDisagrees { agreeing, disagreeing } => {
+            control_disagrees(listed(disagreeing), agreeing.len(), listed(agreeing))
+        }
         Error::CannotOrient { reason, photos } if photos.is_empty() => speech().degeneracy(reason),
         Error::CannotOrient { reason, photos } => {
             format!("{} ({} {})", speech().degeneracy(reason), some_photos(), listed(photos))
@@ -34,6 +37,7 @@ pub fn sentence(error: &Error) -> String {
         Error::RankDefect { .. }
         | Error::MissingInitialValues { .. }
         | Error::CannotOrient { .. }
+        | Error::ControlDisagrees { .. }
         | Error::Empty { .. } => String::new(),
         _ => place_words(&error.place()),
     };

@@ -728,6 +728,8 @@ translate! { Korean desk {
     point_behind(photo): "사진 {photo}의 카메라 뒤에 놓입니다. 틀린 점번호가 아닌지 확인하십시오.";
     point_disagrees: "광선이 만나지 않습니다. 어느 사진의 점번호가 틀렸는지 확인하십시오.";
     point_no_coordinates: "좌표가 없는 기준점 또는 검사점입니다.";
+    point_undecided(first, second):
+        "한 위치(사진 {first})에서 만나는 광선과 다른 위치(사진 {second})에서 만나는 광선의 수가 같습니다. 두 표적에 같은 점번호가 붙었습니다. 어느 쪽이 맞는지 정하십시오.";
     measurement_disagrees(point, photo): "사진 {photo}의 점 {point}{point:이|가} 다른 측정과 맞지 않습니다";
     measurement_disagrees_body: "대개 점번호가 틀린 경우입니다. 확인하여 이름을 바꾸거나 제외하십시오.";
     behind: "뒤쪽";
@@ -859,6 +861,12 @@ translate! { Korean desk {
     behind_camera_body: "점번호를 확인하십시오. 해가 그곳에서 뒤집혀 있습니다.";
     distance_unused(names): "쓰지 않은 거리: {names}";
     distance_unused_body: "한쪽 끝이 두 사진에서 측정되지 않았습니다.";
+    control_misfit(point, size, axis): "기준점 {point}의 좌표가 사진에서 구한 위치와 {size} 다름, 주로 {axis} 방향";
+    control_misfit_body: "좌표와 사진에서의 점번호를 확인하십시오.";
+    exchanged_points(a, b): "기준점 {a}{a:과|와} {b}의 좌표가 서로 바뀐 것으로 보임";
+    exchanged_points_body: "두 점의 좌표를 맞바꾸면 맞습니다.";
+    double_points(pairs): "같은 점일 수 있는 점: {pairs}";
+    double_points_body: "표준오차로 구분되지 않을 만큼 가깝습니다. 한 점번호로 합치십시오.";
     unsettled: "과대오차 탐색이 끝나지 않았습니다";
     unsettled_body: "서로 어긋나는 관측이 너무 많습니다. 점번호와 기준점부터 확인하십시오.";
 }}
@@ -1192,6 +1200,8 @@ translate! { Korean errors {
     empty(what): "프로젝트에 처리할 {what}{what:이|가} 없습니다";
     initial_values(things): "초기값이 없습니다: {things}";
     not_solved(causes): "망을 풀 수 없습니다: {causes}";
+    control_disagrees(disagreeing, n, agreeing):
+        "기준점 {disagreeing}{disagreeing:은|는} 사진 및 다른 기준점과 맞지 않고, {n}점({agreeing})만 맞습니다. 네 점 이상이고 전체의 절반 이상이 맞아야 합니다. 좌표, 축, 단위, 점번호를 확인하십시오";
     stopped: "요청에 따라 중지했습니다";
     and_more(names, more): "{names} 외 {more}";
     no_datum(missing): "기준계 매개변수 7개(위치, 자세, 축척) 가운데 {missing}개가 정해지지 않았습니다. 기준점이나 거리를 더하거나 최소구속 또는 자유망을 고르십시오";

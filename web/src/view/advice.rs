@@ -385,8 +385,39 @@ fn network_item(advice: &sightline::adjustment::Advice, criteria: &sightline::ad
             String::new(),
             Target::GivenWeights,
         ),
+        Advice::ControlMisfit { point, difference, sigma_ratio } => control_misfit(point, difference, *sigma_ratio),
+        Advice::ExchangedPoints { points } => exchanged_points(points),
+        Advice::DoublePoints { pairs: all } => double_points(all),
     };
     Item { warning: true, title, body, evidence, target }
+}
+
+type Words = (String, String, String, Target);
+
+/// A control point that is not where the photos see it.
+fn control_misfit(point: &str, difference: &[f64; 3], sigma_ratio: f64) -> Words {
+    let largest = (0..3).max_by(|&a, &b| difference[a].abs().total_cmp(&difference[b].abs())).unwrap_or_default();
+    let size = difference[0].hypot(difference[1]).hypot(difference[2]);
+    (
+        text::control_misfit(point, format::compact(size), ["X", "Y", "Z"][largest]),
+        text::control_misfit_body().to_owned(),
+        format!("{} σ", format::fixed(sigma_ratio, 0)),
+        Target::Step(Step::Control),
+    )
+}
+
+/// Two control points that seem exchanged.
+fn exchanged_points([a, b]: &[String; 2]) -> Words {
+    let body = text::exchanged_points_body().to_owned();
+    (text::exchanged_points(a, b), body, String::new(), Target::Step(Step::Control))
+}
+
+/// Points that may be one.
+fn double_points(pairs: &[(String, String)]) -> Words {
+    let names: Vec<String> = pairs.iter().map(|(a, b)| format!("{a} – {b}")).collect();
+    let target = pairs.first().map_or(Target::None, |(_, point)| Target::Point(point.clone()));
+    let title = text::double_points(listed(names.iter().map(String::as_str)));
+    (title, text::double_points_body().to_owned(), format::count(pairs.len()), target)
 }
 
 /// What the orientation had to say.
@@ -398,6 +429,7 @@ fn note_item(note: &Note) -> Option<Item> {
         evidence: String::new(),
         target,
     };
+    let worded = |(title, body, evidence, target): Words| Item { warning: true, title, body, evidence, target };
     Some(match note {
         Note::PrincipalDistance { camera, value, source } => Item {
             warning: false,
@@ -456,6 +488,10 @@ fn note_item(note: &Note) -> Option<Item> {
                 PointReason::BehindCamera { photo } => text::point_behind(photo),
                 PointReason::RaysDisagree => text::point_disagrees().to_owned(),
                 PointReason::CoordinatesMissing => text::point_no_coordinates().to_owned(),
+                PointReason::Undecided { first, second } => {
+                    let listed = |photos: &[String]| listed(photos.iter().map(String::as_str));
+                    text::point_undecided(listed(first), listed(second))
+                }
             };
             let target = match reason {
                 PointReason::SeenOnce { photo } => Target::Observation { photo: photo.clone(), point: point.clone() },
@@ -471,6 +507,11 @@ fn note_item(note: &Note) -> Option<Item> {
                 ..item(text::measurement_disagrees(point, photo), text::measurement_disagrees_body().to_owned(), target)
             }
         }
+        Note::ControlMisfit { point, difference, sigma_ratio } => {
+            worded(control_misfit(point, difference, *sigma_ratio))
+        }
+        Note::ExchangedPoints { points } => worded(exchanged_points(points)),
+        Note::DoublePoints { pairs } => worded(double_points(pairs)),
     })
 }
 
@@ -517,6 +558,9 @@ mod tests {
                 correlation: None,
             },
             A::Suspected { count: 1, observations: vec![("a".into(), "1".into(), 6.0)], given: Vec::new() },
+            A::ControlMisfit { point: "9".into(), difference: [30.2, 0.1, -0.4], sigma_ratio: 300.0 },
+            A::ExchangedPoints { points: ["9".into(), "7".into()] },
+            A::DoublePoints { pairs: vec![("5".into(), "u12".into())] },
         ];
         for advice in &all {
             match advice {
@@ -532,7 +576,10 @@ mod tests {
                 | A::SigmasTooSmall { .. }
                 | A::UnmodelledAgain { .. }
                 | A::Insignificant { .. }
-                | A::Suspected { .. } => {}
+                | A::Suspected { .. }
+                | A::ControlMisfit { .. }
+                | A::ExchangedPoints { .. }
+                | A::DoublePoints { .. } => {}
             }
         }
         all

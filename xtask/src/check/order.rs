@@ -95,6 +95,7 @@ const ORDERS: [Order; 3] = [
             "gross_errors",
             "variance_components",
             "report",
+            "outside",
         ],
     },
 ];
