@@ -106,7 +106,11 @@ pub fn measure_at_gray(
     #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
 ) -> Thrown {
     measured_at(&u, &v, &options, |_| {
-        Ok(Shot::Photo(decode::Photo { grey: grey_of(&width, &height, &samples)?, damaged_rows: Vec::new() }))
+        Ok(Shot::Photo(decode::Photo {
+            grey: grey_of(&width, &height, &samples)?,
+            damaged_rows: Vec::new(),
+            page: None,
+        }))
     })
 }
 
