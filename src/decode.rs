@@ -11,18 +11,21 @@ mod bytes;
 mod embedded;
 mod jpeg;
 mod open;
+mod pages;
 mod palette;
+mod planar;
 mod show;
 mod signature;
 
 use image::{DynamicImage, ImageDecoder};
 
-use crate::detection::Channel;
+use crate::detection::{Channel, Page};
 use crate::error::{Damage, Error, Place, Result};
 use crate::image::{Grey, Samples};
 use crate::limits;
 pub use embedded::{Embedded, embedded};
 use open::{bits, decoding_error, prepared};
+pub use pages::page;
 pub use show::{Picture, picture};
 pub use signature::Packed;
 use signature::{Signature, signature};
@@ -51,6 +54,8 @@ pub struct Photo {
     pub grey: Grey,
     /// Rows that could not be decoded: first row and the row after the last, in rising order. Empty for a sound file.
     pub damaged_rows: Vec<[u32; 2]>,
+    /// Which picture of the file it is, where the file has several.
+    pub page: Option<Page>,
 }
 
 impl Photo {
@@ -141,7 +146,7 @@ fn open_photo(bytes: &[u8], channel: Channel, max_side: Option<u32>) -> Result<(
             let picture = max_side.map(|side| show::reduced_luma(&luma, side));
             let jpeg::Plane8 { width, height, samples } = luma.plane;
             let grey = Grey { width, height, samples: Samples::U8(samples) };
-            return Ok((Photo { grey, damaged_rows: luma.damaged }, picture));
+            return Ok((Photo { grey, damaged_rows: luma.damaged, page: None }, picture));
         }
         if let Some(first) = jpeg::damaged_from(bytes).map_err(refused)? {
             // chroma is interpolated from damaged rows too
@@ -151,6 +156,7 @@ fn open_photo(bytes: &[u8], channel: Channel, max_side: Option<u32>) -> Result<(
             damaged_rows.push([first - CHROMA_REACH, frame.height as u32]);
         }
     }
+    let page = page(bytes);
     let bytes = prepared(bytes)?;
     let mut image = DynamicImage::from_decoder(open::decoder(&bytes)?).map_err(decoding_error)?;
     bits(image.color())?;
@@ -163,7 +169,7 @@ fn open_photo(bytes: &[u8], channel: Channel, max_side: Option<u32>) -> Result<(
             samples[first..last].fill(128);
         }
     }
-    Ok((Photo { grey: Grey { width, height, samples }, damaged_rows }, picture))
+    Ok((Photo { grey: Grey { width, height, samples }, damaged_rows, page }, picture))
 }
 
 /// Whether the first plane of a JPEG is the channel that is wanted.

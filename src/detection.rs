@@ -443,6 +443,17 @@ pub struct Measured {
     pub corrections: Vec<String>,
 }
 
+/// Which picture of a file with several is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Page {
+    /// Number of the picture, from 1, in the order of the file.
+    pub number: usize,
+    /// Pictures in the file.
+    pub of: usize,
+    /// Reduced copies and masks before it, which were passed over.
+    pub skipped: usize,
+}
+
 /// Result of the detection in one photo.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Detection {
@@ -455,6 +466,9 @@ pub struct Detection {
     /// Rows of the photo that could not be decoded and were not measured: first row and the row after the last.
     #[serde(default)]
     pub damaged_rows: Vec<[u32; 2]>,
+    /// Which picture of the file was measured, where the file has several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub page: Option<Page>,
     /// What the picture shows of how it was taken and processed.
     #[serde(default)]
     pub picture: PictureReport,

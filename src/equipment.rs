@@ -27,14 +27,9 @@ pub const VERSION: u32 = 1;
 /// Bytes from the beginning of a file in which its format is looked for.
 pub const HEAD: usize = 4096;
 
-/// Units of length that are known, in millimetres.
-pub const UNITS: [(&str, f64); 6] =
-    [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("µm", 0.001), ("in", 25.4), ("ft", 304.8)];
-
 /// What a length in one unit is multiplied by to be in another; none where one of them is not known and they differ.
 pub fn unit_factor(from: &str, to: &str) -> Option<f64> {
-    let mm = |unit: &str| UNITS.iter().find(|(name, _)| *name == unit).map(|(_, mm)| *mm);
-    if from == to { Some(1.0) } else { Some(mm(from)? / mm(to)?) }
+    crate::units::factor(from, to).ok()
 }
 
 /// Cameras and scale bars.

@@ -39,6 +39,8 @@ pub use text::{Row, pasted, quoted, rows};
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use crate::adjustment::Adjustment;
 use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
 use crate::limits;
@@ -77,12 +79,79 @@ pub const FORMATS: [Format; 15] = [
     Format { name: "tsv", import: false, export: true },
 ];
 
+/// What a reader of a file took for granted.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FileAssumptions {
+    /// Name of the file.
+    pub file: String,
+    /// How it was read.
+    pub assumptions: Vec<control_csv::Assumption>,
+}
+
+/// A project that was read, with what was taken for granted.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Imported {
+    /// The project.
+    #[serde(flatten)]
+    pub project: Project,
+    /// File by file, for formats that leave something open; [`control_csv::Basis::Undecided`] marks what has to be asked.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub assumptions: Vec<FileAssumptions>,
+}
+
 /// Reads a project, or the part of one that the format holds.
+///
+/// # Errors
+/// As [`import_with`].
+pub fn import(format: &str, files: &Files) -> Result<Project> {
+    import_with(format, files, control_csv::Choices::default()).map(|imported| imported.project)
+}
+
+/// The same with what was taken for granted, and with the caller's choices for what a file leaves open.
 ///
 /// # Errors
 /// [`Error::Unknown`] for a format that is not read, [`Error::Empty`] without files, [`Error::Invalid`] with file, line
 /// and field for what a file has wrong.
-pub fn import(format: &str, files: &Files) -> Result<Project> {
+pub fn import_with(format: &str, files: &Files, choices: control_csv::Choices) -> Result<Imported> {
+    if format == "control-csv" && !files.is_empty() {
+        return control_tables(files, choices);
+    }
+    whole(format, files).map(|project| Imported { project, assumptions: Vec::new() })
+}
+
+/// Points of control tables, in the unit of the first one that names its unit.
+fn control_tables(files: &Files, choices: control_csv::Choices) -> Result<Imported> {
+    let mut assumptions = Vec::new();
+    let mut tables = Vec::new();
+    for (name, bytes) in files {
+        let text = encoding::text(bytes).map_err(|error| error.in_file(name))?;
+        let table = control_csv::parse_with(&text, choices);
+        assumptions.push(FileAssumptions { file: name.clone(), assumptions: table.assumptions.clone() });
+        let unit = table.unit;
+        tables.push((
+            unit,
+            Project { points: table.into_points().map_err(|error| error.in_file(name))?, ..Project::default() },
+        ));
+    }
+    let unit = tables.iter().find_map(|(unit, _)| *unit);
+    let mut points = Vec::new();
+    for ((own, table), name) in tables.into_iter().zip(files.keys()) {
+        let table = match (own, unit) {
+            (Some(own), Some(unit)) if own != unit => {
+                table.scaled(own.factor(unit)).map_err(|error| error.in_file(name))?
+            }
+            _ => table,
+        };
+        points.extend(table.points);
+    }
+    let mut project = control_project(points);
+    if let Some(unit) = unit {
+        project.unit = unit.symbol().to_owned();
+    }
+    Ok(Imported { project, assumptions })
+}
+
+fn whole(format: &str, files: &Files) -> Result<Project> {
     if !FORMATS.iter().any(|known| known.import && known.name == format) {
         return Err(unknown_format(format, |known| known.import));
     }
@@ -97,14 +166,6 @@ pub fn import(format: &str, files: &Files) -> Result<Project> {
         "package" => {
             let (name, bytes) = only(files)?;
             package::read(bytes).map(|package| package.project).map_err(|error| error.in_file(name))
-        }
-        "control-csv" => {
-            let mut points = Vec::new();
-            for (name, bytes) in files {
-                let table = control_csv::parse(&encoding::text(bytes).map_err(|error| error.in_file(name))?);
-                points.extend(table.into_points().map_err(|error| error.in_file(name))?);
-            }
-            Ok(control_project(points))
         }
         "mark-points" => {
             let mut project = Project::default();

@@ -87,5 +87,6 @@ pub mod sensor;
 pub mod sheets;
 pub mod statistics;
 pub mod tiles;
+pub mod units;
 
 pub use error::{Error, Result};

@@ -8,6 +8,7 @@ mod identifier;
 mod parameter;
 mod plan;
 mod report;
+mod scaling;
 mod validation;
 
 use std::collections::BTreeMap;
@@ -20,6 +21,8 @@ use identifier::{identifier, identifier_option_list};
 pub use parameter::{Interior, Parameter};
 pub use plan::{Form, Lens, Plan, PlanDistance, PlanFace, PlanStation, Region, Variant, Wanted};
 pub use report::{ColourShift, LengthLimit, Paper, PhotoColours, ReportLanguage, ReportSettings, Section};
+pub use scaling::scaled;
+pub use validation::LARGEST;
 
 /// The document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

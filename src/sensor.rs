@@ -148,7 +148,9 @@ impl Unpacked {
                 Ok(Shot::Sensor(sensor))
             }
             (Some(_), Samples::U8(_)) => Err(broken(Damage::Header)),
-            (None, samples) => Ok(Shot::Photo(Photo { grey: Grey { width, height, samples }, damaged_rows })),
+            (None, samples) => {
+                Ok(Shot::Photo(Photo { grey: Grey { width, height, samples }, damaged_rows, page: None }))
+            }
         }
     }
 }

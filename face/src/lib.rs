@@ -106,7 +106,11 @@ pub fn measure_at_gray(
     #[wasm_bindgen(unchecked_optional_param_type = "DetectOptions")] options: JsValue,
 ) -> Thrown {
     measured_at(&u, &v, &options, |_| {
-        Ok(Shot::Photo(decode::Photo { grey: grey_of(&width, &height, &samples)?, damaged_rows: Vec::new() }))
+        Ok(Shot::Photo(decode::Photo {
+            grey: grey_of(&width, &height, &samples)?,
+            damaged_rows: Vec::new(),
+            page: None,
+        }))
     })
 }
 
@@ -395,14 +399,18 @@ pub fn experiment_csv(#[wasm_bindgen(unchecked_param_type = "Experiment")] exper
     experiment.map(|e| value::files_object(&experiments::csv(&e))).map_err(|error| thrown(&error))
 }
 
-/// Reads files of a foreign format as a project, or as the part of one that the format holds.
-#[wasm_bindgen(js_name = importProject, unchecked_return_type = "Project")]
+/// Reads files of a foreign format as a project, or as the part of one that the format holds, with what was taken for granted.
+#[wasm_bindgen(js_name = importProject, unchecked_return_type = "Imported")]
 pub fn import_project(
     #[wasm_bindgen(unchecked_param_type = "ImportFormat")] format: JsValue,
     #[wasm_bindgen(unchecked_param_type = "Record<string, Uint8Array | ArrayBuffer | string>")] files: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "ImportChoices | null")] choices: JsValue,
 ) -> Thrown {
-    let read = || exchange::import(&value::text(&format, "format")?, &value::files(&files)?);
-    read().map(value::project_object).map_err(|error| thrown(&error))
+    let read = || {
+        let choices = value::options(&choices, &[])?;
+        exchange::import_with(&value::text(&format, "format")?, &value::files(&files)?, choices)
+    };
+    read().map(value::imported_object).map_err(|error| thrown(&error))
 }
 
 /// Carries plates onto their fiducial marks: files of the format `comparator`, with every fit on the way.

@@ -799,6 +799,8 @@ export interface Detection {
   bits: number;
   /** Rows that could not be decoded and were not measured: first row and the row after the last. Empty for a sound file. */
   damaged_rows: [number, number][];
+  /** Which picture of the file was measured, where a TIFF has several: its number from 1, how many there are, reduced copies and masks passed over. */
+  page?: { number: number; of: number; skipped: number };
   picture: PictureReport;
   /** What was measured on, where it is a sensor's own samples (RAW). */
   measured?: MeasuredSamples;
@@ -1252,6 +1254,40 @@ export interface Picture {
   width: number;
   height: number;
   samples: Uint8Array | Uint16Array;
+}
+
+/** What a table of control points does not say itself. */
+export interface ImportChoices {
+  /** Decimal sign; null: from the rows. With "point", commas are thousands separators. */
+  decimal?: "point" | "comma" | null;
+  /** Order of the horizontal coordinates of a table without heading; null: X (east) before Y (north). */
+  axes?: "xy" | "yx" | null;
+  /** Unit of the coordinates of a table whose heading has none. */
+  unit?: Unit | null;
+}
+
+export type Unit = "mm" | "cm" | "m" | "µm" | "dm" | "km" | "in" | "ft" | "ft-us" | "yd";
+export type ControlField = "id" | "label" | "X" | "Y" | "Z" | "sX" | "sY" | "sZ" | "sigma" | "role";
+/** What an assumption rests on; "undecided": nothing decides, it has to be asked. */
+export type Basis = "heading" | "content" | "given" | "convention" | "undecided";
+
+/** How a table of control points was read. */
+export type Assumption =
+  | { kind: "separator"; separator: "comma" | "semicolon" | "tab" | "blanks"; by: Basis }
+  | { kind: "decimal_sign"; sign: "point" | "comma"; by: Basis; example?: string }
+  | { kind: "columns"; columns: (ControlField | null)[]; by: Basis }
+  | { kind: "axis_order"; order: "xy" | "yx"; by: Basis }
+  | { kind: "sigma_columns"; columns: number[]; by: Basis }
+  | { kind: "unit"; unit: Unit | null; by: Basis }
+  /** Columns whose headings are not understood and which are left alone. */
+  | { kind: "ignored"; columns: string[] }
+  /** Headings with something in round brackets that is neither an axis nor a unit. */
+  | { kind: "remarks"; headings: string[] };
+
+/** A project that was read, with what was taken for granted. */
+export interface Imported extends Project {
+  /** File by file, for `control-csv`. */
+  assumptions?: { file: string; assumptions: Assumption[] }[];
 }
 
 export type ImportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "photomodeler" | "aicon" | "dbat" | "comparator";

@@ -11,7 +11,7 @@ use super::{plain, table};
 use sightline::adjustment::Adjustment;
 use sightline::detection::Detection;
 use sightline::error::{Error, Expected, Names, Place, Reason, Result, shortened};
-use sightline::exchange::{self, Files};
+use sightline::exchange::{self, Files, Imported};
 use sightline::image::{Grey, Samples};
 use sightline::orient::Oriented;
 use sightline::project::Project;
@@ -113,6 +113,15 @@ pub fn project_object(mut project: Project) -> JsValue {
     set(&object, "observations", &table::observation_rows(&observations));
     set(&object, "points", &table::point_rows(&points));
     object.into()
+}
+
+/// An imported document as plain objects, with what was taken for granted among its fields where the format leaves something open.
+pub fn imported_object(imported: Imported) -> JsValue {
+    let object = project_object(imported.project);
+    if !imported.assumptions.is_empty() {
+        set(object.unchecked_ref(), "assumptions", &write(&imported.assumptions));
+    }
+    object
 }
 
 /// An oriented document as plain objects, its notes among its fields.

@@ -2,11 +2,12 @@
 
 use std::borrow::Cow;
 
-/// Numbers of a TIFF file in its byte order, at the first directory.
+/// Numbers of a TIFF file in its byte order, at one of its directories: the first one at first.
 pub struct Reader<'a> {
     bytes: &'a [u8],
     little: bool,
     big_tiff: bool,
+    directory: Option<u64>,
 }
 
 impl<'a> Reader<'a> {
@@ -17,9 +18,37 @@ impl<'a> Reader<'a> {
             b"MM" => false,
             _ => return None,
         };
-        let mut reader = Self { bytes, little, big_tiff: false };
+        let mut reader = Self { bytes, little, big_tiff: false, directory: None };
         reader.big_tiff = reader.number(2, 2)? == 43;
         Some(reader)
+    }
+
+    /// Where the first directory is.
+    pub fn start(&self) -> Option<u64> {
+        if self.big_tiff { self.number(8, 8) } else { self.number(4, 4) }
+    }
+
+    /// Writes where the first directory is, in a copy of the file.
+    pub fn set_start(&self, copy: &mut [u8], at: u64) {
+        let (place, width) = if self.big_tiff { (8, 8) } else { (4, 4) };
+        let bytes = ordered(at, width, self.little);
+        if let Some(place) = copy.get_mut(place..place + width) {
+            place.copy_from_slice(&bytes);
+        }
+    }
+
+    /// The same file at another directory.
+    pub fn at(&self, directory: u64) -> Self {
+        Self { directory: Some(directory), ..*self }
+    }
+
+    /// Where the directory after this one is; 0 for none.
+    pub fn next(&self) -> Option<u64> {
+        let (width, count_width, size) = if self.big_tiff { (8, 8, 20) } else { (4, 2, 12) };
+        let start = usize::try_from(self.directory.or_else(|| self.start())?).ok()?;
+        let count = usize::try_from(self.number(start, count_width)?).ok()?;
+        let end = count.checked_mul(size)?.checked_add(start)?.checked_add(count_width)?;
+        self.number(end, width)
     }
 
     fn number(&self, offset: usize, length: usize) -> Option<u64> {
@@ -28,12 +57,12 @@ impl<'a> Reader<'a> {
         Some(if self.little { bytes.iter().rev().fold(0, add) } else { bytes.iter().fold(0, add) })
     }
 
-    /// Every entry of the first directory. Stops where the file does.
+    /// Every entry of the directory. Stops where the file does.
     pub fn entries(&self) -> Vec<Entry> {
-        let (start_at, width, count_width, size) = if self.big_tiff { (8, 8, 8, 20) } else { (4, 4, 2, 12) };
+        let (width, count_width, size) = if self.big_tiff { (8, 8, 20) } else { (4, 2, 12) };
         let mut entries = Vec::new();
         let inside = |n: u64| usize::try_from(n).ok().filter(|n| *n < self.bytes.len());
-        let Some(start) = self.number(start_at, width).and_then(inside) else { return entries };
+        let Some(start) = self.directory.or_else(|| self.start()).and_then(inside) else { return entries };
         let Some(count) = self.number(start, count_width) else { return entries };
         for index in 0..count.min(1000) as usize {
             let at = start + count_width + index * size;
@@ -65,6 +94,12 @@ impl<'a> Reader<'a> {
             .collect()
     }
 
+    /// All values of an entry, as far as the file has them.
+    pub fn all(&self, entry: &Entry) -> Vec<u64> {
+        let count = entry.count.min(self.bytes.len() as u64) as usize;
+        (0..count).map_while(|k| self.number(entry.at + k * entry.length, entry.length)).collect()
+    }
+
     /// Writes a number over the first value of an entry, in a copy of the file.
     pub fn overwrite(&self, copy: &mut [u8], entry: &Entry, value: u16) {
         if let Some(bytes) = copy.get_mut(entry.at..entry.at + entry.length) {
@@ -74,6 +109,40 @@ impl<'a> Reader<'a> {
             }
         }
     }
+}
+
+/// A number in so many bytes.
+fn ordered(number: u64, width: usize, little: bool) -> Vec<u8> {
+    let place = |k: usize| if little { k } else { width - 1 - k };
+    (0..width).map(|k| (number >> (8 * place(k).min(7))) as u8).collect()
+}
+
+/// Writes a directory of whole numbers behind a TIFF file and makes it the first one. Entries stand in the order of their tags.
+pub fn append_directory(file: &mut Vec<u8>, entries: &[(u16, Vec<u64>)]) {
+    let Some(Reader { little, big_tiff, .. }) = Reader::tiff(file) else { return };
+    let (width, count_width, kind) = if big_tiff { (8, 8, 16) } else { (4, 2, 4) };
+    let start = file.len();
+    let put = |to: &mut Vec<u8>, number: u64, width: usize| to.extend(ordered(number, width, little));
+    let size = count_width + entries.len() * (4 + 2 * width) + width;
+    let (mut directory, mut behind) = (Vec::new(), Vec::new());
+    put(&mut directory, entries.len() as u64, count_width);
+    for (tag, values) in entries {
+        put(&mut directory, (*tag).into(), 2);
+        put(&mut directory, kind, 2);
+        put(&mut directory, values.len() as u64, width);
+        match values[..] {
+            [value] => put(&mut directory, value, width),
+            _ => {
+                put(&mut directory, (start + size + behind.len()) as u64, width);
+                values.iter().for_each(|value| put(&mut behind, *value, width));
+            }
+        }
+    }
+    put(&mut directory, 0, width);
+    file.extend(directory);
+    file.extend(behind);
+    let reader = Reader { bytes: &[], little, big_tiff, directory: None };
+    reader.set_start(file, start as u64);
 }
 
 /// One entry of a TIFF directory.
@@ -116,7 +185,7 @@ pub fn most_from_a_byte(file: &[u8]) -> u64 {
 
 /// The same of a BMP file, by the bits of a pixel and the compression in its header, which is OS/2's of 12 bytes or begins as Windows' of 40.
 fn most_of_bmp(file: &[u8]) -> u64 {
-    let reader = Reader { bytes: file, little: true, big_tiff: false };
+    let reader = Reader { bytes: file, little: true, big_tiff: false, directory: None };
     let (bits, compression) = match reader.number(14, 4) {
         Some(12) => (reader.number(24, 2), None),
         _ => (reader.number(28, 2), reader.number(30, 4)),

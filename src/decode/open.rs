@@ -7,15 +7,16 @@ use image::codecs::{bmp::BmpDecoder, jpeg::JpegDecoder, png::PngDecoder, tiff::T
 use image::{ColorType, ImageDecoder, ImageError, Limits};
 
 use super::palette::PaletteDecoder;
+use super::planar::PlanarDecoder;
 use super::signature::{Signature, signature};
-use super::{PIXEL_LIMIT, broken, bytes, jpeg};
+use super::{PIXEL_LIMIT, broken, bytes, jpeg, pages};
 use crate::error::{Damage, Error, PictureKind, Place, Result};
 use crate::limits::DECODED;
 
 /// The file without what decoders stumble over and pictures do not need.
 ///
 /// Compressed profiles and texts of PNG are unpacked by its decoder whatever their size. A JPEG that names its components R, G
-/// and B stores them; its decoder believes that of Adobe's mark alone.
+/// and B stores them; its decoder believes that of Adobe's mark alone. Of a TIFF the picture that is measured comes first.
 pub fn prepared(file: &[u8]) -> Result<Cow<'_, [u8]>> {
     Ok(match signature(file) {
         Signature::Png => bytes::without_texts(file),
@@ -25,6 +26,7 @@ pub fn prepared(file: &[u8]) -> Result<Cow<'_, [u8]>> {
             marked.extend(&file[2..]);
             Cow::Owned(marked)
         }
+        Signature::Tiff => pages::measured_first(file),
         _ => Cow::Borrowed(file),
     })
 }
@@ -46,7 +48,10 @@ pub fn decoder(file: &[u8]) -> Result<Box<dyn ImageDecoder + '_>> {
         }
         Signature::Tiff => match PaletteDecoder::new(file)? {
             Some(decoder) => Box::new(decoder),
-            None => Box::new(TiffDecoder::new(stream).map_err(decoding_error)?),
+            None => match PlanarDecoder::new(file)? {
+                Some(decoder) => Box::new(decoder),
+                None => Box::new(TiffDecoder::new(stream).map_err(decoding_error)?),
+            },
         },
         Signature::Bmp => Box::new(BmpDecoder::new(stream).map_err(decoding_error)?),
         Signature::Packed(format) => return Err(unread(format.into())),

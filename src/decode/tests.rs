@@ -9,6 +9,7 @@ use super::*;
 mod damage;
 mod embedded_pictures;
 mod jpeg_kinds;
+mod tiff_kinds;
 
 fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
     let mut file = Cursor::new(Vec::new());

@@ -185,7 +185,7 @@ impl Searched {
         let grey = Grey { width: right - left, height: bottom - top, samples: Samples::U16(samples) };
         let inside = |row: u32| (row as usize).clamp(top, bottom) - top;
         let rows = sites.sensor.damaged_rows.iter().map(|rows| rows.map(|row| inside(row) as u32));
-        let photo = Photo { grey, damaged_rows: rows.filter(|rows| rows[0] < rows[1]).collect() };
+        let photo = Photo { grey, damaged_rows: rows.filter(|rows| rows[0] < rows[1]).collect(), page: None };
         Self { photo, light: curve.undone(), per_light: curve.per_light(), hot }
     }
 

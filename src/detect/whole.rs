@@ -13,7 +13,7 @@ use crate::image::{Grey, GreyView, Samples, SamplesView};
 /// As for [`detect`].
 pub fn detect_photo(photo: &Photo, options: &DetectOptions) -> Result<Detection> {
     if photo.damaged_rows.is_empty() {
-        return detect(&photo.grey.view()?, options);
+        return Ok(Detection { page: photo.page, ..detect(&photo.grey.view()?, options)? });
     }
     check(options)?;
     let view = photo.grey.view()?;
@@ -23,6 +23,7 @@ pub fn detect_photo(photo: &Photo, options: &DetectOptions) -> Result<Detection>
         height: size(photo.grey.height),
         bits: view.bits(),
         damaged_rows: photo.damaged_rows.clone(),
+        page: photo.page,
         ..Detection::default()
     };
     let mut largest = 0;

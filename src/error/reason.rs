@@ -101,6 +101,14 @@ reasons! {
     CommaAmongPoints { name: String, text: String } => "{name} has a comma, and the other numbers a decimal point: \"{text}\" (write it without thousands marks)";
     PointAmongCommas { name: String, text: String } => "{name} has a point, and the other numbers a decimal comma: \"{text}\" (write it without thousands marks)";
     NoneOf { name: String, choices: String, text: String } => "{name} is none of {choices}: \"{text}\"";
+    AmbiguousNumber { name: String, text: String, decimal: String, thousands: String } => "{name} is ambiguous: \"{text}\" is {decimal} with a decimal comma and {thousands} with a thousands separator; choose the decimal sign";
+    SeparatorBothWays => "what separates the fields may separate decimals or thousands too: save the table with semicolons or tabs, or with decimal points and a heading that names every column";
+    MoreFields { fields: usize, columns: usize } => "this line has {fields} fields and the heading names {columns} columns";
+    HeadingIncomplete { name: String } => "the heading names no column {name}: name the columns id, X, Y and Z (or N, E, H)";
+    HeadingTwice { name: String } => "the heading names two columns {name}";
+    UnitOfCoordinates => "the heading gives the standard errors a unit and the coordinates none: choose the unit of the coordinates";
+    TooLarge { name: String, text: String } => "{name} is beyond all measure: \"{text}\"";
+    Scaled { value: Number, factor: Number } => "{value} times {factor} is beyond what a document holds; nothing was converted";
     ControlColumns { columns: usize } => "a control point needs four columns (id, X, Y, Z) and the table has {columns}";
 
     // The project file

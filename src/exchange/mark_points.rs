@@ -3,8 +3,8 @@
 
 use std::fmt::Write;
 
-use super::text;
-use crate::error::{Error, Lack, Result};
+use super::text::{self, Row};
+use crate::error::{Error, Lack, Place, Reason, Result};
 use crate::matching::Mark;
 use crate::project::{Observation, Sigma};
 
@@ -24,36 +24,82 @@ pub fn parse(text: &str) -> Result<Vec<Mark>> {
     Ok(observations(text)?.into_iter().map(mark).collect())
 }
 
-/// Reads measurements; fields are separated by tabs, commas, semicolons or blanks, lines that start with # or % are comments.
+/// Reads measurements; fields are separated by tabs, commas, semicolons or blanks, lines that start with # or % are comments. A heading
+/// that names photo, point, u and v decides their order.
 ///
 /// # Errors
-/// [`Error::Invalid`] with line and field, [`Error::Empty`] when there is no measurement.
+/// [`Error::Invalid`] with line and field, also where commas may be decimal commas; [`Error::Empty`] when there is no measurement.
 pub fn observations(text: &str) -> Result<Vec<Observation>> {
+    let mut rows = text::rows(text);
+    // The first row may be a heading.
+    let numbers = |fields: &[String]| fields.iter().any(|field| text::number(field).is_some());
+    let heading = rows.first().is_some_and(|row| row.fields.len() >= 4 && !numbers(&row.fields[2..4]));
+    let order = if heading { order(&rows.remove(0).fields) } else { None };
+    let order = order.unwrap_or([0, 1, 2, 3, 4, 5]);
+    if let Some(line) = separated_both_ways(text, &rows) {
+        let at = Place::line(line).with_field("u");
+        return Err(Error::Invalid { reason: Reason::SeparatorBothWays, at });
+    }
     let mut marks = Vec::new();
-    for row in text::rows(text) {
-        // The first row may be a heading.
-        if marks.is_empty()
-            && row.fields.len() >= 4
-            && row.fields[2..4].iter().all(|field| text::number(field).is_none())
-        {
-            continue;
-        }
+    for row in rows {
+        let [photo, point, u, v, su, sv] = order;
+        let given = |index: usize| row.fields.get(index).is_some_and(|field| !field.is_empty());
         let sigma = |index| row.positive(index, "sigma");
         marks.push(Observation {
-            photo: text::armed(row.text(0, "photo")?).to_owned(),
-            point: text::armed(row.text(1, "point")?).to_owned(),
-            u: row.number(2, "u")?,
-            v: row.number(3, "v")?,
-            sigma: match row.fields.len() {
-                0..=4 => Sigma::One(DEFAULT_SIGMA),
-                5 => Sigma::One(sigma(4)?),
-                _ => Sigma::Two([sigma(4)?, sigma(5)?]),
+            photo: text::armed(row.text(photo, "photo")?).to_owned(),
+            point: text::armed(row.text(point, "point")?).to_owned(),
+            u: row.number(u, "u")?,
+            v: row.number(v, "v")?,
+            sigma: match (given(su), row.fields.len() > sv) {
+                (false, false) => Sigma::One(DEFAULT_SIGMA),
+                (true, false) => Sigma::One(sigma(su)?),
+                (_, true) => Sigma::Two([sigma(su)?, sigma(sv)?]),
             },
             enabled: true,
             target: None,
         });
     }
     if marks.is_empty() { Err(Error::Empty { what: Lack::Observations }) } else { Ok(marks) }
+}
+
+/// Columns of photo, point, u, v and their standard errors by the names of a heading; none where it does not name the first four.
+fn order(heading: &[String]) -> Option<[usize; 6]> {
+    let plain = |text: &String| {
+        let name = text.split(['[', '(']).next().unwrap_or_default();
+        name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect::<String>()
+    };
+    let names: Vec<String> = heading.iter().map(plain).collect();
+    let place = |known: &[&str]| names.iter().position(|name| known.contains(&name.as_str()));
+    let [photo, point, u, v] = [
+        place(&["photo", "image", "img", "picture", "사진"])?,
+        place(&["point", "id", "pointid", "target", "name", "점", "점번호", "점명"])?,
+        place(&["u", "x", "column", "col"])?,
+        place(&["v", "y", "row", "line"])?,
+    ];
+    // Standard errors may follow a heading that names the first four only.
+    let [first, second] = if heading.len() == 4 { [4, 5] } else { [heading.len().max(6); 2] };
+    let su = place(&["sigma", "sigmau", "su", "sigmax", "sx", "σ", "σu"]).unwrap_or(first);
+    let sv = place(&["sigmav", "sv", "sigmay", "sy", "σv"]).unwrap_or(second);
+    Some([photo, point, u, v, su, sv])
+}
+
+/// The first line whose commas may be decimal commas or thousands separators as well: it has more fields than photo, point, u and v, and
+/// two of its neighbouring fields can be one number. As in [`control_csv`](super::control_csv), all such lines have to.
+fn separated_both_ways(text: &str, rows: &[Row]) -> Option<usize> {
+    let lines: Vec<&str> = text.lines().collect();
+    let commas =
+        |row: &&Row| lines.get(row.line - 1).is_some_and(|line| line.contains(',') && !line.contains([';', '\t']));
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let points = rows.iter().flat_map(|row| row.fields.iter().skip(2)).any(|field| field.contains('.'));
+    let joins = |pair: &[String]| {
+        let [a, b] = pair else { return false };
+        let (whole, rest) = b.split_once('.').unwrap_or((b, "0"));
+        let thousands = a.len() <= 3 && !a.starts_with('0') && whole.len() == 3 && digits(rest);
+        digits(a) && digits(whole) && (thousands || !points)
+    };
+    let mut wide = rows.iter().filter(|row| row.fields.len() > 4).filter(commas).peekable();
+    let first = wide.peek()?.line;
+    wide.all(|row| row.fields[2..].windows(2).any(joins)).then_some(first)
 }
 
 /// Writes measurements, one a line; what is not enabled is left out.
@@ -74,7 +120,6 @@ pub fn write(observations: &[Observation]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Place;
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -122,9 +167,29 @@ mod tests {
     }
 
     #[test]
+    fn a_heading_decides_the_order_and_commas_are_never_two_things() {
+        let text = "point;photo;y [px];x [px]\n7;a;2.5;1.5\n";
+        let mark = &parse(text).unwrap()[0];
+        assert_eq!((mark.photo.as_str(), mark.point.as_str(), mark.u, mark.v), ("a", "7", 1.5, 2.5));
+        for open in [
+            "1,2,1429,1871,1456,4278\n1,3,12,5,14,25\n",
+            "1,2,848,5,514\n",
+            "a,2,1,234.5,987.25\na,3,2,345.5,1,987.0\n",
+        ] {
+            let error = parse(open).unwrap_err();
+            assert!(matches!(error, Error::Invalid { reason: Reason::SeparatorBothWays, .. }), "{open}: {error}");
+        }
+        for sure in ["1,2,848,514\n", "1,2,848.0,514,0.1\n", "1 2 848 514 1\n", "1;2;848;514;1\n"] {
+            assert!(parse(sure).is_ok(), "{sure}");
+        }
+        // A decimal comma is no number here.
+        assert!(parse("1;2;848,5;514,25\n1;3;84;51\n1;4;85;52\n").is_err());
+    }
+
+    #[test]
     fn a_wrong_line_is_named() {
         assert_eq!(parse("1,2,3,4\n1,2,x,4").unwrap_err().place(), Place::line(2).with_field("u"));
-        assert_eq!(parse("1,2,3,4,0").unwrap_err().place(), Place::line(1).with_field("sigma"));
+        assert_eq!(parse("1,2,3.5,4,0").unwrap_err().place(), Place::line(1).with_field("sigma"));
         assert_eq!(parse("# nothing\n").unwrap_err().code(), "empty");
     }
 }

@@ -72,7 +72,7 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
         let light = photo(&network, &station.id)?;
         let sensor = exposed(&light, noise, options.seed, index as u64)?;
         take(0, detect_shot(&Shot::Sensor(sensor.clone()), &detect)?)?;
-        let of = |grey| detect_photo(&Photo { grey, damaged_rows: Vec::new() }, &detect);
+        let of = |grey| detect_photo(&Photo { grey, damaged_rows: Vec::new(), page: None }, &detect);
         let developed = Developed::of(&sensor);
         take(1, of(developed.luma())?)?;
         let sharpened = developed.sharpened();

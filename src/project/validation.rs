@@ -7,7 +7,7 @@ use super::{Camera, Interior, Parameter, Project};
 use crate::error::{Error, Place, Reason, Result, Thing, shortened};
 
 /// Largest magnitude of a coordinate or parameter: far beyond any object, and its square is still a number.
-pub(super) const LARGEST: f64 = 1e100;
+pub const LARGEST: f64 = 1e100;
 
 impl Project {
     /// Checks the document; missing initial values are no fault here.

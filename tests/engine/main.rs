@@ -36,6 +36,7 @@ mod exchange {
     mod foreign;
     mod round_trips;
     mod spatial;
+    mod tables;
 }
 
 /// What the papers state.
@@ -61,6 +62,7 @@ mod plan {
 /// The document as other programs write it.
 mod project {
     mod document;
+    mod units;
 }
 
 /// The report's pages.

@@ -1,31 +1,55 @@
-//! Which column of a control table holds what: from its heading, else from the number of columns and what is in them.
+//! What the columns of a control table hold; without a heading, from their number and what is in them.
 
+use serde::{Deserialize, Serialize};
+
+use super::assumptions::{Axes, Basis};
 use crate::error::Reason;
+use crate::units::Unit;
 
 /// What a column holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Field {
+    /// Identifier.
+    #[serde(rename = "id")]
     Id,
+    /// Second name or description.
+    #[serde(rename = "label")]
     Label,
+    /// X, to the east.
+    #[serde(rename = "X")]
     X,
+    /// Y, to the north.
+    #[serde(rename = "Y")]
     Y,
+    /// Z, upwards.
+    #[serde(rename = "Z")]
     Z,
+    /// Standard error of X.
+    #[serde(rename = "sX")]
     Sx,
+    /// Standard error of Y.
+    #[serde(rename = "sY")]
     Sy,
+    /// Standard error of Z.
+    #[serde(rename = "sZ")]
     Sz,
-    /// One sigma for all axes.
+    /// One standard error for all axes.
+    #[serde(rename = "sigma")]
     Sigma,
+    /// Control, check or tie.
+    #[serde(rename = "role")]
     Role,
 }
 
 /// What is wrong in which field.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fault {
+pub(super) struct Fault {
     pub field: &'static str,
     pub reason: Reason,
 }
 
 impl Field {
+    /// Its name in documents.
     pub fn name(self) -> &'static str {
         match self {
             Self::Id => "id",
@@ -41,80 +65,112 @@ impl Field {
         }
     }
 
-    pub fn fault(self, reason: Reason) -> Fault {
+    pub(super) fn fault(self, reason: Reason) -> Fault {
         Fault { field: self.name(), reason }
     }
 
-    /// The field that a heading names, whatever its case, unit ("X [mm]") and punctuation ("s_x", "sigma X").
-    fn named(heading: &str) -> Option<Self> {
-        let bare = heading.split(['[', '(']).next().unwrap_or_default();
-        let plain: String = bare.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect();
-        Some(match plain.as_str() {
-            "id" | "point" | "pointid" | "pt" | "no" | "nr" | "number" | "pointno" | "code" | "점" | "점번호"
-            | "번호" => Self::Id,
-            "label" | "name" | "description" | "이름" => Self::Label,
-            "x" | "e" | "east" | "easting" => Self::X,
-            "y" | "n" | "north" | "northing" => Self::Y,
-            "z" | "h" | "height" | "elevation" => Self::Z,
-            "sx" | "sigmax" | "σx" | "stdx" | "mx" | "sdx" | "se" | "sigmae" => Self::Sx,
-            "sy" | "sigmay" | "σy" | "stdy" | "my" | "sdy" | "sn" | "sigman" => Self::Sy,
-            "sz" | "sigmaz" | "σz" | "stdz" | "mz" | "sdz" | "sh" | "sigmah" => Self::Sz,
-            "s" | "sigma" | "σ" | "std" | "sd" | "sxyz" | "sigmaxyz" => Self::Sigma,
-            "role" | "type" => Self::Role,
-            _ => return None,
-        })
+    /// Whether it is a coordinate or a standard error.
+    pub fn is_number(self) -> bool {
+        self.is_coordinate() || self.is_sigma()
+    }
+
+    pub(super) fn is_coordinate(self) -> bool {
+        matches!(self, Self::X | Self::Y | Self::Z)
+    }
+
+    pub(super) fn is_sigma(self) -> bool {
+        matches!(self, Self::Sx | Self::Sy | Self::Sz | Self::Sigma)
     }
 }
 
 /// The fields of a table in the order of its columns.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Columns(Vec<Option<Field>>);
+pub(super) struct Columns {
+    pub fields: Vec<Option<Field>>,
+    pub by: Basis,
+    /// Unit of each column, as its heading has it.
+    pub units: Vec<Option<Unit>>,
+    pub order: (Axes, Basis),
+    pub ignored: Vec<String>,
+    pub remarks: Vec<String>,
+}
 
 impl Columns {
     /// Column of a field.
     pub fn place(&self, field: Field) -> Option<usize> {
-        self.0.iter().position(|column| *column == Some(field))
+        self.fields.iter().position(|column| *column == Some(field))
+    }
+
+    /// Places of the standard errors.
+    pub fn sigmas(&self) -> Vec<usize> {
+        let of = |k: &usize| self.fields[*k].is_some_and(Field::is_sigma);
+        (0..self.fields.len()).filter(of).collect()
     }
 }
 
-/// The columns that a heading names: one that has X, Y and Z.
-pub fn heading(fields: &[String]) -> Option<Columns> {
-    let mut columns: Vec<Option<Field>> = fields.iter().map(|field| Field::named(field)).collect();
-    let has = |columns: &[Option<Field>], field| columns.contains(&Some(field));
-    if ![Field::X, Field::Y, Field::Z].into_iter().all(|field| has(&columns, field)) {
-        return None;
-    }
-    // "name" stands for the id where there is no other, and so does a first column of any other name.
-    if !has(&columns, Field::Id) {
-        match columns.iter().position(|column| *column == Some(Field::Label)) {
-            Some(place) => columns[place] = Some(Field::Id),
-            None if columns[0].is_none() => columns[0] = Some(Field::Id),
-            None => return None,
-        }
-    }
-    Some(Columns(columns))
-}
-
-/// The columns of a table without heading: id, perhaps a label, X, Y, Z, then one sigma or three; what follows is left alone.
-pub fn guessed<'a>(rows: impl Iterator<Item = &'a [String]>) -> Result<Columns, Fault> {
-    let rows: Vec<&[String]> = rows.collect();
+/// The columns of a table without heading: id, perhaps a label, X, Y, Z, then one sigma or three, perhaps a description at the end; what
+/// follows is left alone.
+///
+/// Surveying instruments write point, north, east, height, description as often as point, east, north, height, description: with a
+/// description at the end the order is asked.
+pub(super) fn guessed(rows: &[&[String]], axes: Option<Axes>) -> Result<Columns, Fault> {
     let widest = rows.iter().map(|row| row.len()).max().unwrap_or(0);
     if widest < 4 {
         return Err(Fault { field: "Z", reason: Reason::ControlColumns { columns: widest } });
     }
-    // Numbers of either decimal mark, as long as nothing else is in them.
+    // Numbers of either decimal sign, as long as nothing else is in them.
     let numeric = |word: &String| word.replacen(',', ".", 1).parse::<f64>().is_ok();
     let labelled =
         rows.iter().filter(|row| row.len() >= 5 && !numeric(&row[1]) && row[2..5].iter().all(numeric)).count();
-    let mut columns = vec![Some(Field::Id)];
+    let mut fields = vec![Some(Field::Id)];
     if labelled * 2 > rows.len() {
-        columns.push(Some(Field::Label));
+        fields.push(Some(Field::Label));
     }
-    columns.extend([Field::X, Field::Y, Field::Z].map(Some));
-    match widest - columns.len() {
+    let first = fields.len();
+    fields.extend([Field::X, Field::Y, Field::Z].map(Some));
+    // Columns behind the coordinates that hold words: a description.
+    let held = |word: &String| matches!(word.to_ascii_lowercase().as_str(), "" | "-" | "fix" | "fixed");
+    let described = |k: usize| {
+        let words = rows.iter().filter_map(|row| row.get(k)).filter(|word| !held(word));
+        let (all, texts) = words.fold((0, 0), |(all, texts), word| (all + 1, texts + usize::from(!numeric(word))));
+        all > 0 && texts * 2 > all
+    };
+    let extra: Vec<usize> = (fields.len()..widest).collect();
+    let sigmas = extra.iter().take_while(|k| !described(**k)).count();
+    match sigmas {
         0 => {}
-        1 | 2 => columns.push(Some(Field::Sigma)),
-        _ => columns.extend([Field::Sx, Field::Sy, Field::Sz].map(Some)),
+        1 | 2 => {
+            fields.push(Some(Field::Sigma));
+            fields.extend(vec![None; sigmas - 1]);
+        }
+        _ => {
+            fields.extend([Field::Sx, Field::Sy, Field::Sz].map(Some));
+            fields.extend(vec![None; sigmas - 3]);
+        }
     }
-    Ok(Columns(columns))
+    let description = sigmas < extra.len() && !fields.contains(&Some(Field::Label));
+    if description {
+        fields.push(Some(Field::Label));
+    }
+    fields.resize(widest, None);
+    let order = match axes {
+        Some(axes) => (axes, Basis::Given),
+        None if description => (Axes::Xy, Basis::Undecided),
+        None => (Axes::Xy, Basis::Convention),
+    };
+    if order.0 == Axes::Yx {
+        fields.swap(first, first + 1);
+        let sigma = |field| fields.iter().position(|column| *column == Some(field));
+        if let (Some(x), Some(y)) = (sigma(Field::Sx), sigma(Field::Sy)) {
+            fields.swap(x, y);
+        }
+    }
+    Ok(Columns {
+        units: vec![None; fields.len()],
+        fields,
+        by: Basis::Convention,
+        order,
+        ignored: Vec::new(),
+        remarks: Vec::new(),
+    })
 }

@@ -75,7 +75,7 @@ fn a_damaged_photo_is_reported_by_its_largest_whole_part() {
         Samples::U16(_) => Vec::new(),
     };
     let samples = Samples::U8(parts.iter().flat_map(bytes).collect());
-    let photo = Photo { grey: Grey { width: WIDTH, height: 448, samples }, damaged_rows: vec![[160, 208]] };
+    let photo = Photo { grey: Grey { width: WIDTH, height: 448, samples }, damaged_rows: vec![[160, 208]], page: None };
     let options = DetectOptions::default();
     let found = detect_photo(&photo, &options).unwrap();
     assert_eq!(found.targets.len(), 24);

@@ -1,28 +1,27 @@
 //! What ties the object to the world: given coordinates, measured distances, unit and datum.
 
-use sightline::equipment::unit_factor;
-pub use sightline::equipment::{UNITS, has_lengths};
+use sightline::Error;
+pub use sightline::equipment::has_lengths;
 use sightline::project::{DatumKind, Distance, Point, Project, Role};
+pub use sightline::units::Unit;
+use sightline::units::factor;
 
 /// Takes points as control, or as what they say they are, in place of what was known of them. Their coordinates come in
-/// `unit`: the first ones give the project its unit, later ones are brought to it where both are known. How many.
-pub fn take_points(project: &mut Project, points: Vec<Point>, unit: &str) -> usize {
-    let factor = if has_lengths(project) {
-        factor(unit, &project.unit)
-    } else {
+/// `unit`: the first ones give the project its unit, later ones are converted to it. How many.
+///
+/// # Errors
+/// For coordinates that cannot be converted, as from or to an unknown unit; then nothing is taken.
+pub fn take_points(project: &mut Project, points: Vec<Point>, unit: &str) -> Result<usize, Error> {
+    let fresh = !has_lengths(project);
+    let factor = if fresh { 1.0 } else { factor(unit, &project.unit)? };
+    let points = Project { points, ..Project::default() }.scaled(factor)?.points;
+    if fresh {
         project.unit = unit.to_owned();
-        1.0
-    };
+    }
     let count = points.len();
     for point in points {
         let role = if point.role == Role::Tie { Role::Control } else { point.role };
-        let point = Point {
-            role,
-            xyz: point.xyz.map(|xyz| xyz.map(|x| x * factor)),
-            sigma: point.sigma.map(|sigma| sigma.map(|s| s.map(|s| s * factor))),
-            diameter: point.diameter.map(|d| d * factor),
-            ..point
-        };
+        let point = Point { role, ..point };
         match project.points.iter_mut().find(|p| p.id == point.id) {
             Some(known) => {
                 let diameter = point.diameter.or(known.diameter);
@@ -37,12 +36,7 @@ pub fn take_points(project: &mut Project, points: Vec<Point>, unit: &str) -> usi
     if control >= 3 && project.datum.kind == DatumKind::Free && project.datum.points.is_none() {
         project.datum.kind = DatumKind::Control;
     }
-    count
-}
-
-/// What a length in one unit is multiplied by to be in another; 1 where one of them is not known.
-pub fn factor(from: &str, to: &str) -> f64 {
-    unit_factor(from, to).unwrap_or(1.0)
+    Ok(count)
 }
 
 /// Gives a point a role; a tie point is kept only as long as something observes it.
@@ -76,6 +70,8 @@ pub enum DistanceFault {
     NoSuchPoint,
     Length,
     Sigma,
+    /// A comma before three digits can be read in two ways.
+    Ambiguous,
 }
 
 /// Adds a measured distance.
@@ -145,16 +141,6 @@ pub fn set_datum(project: &mut Project, kind: DatumKind) {
     project.datum.kind = kind;
 }
 
-/// Gives the project a unit; whether it is another one than before. Numbers stay as they are.
-pub fn set_unit(project: &mut Project, unit: &str) -> bool {
-    let unit = unit.trim();
-    if unit.is_empty() || project.unit == unit {
-        return false;
-    }
-    project.unit = unit.to_owned();
-    true
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -163,25 +149,43 @@ mod tests {
         Point { id: id.into(), xyz: Some([x, 0.0, 0.0]), sigma: Some([Some(0.1), None, None]), ..Point::default() }
     }
 
+    fn take(project: &mut Project, points: Vec<Point>, unit: &str) {
+        take_points(project, points, unit).expect("known units");
+    }
+
     #[test]
     fn the_first_coordinates_give_the_unit_and_later_ones_are_brought_to_it() {
         let mut p = Project::default();
         assert!(!has_lengths(&p));
-        assert_eq!(take_points(&mut p, vec![point("1", 1.0)], "m"), 1);
+        assert_eq!(take_points(&mut p, vec![point("1", 1.0)], "m"), Ok(1));
         assert_eq!((p.unit.as_str(), p.points[0].role), ("m", Role::Control));
         assert_eq!(p.datum.kind, DatumKind::Free);
-        take_points(&mut p, vec![point("2", 500.0), point("3", 0.0)], "mm");
+        take(&mut p, vec![point("2", 500.0), point("3", 0.0)], "mm");
         assert_eq!(p.points[1].xyz, Some([0.5, 0.0, 0.0]));
         assert_eq!(p.points[1].sigma, Some([Some(0.0001), None, None]));
         assert_eq!(p.datum.kind, DatumKind::Control);
-        assert_eq!((factor("in", "cm"), factor("ell", "mm")), (2.54, 1.0));
+    }
+
+    #[test]
+    fn an_unknown_unit_and_what_leaves_the_range_of_numbers_are_refused_whole() {
+        for (own, unit, x) in [("mm", "ell", 1.0), ("banana", "mm", 1.0), ("µm", "km", 1e95)] {
+            let mut p = Project::default();
+            take(&mut p, vec![point("1", 1.0)], own);
+            let before = p.clone();
+            assert!(take_points(&mut p, vec![point("2", 1.0), point("3", x)], unit).is_err(), "{own} {unit}");
+            assert_eq!(p, before);
+        }
+        // A document in a unit of its own goes on in it.
+        let mut p = Project::default();
+        take(&mut p, vec![point("1", 1.0)], "banana");
+        assert_eq!(take_points(&mut p, vec![point("2", 1.0)], "banana"), Ok(1));
     }
 
     #[test]
     fn a_point_taken_again_keeps_its_target() {
         let mut p = Project::default();
         p.points.push(Point { id: "1".into(), diameter: Some(8.0), ..Point::default() });
-        take_points(&mut p, vec![Point { role: Role::Check, ..point("1", 1.0) }], "mm");
+        take(&mut p, vec![Point { role: Role::Check, ..point("1", 1.0) }], "mm");
         assert_eq!((p.points.len(), p.points[0].diameter, p.points[0].role), (1, Some(8.0), Role::Check));
         set_role(&mut p, "1", Role::Control);
         set_coordinate(&mut p, "1", 2, 7.0);
@@ -197,7 +201,7 @@ mod tests {
     #[test]
     fn distances_are_checked() {
         let mut p = Project::default();
-        take_points(&mut p, vec![point("1", 1.0), point("2", 2.0)], "mm");
+        take(&mut p, vec![point("1", 1.0), point("2", 2.0)], "mm");
         let distance = |from: &str, to: &str, length, sigma| Distance {
             from: from.into(),
             to: to.into(),
@@ -216,7 +220,7 @@ mod tests {
     #[test]
     fn one_distance_is_edited_switched_and_removed_and_no_other() {
         let mut p = Project::default();
-        take_points(&mut p, vec![point("1", 1.0), point("2", 2.0), point("3", 3.0)], "mm");
+        take(&mut p, vec![point("1", 1.0), point("2", 2.0), point("3", 3.0)], "mm");
         for (from, to) in [("1", "2"), ("2", "3")] {
             let distance = Distance { from: from.into(), to: to.into(), length: 1.0, sigma: 0.1, check: false };
             add_distance(&mut p, distance).expect("a distance");
@@ -241,16 +245,11 @@ mod tests {
     }
 
     #[test]
-    fn datum_and_unit_are_set_and_nothing_else() {
+    fn the_datum_is_set_and_nothing_else() {
         let mut p = Project::default();
-        take_points(&mut p, vec![point("1", 1.0)], "mm");
+        take(&mut p, vec![point("1", 1.0)], "mm");
         p.datum.points = Some(vec!["1".into()]);
         set_datum(&mut p, DatumKind::Control);
         assert_eq!((p.datum.kind, p.datum.points.clone()), (DatumKind::Control, Some(vec!["1".to_owned()])));
-        let before = p.clone();
-        assert!(!set_unit(&mut p, " mm ") && !set_unit(&mut p, "  "));
-        assert_eq!(p, before);
-        assert!(set_unit(&mut p, " m "));
-        assert_eq!(p, Project { unit: "m".into(), ..before });
     }
 }

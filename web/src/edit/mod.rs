@@ -1,6 +1,7 @@
 //! Edits of the document: plain functions on [`Project`](sightline::project::Project), apart from signals and jobs. Each
 //! does one thing, says what else it did, and refuses what would damage the document. The desk's verbs make them undoable.
 
+pub mod attaching;
 pub mod cameras;
 pub mod cells;
 pub mod control;
@@ -17,6 +18,7 @@ pub mod sheet;
 pub mod targets;
 #[cfg(test)]
 mod undoing;
+pub mod unit;
 
 use std::cmp::Ordering;
 

@@ -6,8 +6,8 @@ use sightline::project::{
     Camera, DatumKind, Feature, FeatureKind, Form, Interior, Parameter, Plan, PlanDistance, PlanFace, PlanStation,
     Point, Project, Region, Role, Variant,
 };
+use sightline::units::Unit;
 
-use super::control::UNITS;
 use crate::store::document::Document;
 
 /// Parameters that a calibration on the object estimates.
@@ -81,20 +81,20 @@ pub fn begin(project: &mut Project, form: Form, mm: f64) {
 }
 
 /// Puts a plan that was made elsewhere in place of the document's. A document of nothing takes the unit that it comes with; otherwise its
-/// lengths are in the document's.
+/// lengths are in the document's. With a unit that is not known, the plan's own millimetres stay.
 pub fn put(document: &mut Document, mut made: Plan, unit: Option<&str>) {
     let fresh = document.is_empty();
     let project = document.project_mut();
     if let Some(unit) = unit.filter(|_| fresh) {
         project.unit = unit.to_owned();
     }
-    made.lens.unit_mm = millimetres(&project.unit);
+    made.lens.unit_mm = millimetres(&project.unit).unwrap_or(made.lens.unit_mm);
     project.plan = Some(Box::new(made));
 }
 
-/// Millimetres of a unit; 1 where it is not known.
-pub fn millimetres(unit: &str) -> f64 {
-    UNITS.iter().find(|(name, _)| *name == unit).map_or(1.0, |(_, mm)| *mm)
+/// Millimetres of a unit; none where it is not known.
+pub fn millimetres(unit: &str) -> Option<f64> {
+    Unit::named(unit).map(Unit::millimetres)
 }
 
 /// Changes the project's plan; whether it has one.

@@ -197,7 +197,7 @@ const ACTIONS: [(&str, Action); 54] = [
     }),
     ("control taken", |d| {
         let point = Point { id: "a".into(), xyz: Some([4.0; 3]), ..Point::default() };
-        control::take_points(d.project_mut(), vec![point], "mm");
+        control::take_points(d.project_mut(), vec![point], "mm").expect("known units");
     }),
     ("role", |d| control::set_role(d.project_mut(), "a", Role::Check)),
     ("coordinate", |d| control::set_coordinate(d.project_mut(), "c", 1, 9.0)),

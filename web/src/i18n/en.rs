@@ -90,11 +90,21 @@ declare! { desk {
     being_read: "Being read";
     photo_count(n): "{n} {n:photo|photos}";
     rows_damaged(photo, rows): "Photo {photo}: rows {rows} of the file are damaged and were not measured";
+    page_measured(photo, number, of): "Photo {photo}: picture {number} of the {of} in the file is measured, the first of full resolution";
+    first_page_measured(photo, of): "Photo {photo}: the file has {of} pictures; the first is measured";
     photo_failed(photo, reason): "Photo {photo}: {reason}";
     no_photo_files: "No photo file is here: drop the photos of this project to work on them.";
     photo_file_missing(file): "The file {file} is not here. Drop it on this page to see it.";
     not_taken: "Not taken";
     duplicate_of(file): "the same content as {file}, which is here already";
+    same_name_as(photo): "it has the name of photo {photo} of this project; it is not attached before you choose";
+    photos_differ(n, names):
+        "{n} {n:file|files} with the name of a photo of this project, but other contents: {names}. Add as new photos, or replace the project's photos and remove what was measured in them?";
+    photos_unrecorded(n, names):
+        "{n} {n:file|files} with the name and size of measured photos: {names}. The project does not record their contents. Are they the same photos?";
+    same_photos: "The same photos";
+    add_as_new: "Add as new photos";
+    replace_photos: "Replace, remove measurements";
     developed_of(file): "the same shot as {file}, which is measured, on the sensor's own samples";
     raw_of(file): "the same shot as {file}, which is here already; in the RAW file the sensor's own samples are measured";
     measure_raw: "Measure the RAW files instead";
@@ -373,6 +383,9 @@ declare! { desk {
     found_by_orientation: "unknown: found";
     not_zero_or_more(typed): "\"{typed}\" is not 0 or more: type a number of pixels such as 0.1.";
     not_a_number(typed): "\"{typed}\" is no number: type one such as -0.0034.";
+    ambiguous_number(typed, decimal, thousands):
+        "\"{typed}\" can be read in two ways: {decimal} with a decimal comma, {thousands} with a thousands separator. Type one of the two.";
+    ambiguous_short: "A comma before three digits can be read in two ways: type 1.234 or 1234.";
 
     // What this browser keeps
     recent_projects: "Recent projects";
@@ -640,6 +653,28 @@ declare! { desk {
     unit_of_these: "in";
     choose_unit: "choose…";
     which_unit: "Say in which unit these coordinates are: a sheet of 1 m must not become one of 1 mm.";
+    unit_question(from, to, after):
+        "The numbers are in {from}. Convert them to {to} (1000 {from} become {after} {to}), or were they in {to} all along?";
+    unit_convert: "Convert the numbers";
+    unit_relabel: "Only the unit was wrong";
+    unit_unknown(unit): "\"{unit}\" is not a known unit of length. Choose the unit of the numbers.";
+    unit_unknown_question(from, to): "\"{from}\" is not a known unit, and nothing can be converted from it. Are the numbers in {to}?";
+    unit_is_right: "Yes, change the unit";
+    read_separator(separator): "Fields are separated by {separator}.";
+    separator_comma: "commas";
+    separator_semicolon: "semicolons";
+    separator_tab: "tabs";
+    separator_blanks: "blanks";
+    read_point: "Decimal point.";
+    read_comma: "Decimal comma.";
+    read_columns(columns): "Columns by the heading: {columns}.";
+    read_columns_assumed(columns): "No heading; columns assumed: {columns}.";
+    read_ignored(columns): "Not used: {columns}.";
+    read_remarks(headings): "Not understood in the heading: {headings}.";
+    ask_decimal: "Which number is meant?";
+    ask_axes: "The table has no heading that tells the axes. Which coordinate comes first?";
+    axes_xy: "X, east";
+    axes_yx: "Y, north";
     in_unit(unit): "in {unit}";
     observed_centres: "Observed projection centres";
     observed_centres_hint: "as from GNSS; used under the control datum";
@@ -830,6 +865,9 @@ declare! { desk {
     change_options: "weights or search for gross errors chosen";
     change_adjusted: "adjusted";
     change_unit: "unit of length changed";
+    change_unit_converted: "lengths converted to another unit";
+    change_photos_attached(n): "files of {n} {n:photo|photos} attached";
+    change_photos_replaced(n): "{n} {n:photo|photos} replaced";
     change_opened: "project opened";
     unmodelled: "not modelled, px";
     unmodelled_why: "added in quadrature to every σ of the image: lens, flatness of targets, light";

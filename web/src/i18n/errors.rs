@@ -50,6 +50,14 @@ pub fn sentence(error: &Error) -> String {
     text
 }
 
+/// The sentence for a number that is not taken as typed: with both readings where there are two, else why not.
+pub fn refusal(typed: &str, why: fn(String) -> String) -> String {
+    match crate::format::ambiguous(typed) {
+        Some([decimal, thousands]) => super::text::ambiguous_number(typed, decimal, thousands),
+        None => why(typed.to_owned()),
+    }
+}
+
 fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

@@ -83,11 +83,21 @@ translate! { Korean desk {
     being_read: "읽는 중";
     photo_count(n): "사진 {n}매";
     rows_damaged(photo, rows): "사진 {photo}: 파일의 {rows}행이 손상되어 측정하지 않았습니다";
+    page_measured(photo, number, of): "사진 {photo}: 파일에 든 영상 {of}개 가운데 원래 해상도인 {number}번째를 측정합니다";
+    first_page_measured(photo, of): "사진 {photo}: 파일에 영상이 {of}개 있습니다. 첫 번째를 측정합니다";
     photo_failed(photo, reason): "사진 {photo}: {reason}";
     no_photo_files: "사진 파일이 없습니다. 이 프로젝트의 사진을 놓으십시오.";
     photo_file_missing(file): "{file} 파일이 없습니다. 보려면 이 페이지에 놓으십시오.";
     not_taken: "받지 않은 파일";
     duplicate_of(file): "이미 있는 {file} 파일과 내용이 같습니다";
+    same_name_as(photo): "이 프로젝트의 사진 {photo}{photo:과|와} 이름이 같습니다. 고르기 전에는 연결하지 않습니다";
+    photos_differ(n, names):
+        "이 프로젝트의 사진과 이름은 같지만 내용이 다른 파일 {n}개: {names}. 새 사진으로 추가하겠습니까, 아니면 프로젝트의 사진을 바꾸고 그 사진의 측정값을 삭제하겠습니까?";
+    photos_unrecorded(n, names):
+        "측정한 사진과 이름과 크기가 같은 파일 {n}개: {names}. 프로젝트에 사진 내용의 기록이 없습니다. 같은 사진입니까?";
+    same_photos: "같은 사진";
+    add_as_new: "새 사진으로 추가";
+    replace_photos: "바꾸고 측정값 삭제";
     developed_of(file): "센서 값을 담은 {file} 파일과 같은 촬영이므로 그 파일에서 측정합니다";
     raw_of(file): "이미 있는 {file} 파일과 같은 촬영입니다. RAW 파일에서는 센서 값을 그대로 측정합니다";
     measure_raw: "RAW 파일에서 측정";
@@ -364,6 +374,9 @@ translate! { Korean desk {
     found_by_orientation: "미상: 자동 추정";
     not_zero_or_more(typed): "\"{typed}\"{typed:은|는} 0 이상의 수가 아닙니다. 0.1과 같이 화소 수를 입력하십시오.";
     not_a_number(typed): "\"{typed}\"{typed:은|는} 수가 아닙니다. -0.0034와 같이 입력하십시오.";
+    ambiguous_number(typed, decimal, thousands):
+        "\"{typed}\"{typed:은|는} 두 가지로 읽힙니다. 쉼표가 소수점이면 {decimal}, 천 단위 구분이면 {thousands}입니다. 둘 가운데 하나로 입력하십시오.";
+    ambiguous_short: "세 자리 앞의 쉼표는 두 가지로 읽힙니다. 1.234 또는 1234와 같이 입력하십시오.";
 
     // What this browser keeps
     recent_projects: "최근 프로젝트";
@@ -628,6 +641,28 @@ translate! { Korean desk {
     unit_of_these: "단위";
     choose_unit: "고르기…";
     which_unit: "이 좌표의 단위를 고르십시오. 1 m 판이 1 mm 판이 되어서는 안 됩니다.";
+    unit_question(from, to, after):
+        "수의 단위는 {from}입니다. {to}{to:으로|로} 환산하겠습니까(1000 {from} → {after} {to}), 아니면 처음부터 {to}였습니까?";
+    unit_convert: "수를 환산";
+    unit_relabel: "단위만 틀렸음";
+    unit_unknown(unit): "\"{unit}\"{unit:은|는} 알려진 길이 단위가 아닙니다. 수의 단위를 고르십시오.";
+    unit_unknown_question(from, to): "\"{from}\"{from:은|는} 알려진 단위가 아니어서 환산할 수 없습니다. 수의 단위가 {to}입니까?";
+    unit_is_right: "예, 단위를 바꿈";
+    read_separator(separator): "필드 구분: {separator}.";
+    separator_comma: "쉼표";
+    separator_semicolon: "세미콜론";
+    separator_tab: "탭";
+    separator_blanks: "빈칸";
+    read_point: "소수점은 점.";
+    read_comma: "소수점은 쉼표.";
+    read_columns(columns): "머리글에 따른 열: {columns}.";
+    read_columns_assumed(columns): "머리글이 없어 가정한 열: {columns}.";
+    read_ignored(columns): "쓰지 않는 열: {columns}.";
+    read_remarks(headings): "머리글에서 이해하지 못한 것: {headings}.";
+    ask_decimal: "어느 수입니까?";
+    ask_axes: "축을 알려 주는 머리글이 없습니다. 어느 좌표가 먼저입니까?";
+    axes_xy: "X(동)";
+    axes_yx: "Y(북)";
     in_unit(unit): "단위 {unit}";
     observed_centres: "관측된 투영중심";
     observed_centres_hint: "GNSS 등. 기준점 기준계에서 사용";
@@ -806,6 +841,9 @@ translate! { Korean desk {
     change_options: "가중값·과대오차 처리 선택";
     change_adjusted: "조정";
     change_unit: "길이 단위 변경";
+    change_unit_converted: "길이를 다른 단위로 환산";
+    change_photos_attached(n): "사진 {n}매의 파일 연결";
+    change_photos_replaced(n): "사진 {n}매 교체";
     change_opened: "프로젝트 열기";
     unmodelled: "모형화되지 않은 오차, px";
     unmodelled_why: "렌즈, 표적 평탄도, 조명의 영향. 사진좌표의 각 σ에 제곱합으로 더합니다";

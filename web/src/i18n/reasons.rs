@@ -170,6 +170,35 @@ pub fn reason(reason: &Reason) -> String {
                 &[("name", name), ("choices", choices), ("text", text)],
             );
         }
+        R::AmbiguousNumber { name, text, decimal, thousands } => {
+            return told(
+                "{name}: \"{text}\"{text:은|는} 두 가지로 읽힙니다. 쉼표가 소수점이면 {decimal}, 천 단위 구분이면 {thousands}입니다. 소수점 기호를 고르십시오",
+                &[("name", name), ("text", text), ("decimal", decimal), ("thousands", thousands)],
+            );
+        }
+        R::SeparatorBothWays => {
+            "필드를 나누는 기호가 소수점이나 천 단위 구분일 수도 있습니다. 표를 세미콜론이나 탭으로 나누어 저장하거나, 소수점을 쓰고 모든 열의 이름을 머리글에 적으십시오"
+        }
+        R::MoreFields { fields, columns } => {
+            return format!("이 행의 필드는 {fields}개인데 머리글의 열은 {columns}개입니다");
+        }
+        R::HeadingIncomplete { name } => {
+            return told(
+                "머리글에 {name} 열이 없습니다. 열 이름을 id, X, Y, Z(또는 N, E, H)로 적으십시오",
+                &[("name", name)],
+            );
+        }
+        R::HeadingTwice { name } => return told("머리글에 {name} 열이 두 번 나옵니다", &[("name", name)]),
+        R::UnitOfCoordinates => "머리글에 표준오차의 단위만 있고 좌표의 단위가 없습니다. 좌표의 단위를 고르십시오",
+        R::TooLarge { name, text } => {
+            return told("{name}{name:이|가} 너무 큽니다: \"{text}\"", &[("name", name), ("text", text)]);
+        }
+        R::Scaled { value, factor } => {
+            return format!(
+                "{value} × {factor}{}",
+                "은(는) 문서에 담을 수 있는 수의 범위를 벗어납니다. 아무것도 환산하지 않았습니다"
+            );
+        }
         R::ControlColumns { columns } => {
             return format!("기준점에는 네 열(id, X, Y, Z)이 필요한데 표의 열은 {columns}개입니다");
         }

@@ -10,7 +10,7 @@ use super::document::Change;
 use super::{Desk, Selection};
 use crate::edit::cameras;
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{errors, text};
 
 impl Desk {
     fn edit_camera(self, id: &str, edit: impl FnOnce(&mut Project)) {
@@ -56,7 +56,7 @@ impl Desk {
     /// Says that what was typed cannot be taken.
     pub(super) fn refuse(self, typed: &str, why: fn(String) -> String) {
         let typed = typed.to_owned();
-        self.warn_here(move || why(typed.clone()));
+        self.warn_here(move || errors::refusal(&typed, why));
     }
 
     fn exif_of_camera(self, id: &str) -> PhotoInfo {

@@ -8,7 +8,7 @@ use sightline_protocol::Detect;
 use super::document::Change;
 use super::pool::{Failure, Outcome};
 use super::{Desk, JobKind, PhotoFile, Until};
-use crate::edit::{cameras, targets};
+use crate::edit::{attaching, cameras, targets};
 use crate::i18n::{errors, text};
 
 impl Desk {
@@ -60,12 +60,23 @@ impl Desk {
             let (photo, rows) = (photo.to_owned(), rows.collect::<Vec<_>>().join(", "));
             self.warn(move || text::rows_damaged(&photo, &rows));
         }
+        if let Some(page) = detection.page {
+            let photo = photo.to_owned();
+            if page.skipped > 0 {
+                self.warn(move || text::page_measured(&photo, page.number, page.of));
+            } else {
+                self.warn(move || text::first_page_measured(&photo, page.of));
+            }
+        }
+        let sha256 =
+            self.files.with_untracked(|files| files.get(photo).map(|file| file.sha256.clone())).unwrap_or_default();
         let family = match self.detect_options.with_untracked(|o| o.codes.families()) {
             [family] => Some(*family),
             _ => None,
         };
         self.change_on(|document| {
             cameras::measured_in(document.project_mut(), photo, channel, &detection);
+            attaching::record(document.project_mut(), photo, &sha256);
             targets::take_detection(document, photo, detection, family);
         });
     }

@@ -118,6 +118,9 @@ pub enum Change {
     OptionsChosen,
     Adjusted,
     UnitSet,
+    UnitConverted,
+    PhotosAttached(usize),
+    PhotosReplaced(usize),
     FeatureMade(String),
     FeatureRemoved(String),
     FeatureRenamed { from: String, to: String },
@@ -223,7 +226,8 @@ impl History {
         let mut last = result;
         let results = self.past.iter().rev().filter_map(|entry| entry.state.as_ref()?.result.as_ref());
         let mut others = results.filter(|other| !Arc::ptr_eq(std::mem::replace(&mut last, other), other));
-        others.find(|other| other.adjustment != result.adjustment)
+        // Numbers in another unit are no earlier state of these.
+        others.find(|other| other.adjustment != result.adjustment && other.input.unit == result.input.unit)
     }
 
     /// What has changed since the present result was found, latest last.

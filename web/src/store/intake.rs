@@ -13,12 +13,13 @@ use sightline_protocol::{Glance, Open};
 use super::document::{Change, Document};
 use super::pool::{Batch, Failure, Outcome};
 use super::saving::{is_project, is_text};
-use super::{Desk, JobKind, PhotoFile, Problem, Reason, Step, Until};
+use super::{Asking, Desk, JobKind, PhotoFile, Problem, Reason, Step, Until};
 use crate::browser::file::NamedFile;
 use crate::browser::picture::Picture;
+use crate::edit::attaching::{self, Arriving, Belongs};
 use crate::edit::cameras::{self, Signature};
 use crate::edit::{natural, pairs};
-use crate::i18n::text;
+use crate::i18n::{Text, text};
 use crate::parts::{Absent, part};
 
 /// Longest side of the small pictures, sharp on twice as dense screens.
@@ -155,7 +156,8 @@ impl Desk {
         let mut all = taken.take();
         all.sort_by_key(|(place, _)| *place);
         let mut project = self.document.with_untracked(|d| (*d.project).clone());
-        let mut added = 0;
+        let (mut added, mut recorded) = (0, 0);
+        let mut asked = Vec::new();
         let mut problems = self.problems.get_untracked();
         let raws: Vec<(String, PhotoInfo)> = all
             .iter()
@@ -182,9 +184,24 @@ impl Desk {
                 problems.push(Problem { file: file.name, reason: Reason::Duplicate { of } });
                 continue;
             }
-            let id = match self.waiting_for(&project, &file) {
-                Some(id) => id,
-                None => {
+            let id = match self.belongs(&file) {
+                Belongs::To(id) => {
+                    recorded += usize::from(attaching::record(&mut project, &id, &file.sha256));
+                    id
+                }
+                belongs @ (Belongs::Differs(_) | Belongs::Unrecorded(_)) => {
+                    if asked.iter().any(|(_, other): &(Belongs, PhotoFile)| other.digest == file.digest) {
+                        continue;
+                    }
+                    let of = match &belongs {
+                        Belongs::Differs(id) | Belongs::Unrecorded(id) => id.clone(),
+                        _ => String::new(),
+                    };
+                    problems.push(Problem { file: file.name.clone(), reason: Reason::SameName { of } });
+                    asked.push((belongs, file));
+                    continue;
+                }
+                Belongs::Nowhere => {
                     if let Some(reason) = self.other_of_the_shot(&project, &file, &raws) {
                         problems.push(Problem { file: file.name.clone(), reason });
                         self.others.update_value(|others| {
@@ -205,7 +222,10 @@ impl Desk {
         self.problems.set(problems);
         if added > 0 {
             self.change(Change::PhotosAdded(added), |document| *document.project_mut() = project);
+        } else if recorded > 0 {
+            self.change(Change::PhotosAttached(recorded), |document| *document.project_mut() = project);
         }
+        self.ask_whose(asked);
         self.document.with_untracked(|d| {
             if let Some(photo) =
                 d.project.photos.first().filter(|_| self.selection.with_untracked(|s| s.photo.is_none()))
@@ -222,12 +242,105 @@ impl Desk {
         }
     }
 
-    /// The photo of an opened project that this file belongs to.
-    fn waiting_for(self, project: &Project, file: &PhotoFile) -> Option<String> {
+    /// Which photo of an opened project this file belongs to.
+    fn belongs(self, file: &PhotoFile) -> Belongs {
         self.files.with_untracked(|files| {
-            let waits = |p: &&Photo| p.file == file.name && !files.contains_key(&p.id);
-            project.photos.iter().find(waits).map(|p| p.id.clone())
+            let waits = |photo: &Photo| !files.contains_key(&photo.id);
+            let arriving = Arriving { name: &file.name, sha256: &file.sha256, size: file.size };
+            self.document.with_untracked(|d| attaching::belongs(d, &waits, arriving))
         })
+    }
+
+    /// Asks what files are that have the names of photos, where their contents differ or nothing recorded tells. Until it is answered
+    /// they are listed as not taken, and no photo is touched.
+    fn ask_whose(self, asked: Vec<(Belongs, PhotoFile)>) {
+        if asked.is_empty() {
+            return;
+        }
+        let names = asked.iter().map(|(_, file)| file.name.clone()).collect::<Vec<_>>();
+        let listed = match names.as_slice() {
+            [first, second, third, _, ..] => format!("{first}, {second}, {third}, …"),
+            few => few.join(", "),
+        };
+        let count = names.len();
+        // One that differs for certain makes the whole drop doubtful, and so do two files for one photo.
+        let differs = asked.iter().enumerate().any(|(k, (belongs, _))| {
+            matches!(belongs, Belongs::Differs(_)) || asked[..k].iter().any(|(other, _)| other == belongs)
+        });
+        let files: Rc<Vec<(String, PhotoFile)>> = Rc::new(
+            asked
+                .into_iter()
+                .filter_map(|(belongs, file)| match belongs {
+                    Belongs::Differs(id) | Belongs::Unrecorded(id) => Some((id, file)),
+                    Belongs::To(_) | Belongs::Nowhere => None,
+                })
+                .collect(),
+        );
+        let choice = |words: Text, verb: fn(Self, &[(String, PhotoFile)])| {
+            let files = files.clone();
+            let take: Rc<dyn Fn()> = Rc::new(move || {
+                if !self.may_change() {
+                    return;
+                }
+                let listed = |problem: &Problem| {
+                    matches!(problem.reason, Reason::SameName { .. }) && names_of(&files).contains(&problem.file)
+                };
+                self.problems.update(|problems| problems.retain(|problem| !listed(problem)));
+                verb(self, &files);
+            });
+            (words, take)
+        };
+        let mut choices =
+            vec![choice(text::add_as_new, Self::add_as_new), choice(text::replace_photos, Self::replace_photos)];
+        if !differs {
+            choices.insert(0, choice(text::same_photos, Self::attach_as_same));
+        }
+        let text = Rc::new(move || match differs {
+            true => text::photos_differ(count, &listed),
+            false => text::photos_unrecorded(count, &listed),
+        });
+        self.asking.set(Some(Asking { text, choices }));
+    }
+
+    /// Adds files as photos of their own.
+    fn add_as_new(self, files: &[(String, PhotoFile)]) {
+        let mut project = self.document.with_untracked(|d| (*d.project).clone());
+        for (_, file) in files {
+            let id = self.add_photo(&mut project, file);
+            self.files.update(|all| {
+                all.insert(id, file.clone());
+            });
+        }
+        self.change(Change::PhotosAdded(files.len()), |document| *document.project_mut() = project);
+    }
+
+    /// Puts files in the place of photos, which go with all that was measured in them. The new ones have identifiers of their own, so that
+    /// undo brings back photos that wait for their own files.
+    fn replace_photos(self, files: &[(String, PhotoFile)]) {
+        let mut after = self.document.get_untracked();
+        let mut last = None;
+        for (old, file) in files {
+            let id = self.add_photo(after.project_mut(), file);
+            attaching::replace(&mut after, old);
+            self.files.update(|all| {
+                all.insert(id.clone(), file.clone());
+            });
+            last = Some(id);
+        }
+        self.change(Change::PhotosReplaced(files.len()), |document| *document = after);
+        if let Some(id) = last {
+            self.select_photo(&id);
+        }
+    }
+
+    /// Attaches files to the photos of their names, and records their contents.
+    fn attach_as_same(self, files: &[(String, PhotoFile)]) {
+        let mut project = self.document.with_untracked(|d| (*d.project).clone());
+        for (id, file) in files {
+            attaching::record(&mut project, id, &file.sha256);
+        }
+        self.change(Change::PhotosAttached(files.len()), |document| *document.project_mut() = project);
+        self.files.update(|all| all.extend(files.iter().cloned()));
     }
 
     /// What else there is of the file's shot: a photo of the project, or for a developed one its RAW among those that come with it.
@@ -347,6 +460,10 @@ impl Desk {
         }
         id
     }
+}
+
+fn names_of(files: &[(String, PhotoFile)]) -> Vec<String> {
+    files.iter().map(|(_, file)| file.name.clone()).collect()
 }
 
 async fn look_into(file: NamedFile, outcome: Outcome<Open>) -> Result<PhotoFile, Problem> {

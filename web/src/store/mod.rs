@@ -215,6 +215,8 @@ pub enum Reason {
     Engine(Error),
     /// The same content as another photo.
     Duplicate { of: String },
+    /// The name of a photo of the project, and other contents or none that are recorded: it is asked.
+    SameName { of: String },
     /// A developed photo whose RAW is taken.
     Developed { of: String },
     /// A RAW whose developed photo is here already.

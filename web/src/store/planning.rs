@@ -7,6 +7,7 @@ use sightline::Error;
 use sightline::exchange::control_csv;
 use sightline::plan::{Criterion, MakeOptions, Prediction, Suggested};
 use sightline::project::{Plan, PlanStation, Project};
+use sightline::units;
 use sightline_protocol::{BeginPlan, MakePlan, Open, PlanOf, PredictPlan, SuggestPhoto};
 
 use super::document::Change;
@@ -18,8 +19,8 @@ use crate::browser::file::NamedFile;
 use crate::edit::cameras::{self, Signature};
 use crate::edit::control::has_lengths;
 use crate::edit::plan;
-use crate::i18n::lasting;
 use crate::i18n::planning as words;
+use crate::i18n::{lasting, text};
 
 /// What is known of the plan.
 #[derive(Clone, Copy)]
@@ -77,19 +78,22 @@ impl Desk {
         self.with_plan(Plan::clone)
     }
 
-    /// The unit of a plan that is begun: what has lengths keeps its own.
-    fn unit_to_begin(self) -> (String, f64) {
+    /// The unit of a plan that is begun: what has lengths keeps its own. None, and said so, for one that is not known.
+    fn unit_to_begin(self) -> Option<(String, f64)> {
         let own = self
             .document
             .with_untracked(|d| (has_lengths(&d.project) || d.project.plan.is_some()).then(|| d.project.unit.clone()));
         let unit = own.unwrap_or_else(|| self.planning.unit.get_untracked());
-        let mm = plan::millimetres(&unit);
-        (unit, mm)
+        let Some(mm) = plan::millimetres(&unit) else {
+            self.warn_here(move || text::unit_unknown(&unit));
+            return None;
+        };
+        Some((unit, mm))
     }
 
     /// Begins a plan of a form.
     pub fn begin_plan(self, kind: &str) {
-        let (unit, mm) = self.unit_to_begin();
+        let Some((unit, mm)) = self.unit_to_begin() else { return };
         let form = plan::first_form(kind, mm);
         self.change(Change::PlanEdited, |document| {
             let project = document.project_mut();
@@ -100,11 +104,17 @@ impl Desk {
 
     /// Takes a list of points into the plan, or begins one of them. A bad row is told, and then nothing is taken.
     pub fn take_plan_points(self, content: &str) {
-        let points = match control_csv::parse(content).into_points() {
+        let Some((unit, mm)) = self.unit_to_begin() else { return };
+        let table = control_csv::parse(content);
+        // A heading's unit is converted to the plan's; without one the coordinates are in the plan's.
+        let factor = table.unit.map_or(Ok(1.0), |own| units::factor(own.symbol(), &unit));
+        let read = table
+            .into_points()
+            .and_then(|points| Project { points, ..Project::default() }.scaled(factor?).map(|project| project.points));
+        let points = match read {
             Ok(points) => points,
             Err(error) => return self.warn_error(error),
         };
-        let (unit, mm) = self.unit_to_begin();
         self.planning.live.set(None);
         self.planning.suggested.set(Vec::new());
         self.change(Change::PlanEdited, |document| {

@@ -17,7 +17,7 @@ use crate::edit::many::{self, Keys, RenameFault};
 use crate::edit::natural;
 use crate::edit::sheet::{Col, Sheet, Table};
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{errors, text};
 
 /// Which rows of a table are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -237,10 +237,18 @@ impl Desk {
     pub fn rename_by_nearest(self, tolerance: &str) -> bool {
         let Some(tolerance) = format::parse(tolerance).filter(|t| *t > 0.0) else {
             let typed = tolerance.to_owned();
-            self.warn_here(move || text::not_a_length(&typed));
+            self.warn_here(move || errors::refusal(&typed, text::not_a_length));
             return false;
         };
-        let given = self.pasted.with_untracked(|p| p.as_ref().map(|p| p.table.clone().split().0)).unwrap_or_default();
+        let unit = self.document.with_untracked(|d| d.project.unit.clone());
+        let given = self.pasted.with_untracked(|p| p.as_ref().map_or(Ok(Vec::new()), |p| p.points_in(&unit)));
+        let given = match given {
+            Ok(given) => given,
+            Err(error) => {
+                self.warn_error(error);
+                return false;
+            }
+        };
         let given = given.into_iter().filter_map(|p| Some((p.id, p.xyz?))).collect::<Vec<_>>();
         let ids = untrack(|| self.marked(Kind::Points));
         let points = self.document.with_untracked(|d| {
@@ -376,7 +384,7 @@ pub fn refusal_words(refusal: &Refusal, typed: &str) -> String {
     match refusal {
         Refusal::NoSuchRow => text::refused_no_row().to_owned(),
         Refusal::NotEditable => text::refused_not_editable().to_owned(),
-        Refusal::NotANumber => text::not_a_number(typed),
+        Refusal::NotANumber => errors::refusal(typed, text::not_a_number),
         Refusal::NotPositive => text::not_a_length(typed),
         Refusal::NotAFlag => text::refused_flag(typed),
         Refusal::NotARole => text::refused_role(typed),

@@ -39,8 +39,8 @@ pub fn readings(text: &str, project: &Project) -> Vec<Reading> {
     };
     let table = control_csv::parse(text);
     let good = table.rows.iter().filter(|row| row.is_ok()).count();
-    let control = good > 0 && good as f64 >= MOST * table.rows.len() as f64;
-    if control && names(&["x", "y", "z"]) {
+    let control = good > 0 && good as f64 >= MOST * table.rows.len() as f64 || table.is_open();
+    if control && (table.has_heading() || names(&["x", "y", "z"])) {
         return vec![Reading::Control];
     }
     let marks: Vec<&Row> = rows.iter().filter(|row| is_mark(row)).collect();
@@ -224,6 +224,21 @@ mod tests {
         assert_eq!(readings("id;X [m];Y [m];Z [m]\nA;1,5;2,5;3,5\nB;1,0;2,0;3,0\n", &p), [Reading::Control]);
         assert_eq!(readings("point\tX\tY\tZ\tsigma\n1\t1.5\t2.5\t3.5\t0.01\n", &p), [Reading::Control]);
         assert_eq!(readings("# a comment\n\nCP1 control 1.0 2.0 3.0\n", &p), [Reading::Control]);
+    }
+
+    #[test]
+    fn lists_that_leave_something_open_are_lists() {
+        let p = project();
+        // To be refused with the reason or asked where they are shown, not told to be no list.
+        for open in [
+            "P1,1,234,2,345,3,456\nP2,4,567,5,678,6,789\n",
+            "1,5000.123,3000.456,101.231,TGT\n2,5004.223,3001.112,101.901,TGT\n",
+            "P1\t1,234\t2,345\t3,456\n",
+            "#Label,X/Easting,Y/Northing,Z/Altitude,Error_(m)\nt1,0.0,0.0,0.0,0.002\n",
+            "id,X [banana],Y,Z\n1,1.5,2.5,3.5\n",
+        ] {
+            assert_eq!(readings(open, &p), [Reading::Control], "{open}");
+        }
     }
 
     #[test]

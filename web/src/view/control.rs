@@ -3,6 +3,9 @@
 use std::collections::HashSet;
 
 use leptos::prelude::*;
+use sightline::exchange::control_csv::{
+    Assumption, Axes, Basis, ControlTable, Decimal, Field as ControlField, Separator,
+};
 use sightline::project::{DatumKind, Point, Role};
 
 use super::equipment::BarsOffer;
@@ -11,11 +14,11 @@ use super::icon::{Glyph, Icon};
 use super::identities::NamedPhoto;
 use super::shell::TitleBar;
 use crate::browser::{event, file};
-use crate::edit::control::{DistanceFault, UNITS};
+use crate::edit::control::{DistanceFault, Unit};
 use crate::format;
 use crate::i18n::{Text, errors, text, text::role_word};
 use crate::store::control::distance_fault;
-use crate::store::texts::Reading;
+use crate::store::texts::Reading as TextReading;
 use crate::store::{Desk, Step};
 
 #[component]
@@ -50,7 +53,7 @@ pub fn Control() -> impl IntoView {
 fn choose_control(desk: Desk) {
     file::choose(".csv,.txt,.tsv,.dat,text/plain,text/csv", false, move |files| {
         if let Some(file) = files.into_iter().next() {
-            desk.read_text(file, Reading::Control);
+            desk.read_text(file, TextReading::Control);
         }
     });
 }
@@ -85,7 +88,10 @@ fn UnitChoice() -> impl IntoView {
         <label class="unit-field"><span>{text::unit_of_length}</span>
             <Field value=unit commit=move |typed: String| desk.set_unit(&typed) attr:class="short" attr:name="unit" attr:list="units"/>
         </label>
-        <datalist id="units">{UNITS.map(|(name, _)| view! { <option value=name></option> }).collect_view()}</datalist>
+        <datalist id="units">{Unit::ALL.map(|unit| view! { <option value=unit.symbol()></option> }).collect_view()}</datalist>
+        <Show when=move || unit.with(|unit| Unit::named(unit).is_none())>
+            <span class="aside warn" data-unit="unknown" role="alert">{move || text::unit_unknown(unit.get())}</span>
+        </Show>
     }
 }
 
@@ -133,20 +139,23 @@ fn Preview() -> impl IntoView {
             let all = pasted.table.rows.len();
             let good = pasted.table.rows.iter().filter(|r| r.is_ok()).count();
             let unit = pasted.unit.clone();
-            let unasked = unit.is_none();
-            let mut units: Vec<String> = UNITS.iter().map(|(name, _)| (*name).to_owned()).collect();
+            let unasked = pasted.is_asked();
+            let by_heading = pasted.table.unit.is_some();
+            let mut units: Vec<String> = Unit::ALL.map(|unit| unit.symbol().to_owned()).into();
             if let Some(other) = unit.clone().filter(|unit| !units.contains(unit)) {
                 units.push(other);
             }
+            let reading = view! { <Reading table=pasted.table.clone()/> };
             let measured: HashSet<String> = desk.document.with(|d| d.project.observations.iter().map(|o| o.point.clone()).collect());
             let rows = pasted.table.rows.into_iter().map(|row| match row {
                 Ok(row) => {
                     let role = if row.point.role == Role::Tie { Role::Control } else { row.point.role };
                     let point = Point { role, ..row.point };
                     let seen = measured.contains(&point.id);
+                    let label = row.label.map(|label| format!(" {label}"));
                     view! {
                         <tr class="new">
-                            <td class="left id">{point.id.clone()}</td>
+                            <td class="left id">{point.id.clone()} <span class="quiet">{label}</span></td>
                             <td class="left">{move || role_word(role)}</td>
                             {xyz_cells(&point, 4)}
                             {sigma_cells(&point)}
@@ -166,7 +175,7 @@ fn Preview() -> impl IntoView {
                             {move || text::rows_read(format::count(all), format::count(all - good))}
                         </span>
                         <label class="unit-field" class:asked=unit.is_none()><span>{text::unit_of_these}</span>
-                            <select name="pasted-unit" on:change=move |e| desk.set_pasted_unit(&event::value(&e))>
+                            <select name="pasted-unit" disabled=by_heading on:change=move |e| desk.set_pasted_unit(&event::value(&e))>
                                 {unit.is_none().then(|| view! { <option value="" selected=true>{text::choose_unit}</option> })}
                                 {units.into_iter().map(|name| view! {
                                     <option value=name.clone() selected=unit.as_ref() == Some(&name)>{name.clone()}</option>
@@ -178,6 +187,7 @@ fn Preview() -> impl IntoView {
                             {move || text::take_points(format::count(good))}
                         </button>
                     </h2>
+                    {reading}
                     <div class="scroll preview">
                         <table class="table"><thead><tr><CoordinateHead/></tr></thead><tbody>{rows}</tbody></table>
                     </div>
@@ -185,6 +195,76 @@ fn Preview() -> impl IntoView {
             }
         })}
     }
+}
+
+/// How a table was read, and what has to be answered before it is taken.
+#[component]
+fn Reading(table: ControlTable) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let assumptions = table.assumptions;
+    let sentence = {
+        let assumptions = assumptions.clone();
+        move || assumptions.iter().filter_map(assumption_words).collect::<Vec<_>>().join(" ")
+    };
+    let questions = assumptions
+        .into_iter()
+        .filter(|assumption| assumption.by() == Basis::Undecided)
+        .filter_map(|assumption| match assumption {
+            Assumption::DecimalSign { example, .. } => {
+                let [decimal, thousands] = format::ambiguous(&example?)?;
+                let pick = move |sign| move |_| desk.choose_reading(|choices| choices.decimal = Some(sign));
+                Some(
+                    view! {
+                        <p class="note warn" data-asked="decimal">{text::ask_decimal} " "
+                            <button class="button small" on:click=pick(Decimal::Comma)>{decimal}</button> " "
+                            <button class="button small" on:click=pick(Decimal::Point)>{thousands}</button>
+                        </p>
+                    }
+                    .into_any(),
+                )
+            }
+            Assumption::AxisOrder { .. } => {
+                let pick = move |order| move |_| desk.choose_reading(|choices| choices.axes = Some(order));
+                Some(
+                    view! {
+                        <p class="note warn" data-asked="axes">{text::ask_axes} " "
+                            <button class="button small" on:click=pick(Axes::Xy)>{text::axes_xy}</button> " "
+                            <button class="button small" on:click=pick(Axes::Yx)>{text::axes_yx}</button>
+                        </p>
+                    }
+                    .into_any(),
+                )
+            }
+            _ => None,
+        })
+        .collect_view();
+    view! {
+        <p class="note" data-reading="">{sentence}</p>
+        {questions}
+    }
+}
+
+/// An assumption as a sentence, where there is something to say.
+fn assumption_words(assumption: &Assumption) -> Option<String> {
+    Some(match assumption {
+        Assumption::Separator { separator, .. } => text::read_separator(match separator {
+            Separator::Comma => text::separator_comma(),
+            Separator::Semicolon => text::separator_semicolon(),
+            Separator::Tab => text::separator_tab(),
+            Separator::Blanks => text::separator_blanks(),
+        }),
+        Assumption::DecimalSign { by: Basis::Undecided | Basis::Convention, .. } => return None,
+        Assumption::DecimalSign { sign: Decimal::Point, .. } => text::read_point().to_owned(),
+        Assumption::DecimalSign { sign: Decimal::Comma, .. } => text::read_comma().to_owned(),
+        Assumption::Columns { columns, by } => {
+            let names =
+                columns.iter().map(|column| column.map_or("–", ControlField::name)).collect::<Vec<_>>().join(", ");
+            if *by == Basis::Heading { text::read_columns(names) } else { text::read_columns_assumed(names) }
+        }
+        Assumption::Ignored { columns } => text::read_ignored(columns.join(", ")),
+        Assumption::Remarks { headings } => text::read_remarks(headings.join(", ")),
+        Assumption::AxisOrder { .. } | Assumption::SigmaColumns { .. } | Assumption::Unit { .. } => return None,
+    })
 }
 
 /// Control and check points of the project.

@@ -11,7 +11,7 @@ use super::icon::{Glyph, Icon};
 use super::results::parameter_cells;
 use super::shell::TitleBar;
 use crate::browser::{event, file};
-use crate::edit::control::UNITS;
+use crate::edit::control::Unit;
 use crate::format;
 use crate::i18n::{Text, equipment as words, text};
 use crate::store::Desk;
@@ -219,7 +219,7 @@ fn BarForm() -> impl IntoView {
             <label class="bar-field">
                 <span>{text::unit}</span>
                 <select name="bar-unit" on:change=move |e| typed.update(|bar| bar.unit = event::value(&e))>
-                    {UNITS.map(|(name, _)| view! { <option value=name selected=move || typed.with(|bar| bar.unit == name)>{name}</option> }).collect_view()}
+                    {Unit::ALL.map(Unit::symbol).map(|name| view! { <option value=name selected=move || typed.with(|bar| bar.unit == name)>{name}</option> }).collect_view()}
                 </select>
             </label>
             <button class="button small" type="submit">{words::keep_bar}</button>

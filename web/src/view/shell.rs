@@ -428,6 +428,7 @@ pub fn problem_sentence(reason: &crate::store::Reason) -> String {
     match reason {
         Reason::Engine(error) => errors::sentence(error),
         Reason::Duplicate { of } => text::duplicate_of(of),
+        Reason::SameName { of } => text::same_name_as(of),
         Reason::Developed { of } => text::developed_of(of),
         Reason::RawOf { of } => text::raw_of(of),
         Reason::Unreadable(detail) => text::unreadable(detail),

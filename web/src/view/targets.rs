@@ -16,7 +16,7 @@ use super::strip::Strip;
 use crate::browser::event;
 use crate::edit::targets::{Rings, candidates};
 use crate::format;
-use crate::i18n::{Text, printing, text};
+use crate::i18n::{Text, errors, printing, text};
 use crate::store::{Desk, Step};
 
 #[component]
@@ -185,12 +185,12 @@ fn Options() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let diameter = move |typed: String, set: fn(Desk, f64)| match format::parse(&typed).filter(|d| *d >= 1.0) {
         Some(value) => set(desk, value),
-        None => desk.warn_here(move || text::not_a_length(&typed)),
+        None => desk.warn_here(move || errors::refusal(&typed, text::not_a_length)),
     };
     // an axis ratio of 0.15, the least that is taken, is a view from 81 degrees
     let steepest = move |typed: String| match format::parse(&typed).filter(|degrees| (0.0..=81.0).contains(degrees)) {
         Some(degrees) => desk.detect_options.update(|o| o.min_axis_ratio = degrees.to_radians().cos()),
-        None => desk.warn_here(move || text::no_steepest(&typed)),
+        None => desk.warn_here(move || errors::refusal(&typed, text::no_steepest)),
     };
     view! {
         <Choice label=text::polarity name="polarity"

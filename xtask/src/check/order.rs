@@ -21,6 +21,7 @@ const ORDERS: [Order; 3] = [
         children: &[
             "error",
             "limits",
+            "units",
             "project",
             "statistics",
             "ring_code",

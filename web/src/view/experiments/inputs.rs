@@ -7,7 +7,7 @@ use sightline::experiments::ExperimentOptions;
 use crate::browser::event;
 use crate::format;
 use crate::i18n::experiments as words;
-use crate::i18n::{Text, text};
+use crate::i18n::{Text, errors, text};
 use crate::store::Desk;
 
 /// Reads and writes a number of the options.
@@ -92,7 +92,7 @@ fn Number(experiment: &'static str, field: Field) -> impl IntoView {
     let take = move |typed: String| match format::parse(&typed) {
         Some(value) => desk.experiments.vary(experiment, |options| (field.write)(options, value)),
         None => {
-            desk.warn(move || text::not_a_number(&typed));
+            desk.warn(move || errors::refusal(&typed, text::not_a_number));
             // The field shows again what is chosen.
             desk.experiments.vary(experiment, |_| {});
         }

@@ -8,7 +8,7 @@ use super::camera::KnownCameras;
 use super::frame::ENDLESS;
 use super::object::{Control, Faces, Points, Targets, choose_points, numbers};
 use crate::browser::event;
-use crate::edit::control::{UNITS, has_lengths};
+use crate::edit::control::{Unit, has_lengths};
 use crate::edit::plan;
 use crate::format;
 use crate::i18n::planning as words;
@@ -40,7 +40,7 @@ pub fn Beginnings() -> impl IntoView {
                 <label class="field unit-to-begin">
                     <span>{words::unit}</span>
                     <select name="unit" on:change=move |e| desk.planning.unit.set(event::value(&e))>
-                        {UNITS.map(|(name, _)| view! {
+                        {Unit::ALL.map(Unit::symbol).map(|name| view! {
                             <option value=name selected=move || desk.planning.unit.with(|u| u == name)>{name}</option>
                         })}
                     </select>
@@ -94,7 +94,7 @@ fn Number(
         if (value.is_some() || nothing) && write(&mut trial, value) {
             desk.edit_plan(Change::PlanEdited, |plan| *plan = trial);
         } else {
-            desk.warn_here(move || text::not_a_length(&typed));
+            desk.warn_here(move || errors::refusal(&typed, text::not_a_length));
         }
     };
     let placeholder = move || empty.map_or("", |words| words());
@@ -126,8 +126,8 @@ fn FormNumber(
         }
         if number.is_none() || !plan::is_form(&trial) {
             return desk.warn_here(move || match counts {
-                true => text::not_a_count(&typed),
-                false => text::not_a_length(&typed),
+                true => errors::refusal(&typed, text::not_a_count),
+                false => errors::refusal(&typed, text::not_a_length),
             });
         }
         match sightline::plan::check_form(&trial) {

@@ -70,7 +70,7 @@ pub fn Targets() -> impl IntoView {
     let commit = move |typed: String| {
         let value = format::parse(&typed).filter(|v| *v > 0.0 && *v < 1e9);
         if value.is_none() && !typed.trim().is_empty() {
-            return desk.warn_here(move || text::not_a_length(&typed));
+            return desk.warn_here(move || errors::refusal(&typed, text::not_a_length));
         }
         desk.edit_plan(Change::PlanEdited, |p| plan::set_diameter(p, value));
     };
@@ -168,7 +168,7 @@ pub fn Control() -> impl IntoView {
     let commit_sigma = move |typed: String| {
         let value = format::parse(&typed).filter(|v| *v >= 0.0);
         if value.is_none() && !typed.trim().is_empty() {
-            return desk.warn_here(move || text::not_a_length(&typed));
+            return desk.warn_here(move || errors::refusal(&typed, text::not_a_length));
         }
         desk.edit_plan(Change::PlanEdited, |p| plan::set_control_sigma(p, value.filter(|v| *v > 0.0)));
     };

@@ -8,7 +8,7 @@ use crate::browser::event;
 use crate::edit::plan;
 use crate::format;
 use crate::i18n::planning as words;
-use crate::i18n::{Text, text};
+use crate::i18n::{Text, errors, text};
 use crate::store::Desk;
 use crate::store::document::Change;
 use crate::view::field::Field;
@@ -31,7 +31,7 @@ pub fn Stations() -> impl IntoView {
                 });
                 let commit = move |typed: String| {
                     let Some(number) = format::parse(&typed).filter(|v| v.is_finite() && v.abs() < 1e9) else {
-                        return desk.warn_here(move || text::not_a_number(&typed));
+                        return desk.warn_here(move || errors::refusal(&typed, text::not_a_number));
                     };
                     desk.edit_plan(Change::StationMoved(id.get_value()), |plan| {
                         plan::move_station(plan, &id.get_value(), axis, number);
@@ -123,7 +123,7 @@ fn Aim() -> impl IntoView {
                 Some(number) => {
                     desk.edit_plan(Change::StationMoved(id.clone()), |plan| plan::aim_station(plan, &id, axis, number))
                 }
-                None => desk.warn_here(move || text::not_a_number(&typed)),
+                None => desk.warn_here(move || errors::refusal(&typed, text::not_a_number)),
             };
             let name = ["X", "Y", "Z"][axis];
             view! { <Field value commit attr:class="short" attr:name=format!("aim-{}", name.to_lowercase()) attr:aria-label=move || format!("{} {name}", words::look_at())/> }

@@ -1,0 +1,218 @@
+//! The heading of a control table: names, axes and units of its columns.
+
+use super::assumptions::{Axes, Basis};
+use super::columns::{Columns, Fault, Field};
+use crate::error::{Reason, shortened};
+use crate::units::Unit;
+
+/// What a heading says of its column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Said {
+    Field(Field),
+    /// A horizontal coordinate by its direction: 0 for east, 1 for north.
+    Towards(usize),
+    /// Its standard error.
+    SigmaTowards(usize),
+}
+
+fn plain(text: &str) -> String {
+    text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+/// A word of a heading, whatever its case and punctuation.
+fn said(word: &str) -> Option<Said> {
+    use Said::{Field as F, SigmaTowards, Towards};
+    Some(match plain(word).as_str() {
+        "id" | "point" | "pointid" | "pt" | "no" | "nr" | "number" | "pointno" | "pointnumber" | "punkt"
+        | "punktnummer" | "pktnr" | "점" | "점번호" | "번호" | "측점번호" => F(Field::Id),
+        "label" | "name" | "description" | "desc" | "descriptor" | "code" | "remark" | "remarks" | "pointname"
+        | "이름" | "점명" | "점이름" | "측점" | "측점명" | "기준점" | "기준점명" | "비고" | "설명" | "코드"
+        | "bezeichnung" | "bemerkung" => F(Field::Label),
+        "x" | "xcoord" | "xcoordinate" | "x좌표" => F(Field::X),
+        "y" | "ycoord" | "ycoordinate" | "y좌표" => F(Field::Y),
+        "e" | "east" | "easting" | "rechts" | "rechtswert" | "ostwert" | "횡" | "횡좌표" | "동" | "동쪽" | "e좌표" => {
+            Towards(0)
+        }
+        "n" | "north" | "northing" | "hoch" | "hochwert" | "nordwert" | "종" | "종좌표" | "북" | "북쪽" | "n좌표" => {
+            Towards(1)
+        }
+        "z" | "h" | "height" | "elevation" | "elev" | "altitude" | "alt" | "zcoord" | "zcoordinate" | "höhe"
+        | "hoehe" | "z좌표" | "h좌표" | "표고" | "높이" | "고도" | "지반고" | "타원체고" => {
+            F(Field::Z)
+        }
+        "sx" | "sigmax" | "σx" | "stdx" | "mx" | "sdx" => F(Field::Sx),
+        "sy" | "sigmay" | "σy" | "stdy" | "my" | "sdy" => F(Field::Sy),
+        "se" | "sigmae" | "σe" | "stde" | "me" | "sde" => SigmaTowards(0),
+        "sn" | "sigman" | "σn" | "stdn" | "mn" | "sdn" => SigmaTowards(1),
+        "sz" | "sigmaz" | "σz" | "stdz" | "mz" | "sdz" | "sh" | "sigmah" | "σh" => F(Field::Sz),
+        "s" | "sigma" | "σ" | "std" | "sd" | "sxyz" | "sigmaxyz" => F(Field::Sigma),
+        "role" | "type" => F(Field::Role),
+        _ => return None,
+    })
+}
+
+/// A heading taken apart: its name, and what stands in brackets.
+struct Heading<'a> {
+    name: &'a str,
+    square: Vec<&'a str>,
+    round: Vec<&'a str>,
+}
+
+impl<'a> Heading<'a> {
+    fn of(text: &'a str) -> Self {
+        let end = text.find(['[', '(']).unwrap_or(text.len());
+        let mut found = Self { name: text[..end].trim(), square: Vec::new(), round: Vec::new() };
+        let mut rest = &text[end..];
+        while let Some(at) = rest.find(['[', '(']) {
+            let square = rest[at..].starts_with('[');
+            let inner = &rest[at + 1..];
+            let close = inner.find(if square { ']' } else { ')' }).unwrap_or(inner.len());
+            if square { &mut found.square } else { &mut found.round }.push(inner[..close].trim());
+            rest = inner.get(close + 1..).unwrap_or_default();
+        }
+        found
+    }
+}
+
+/// A column by its heading.
+#[derive(Clone, Debug, Default)]
+struct Named {
+    said: Option<Said>,
+    unit: Option<Unit>,
+    /// What stands in square brackets and is no unit.
+    unknown_unit: Option<String>,
+    /// What stands in round brackets and is nothing that is known.
+    remark: bool,
+}
+
+impl Named {
+    fn of(text: &str) -> Self {
+        let heading = Heading::of(text);
+        let mut named = Self::default();
+        // "X/Easting": the direction decides, the letter does not contradict it.
+        let parts: Vec<Option<Said>> = heading.name.split('/').map(said).collect();
+        let direction = |all: &[Option<Said>]| {
+            all.iter().flatten().copied().find(|said| matches!(said, Said::Towards(_) | Said::SigmaTowards(_)))
+        };
+        // Of two parts at least one is known, and the others mean no other thing.
+        let height = parts.iter().any(|part| *part == Some(Said::Field(Field::Z)));
+        named.said =
+            if parts.len() > 1 && height { Some(Said::Field(Field::Z)) } else { direction(&parts).or(parts[0]) };
+        if named.said.is_none() {
+            // "X_mm", "Easting m": a unit behind a name that is known without it.
+            if let Some((name, unit)) = heading.name.rsplit_once(['_', ' ']) {
+                named.unit = Unit::named(unit);
+                named.said = named.unit.and_then(|_| said(name));
+            }
+        }
+        for text in heading.square {
+            match Unit::named(text) {
+                Some(unit) => named.unit = Some(unit),
+                None => named.unknown_unit = Some(shortened(text)),
+            }
+        }
+        for text in heading.round {
+            let horizontal = matches!(named.said, Some(Said::Field(Field::X | Field::Y) | Said::Towards(_)));
+            match (Unit::named(text), said(text)) {
+                (Some(unit), _) => named.unit = Some(unit),
+                (None, Some(Said::Towards(k))) if horizontal => named.said = Some(Said::Towards(k)),
+                // "N(X)": Korean and German lists name the northing X.
+                (None, Some(Said::Field(Field::X | Field::Y))) if horizontal => {}
+                (None, Some(Said::Field(Field::Z))) if named.said == Some(Said::Field(Field::Z)) => {}
+                _ => named.remark = true,
+            }
+        }
+        named
+    }
+}
+
+/// The columns that a heading names: none where the row is no heading.
+///
+/// # Errors
+/// [`Fault`] for a heading that lacks a coordinate, names one twice or has an unknown unit.
+pub(super) fn heading(row: &[String]) -> Option<Result<Columns, Fault>> {
+    let all: Vec<Named> = row.iter().map(|text| Named::of(text)).collect();
+    let axis = |said: Said| match said {
+        Said::Towards(_) | Said::SigmaTowards(_) => true,
+        Said::Field(field) => field.is_number(),
+    };
+    // A row with a number in it is no heading, and one coordinate by name may be a point called "X".
+    let numbers = row.iter().any(|text| text.replacen(',', ".", 1).parse::<f64>().is_ok());
+    let named = all.iter().filter(|named| named.said.is_some_and(axis)).count();
+    (!numbers && named >= 2).then(|| from_heading(row, &all))
+}
+
+fn from_heading(row: &[String], all: &[Named]) -> Result<Columns, Fault> {
+    let fault = |field: Field, reason| Err(field.fault(reason));
+    let mut fields: Vec<Option<Field>> = all
+        .iter()
+        .map(|named| match named.said? {
+            Said::Field(field) => Some(field),
+            Said::Towards(k) => Some([Field::X, Field::Y][k]),
+            Said::SigmaTowards(k) => Some([Field::Sx, Field::Sy][k]),
+        })
+        .collect();
+    let towards = |k: usize| all.iter().position(|named| named.said == Some(Said::Towards(k)));
+    let letter = |field: Field| all.iter().position(|named| named.said == Some(Said::Field(field)));
+    let mut by = if towards(0).is_some() || towards(1).is_some() { Basis::Heading } else { Basis::Convention };
+    // "X (N)" beside "Y": the other one is the easting.
+    if let (Some(_), None) | (None, Some(_)) = (towards(0), towards(1)) {
+        let known = usize::from(towards(1).is_some());
+        let others: Vec<usize> = [Field::X, Field::Y].into_iter().filter_map(letter).collect();
+        if let [other] = others[..] {
+            fields[other] = Some([Field::X, Field::Y][1 - known]);
+        }
+    }
+    // Standard errors belong to the letters of the coordinates: with X to the north sX is of Y.
+    let exchanged = all.iter().enumerate().any(|(k, named)| {
+        let name = plain(Heading::of(&row[k]).name);
+        named.said == Some(Said::Towards(1)) && name.starts_with('x')
+            || named.said == Some(Said::Towards(0)) && name.starts_with('y')
+    });
+    if exchanged {
+        for (field, named) in fields.iter_mut().zip(all) {
+            *field = match (named.said, *field) {
+                (Some(Said::Field(Field::Sx)), _) => Some(Field::Sy),
+                (Some(Said::Field(Field::Sy)), _) => Some(Field::Sx),
+                (_, field) => field,
+            };
+        }
+    }
+    for (k, field) in fields.iter().enumerate() {
+        let Some(field) = field.filter(|field| *field != Field::Label) else { continue };
+        if fields[..k].contains(&Some(field)) {
+            return fault(field, Reason::HeadingTwice { name: field.name().into() });
+        }
+    }
+    for field in [Field::X, Field::Y, Field::Z] {
+        if !fields.contains(&Some(field)) {
+            return fault(field, Reason::HeadingIncomplete { name: field.name().into() });
+        }
+    }
+    // A name stands for the id where there is no other, and so does a first column of any other heading.
+    if !fields.contains(&Some(Field::Id)) {
+        match fields.iter().position(|column| *column == Some(Field::Label)) {
+            Some(place) => fields[place] = Some(Field::Id),
+            None if fields[0].is_none() => fields[0] = Some(Field::Id),
+            None => return fault(Field::Id, Reason::HeadingIncomplete { name: Field::Id.name().into() }),
+        }
+    }
+    for (named, field) in all.iter().zip(&fields) {
+        if let (Some(text), Some(field)) = (&named.unknown_unit, field.filter(|field| field.is_number())) {
+            let (name, choices) = ("unit".to_owned(), Unit::list());
+            return fault(field, Reason::NoneOf { name, choices, text: text.clone() });
+        }
+    }
+    let place = |field: Field| fields.iter().position(|column| *column == Some(field));
+    let order = if place(Field::X) < place(Field::Y) { Axes::Xy } else { Axes::Yx };
+    if by == Basis::Convention && letter(Field::X).is_some() {
+        by = Basis::Heading;
+    }
+    let texts = |wanted: &dyn Fn(usize) -> bool| {
+        (0..row.len()).filter(|k| wanted(*k) && !row[*k].is_empty()).map(|k| shortened(&row[k])).collect()
+    };
+    let ignored = texts(&|k| fields[k].is_none());
+    let remarks = texts(&|k| all[k].remark && fields[k].is_some_and(Field::is_number));
+    let units = all.iter().map(|named| named.unit).collect();
+    Ok(Columns { fields, by: Basis::Heading, units, order: (order, by), ignored, remarks })
+}
