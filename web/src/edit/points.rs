@@ -73,6 +73,12 @@ pub fn switch_observation(project: &mut Project, photo: &str, point: &str, enabl
     }
 }
 
+/// Lets an observation take part again that orientation or matching set aside: it is enabled, and no longer listed as set aside.
+pub fn take_back(project: &mut Project, photo: &str, point: &str) {
+    switch_observation(project, photo, point, true);
+    project.set_aside.retain(|aside| aside.photo != photo || aside.point != point);
+}
+
 /// Photos that show both points: these cannot be one.
 pub fn shared_photo(project: &Project, a: &str, b: &str) -> Option<String> {
     let photos = |id: &str| {

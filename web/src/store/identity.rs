@@ -146,6 +146,12 @@ impl Desk {
         self.change(change, |d| points::switch_observation(d.project_mut(), photo, point, enabled));
     }
 
+    /// Lets an observation take part again that was set aside.
+    pub fn take_back(self, photo: &str, point: &str) {
+        let change = Change::ObservationSwitched { point: point.to_owned(), photo: photo.to_owned() };
+        self.change(change, |d| points::take_back(d.project_mut(), photo, point));
+    }
+
     /// Gives a point another name; an existing name joins the two, unless a photo shows both. False when it is refused.
     pub fn rename_point(self, from: &str, to: &str) -> bool {
         let to = to.trim().to_owned();

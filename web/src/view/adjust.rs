@@ -13,6 +13,7 @@ use super::control::DatumChoice;
 use super::field::Field;
 use super::gross_errors::{GrossErrorRecord, GrossErrors};
 use super::icon::{Glyph, Icon};
+use super::left_out::NotUsedList;
 use super::plots::Convergence;
 use super::results::parameter_cells;
 use super::shell::TitleBar;
@@ -50,7 +51,7 @@ pub fn Adjust() -> impl IntoView {
         </TitleBar>
         <main class="adjust">
             <section class="scroll" tabindex="0" aria-label=text::what_is_estimated><Estimated/><FromWhat/><DatumChoice/><GrossErrors/></section>
-            <section class="scroll" tabindex="0" aria-label=text::iterations><Iterations/><PhotoResiduals/><GrossErrorRecord/></section>
+            <section class="scroll" tabindex="0" aria-label=text::iterations><Iterations/><PhotoResiduals/><NotUsedList/><GrossErrorRecord/></section>
             <section class="scroll" tabindex="0" aria-label=text::what_lacks><Advice/></section>
         </main>
     }

@@ -58,7 +58,7 @@ pub fn GrossErrors() -> impl IntoView {
 }
 
 /// Goes to where the observation can be seen and changed.
-fn follow(desk: Desk, photo: &str, point: &str, given: Option<&Given>) {
+pub fn follow(desk: Desk, photo: &str, point: &str, given: Option<&Given>) {
     match given {
         None => {
             desk.select_observation(photo, point);

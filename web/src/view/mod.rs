@@ -16,6 +16,7 @@ pub mod identities;
 pub mod insets;
 pub mod keys;
 pub mod layers;
+pub mod left_out;
 pub mod loupe;
 pub mod marking;
 mod measured;

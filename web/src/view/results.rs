@@ -15,6 +15,7 @@ use sightline::project::{Camera, Project, Role};
 
 use super::changes::change_words;
 use super::icon::{Glyph, Icon};
+use super::left_out::NotUsed;
 use super::plots::{ResidualPlot, Vector};
 use super::shell::export_tables;
 use crate::browser::page;
@@ -128,6 +129,7 @@ fn Current() -> impl IntoView {
             explained.set(Some(statistic));
             shown.set(Shown::Meanings);
         })/>
+        <NotUsed/>
         <div class="result-views" role="group" aria-label=text::results>
             {views.map(|(one, name)| view! {
                 <Show when=move || one != Shown::Compared || compared.get()>
