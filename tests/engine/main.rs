@@ -16,6 +16,7 @@ mod adjust {
     mod oracle;
     mod published;
     mod reports;
+    mod order;
     mod slips;
 }
 
