@@ -168,6 +168,8 @@ fn scale(name: &str, all: &BTreeMap<String, f64>) -> f64 {
             (variance(p, i) * variance(q, j)).sqrt().max(1e-9 * all["largest variance"])
         }
         ["ray", _, _, "0" | "1"] | [.., "redundancy"] => 1.0,
+        // What is held is moved by nothing, but for rounding.
+        ["ray", _, _, "4" | "5"] | [.., "effect"] => all[name].max(1e-4 * all["largest variance"].sqrt()),
         _ => all[name].abs().max(1e-9),
     }
 }
