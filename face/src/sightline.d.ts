@@ -273,6 +273,9 @@ export interface MeasuredFeature {
   residuals?: FeatureResidual[];
   /** What is drawn: ends of a distance, sides of an angle about its place, ends of a line or an axis. */
   ends?: [number, number, number][];
+  /** Why it has no standard errors though there are statistics: it, or what it is measured from, is so weakly determined that they mean
+   * nothing. Standard error of the radius over the radius, or of the direction in radians. */
+  weak?: number;
   /** Its points that this adjustment has not. */
   missing?: string[];
   /** Why there is no result. */

@@ -12,6 +12,7 @@ mod adjust {
     mod estimation;
     mod features;
     mod gross_errors;
+    mod forms;
     mod monte_carlo;
     mod oracle;
     mod published;

@@ -278,11 +278,13 @@ declare! {
     built_on_broken(name): "it is built on {name}, which could not be measured";
     lacks_direction: "an angle is between two directions, or at a point between two others";
     feature_not_measured(id): "{id} was defined after this result and has not been measured on it.";
+    feature_weak(id, percent): "{id} has no standard errors: the points determine its radius to {percent} % only, or its direction to as many hundredths of a radian, or those of what it is measured from.";
     system_named(id): "Coordinate system {id}";
     system_automatic: "In the object's plane: Z is its normal towards the photos, X its longer extent, the origin its centroid.";
     system_plane_line_point: "By plane, line and point (3-2-1): Z is 0 in the plane, Y on the line, X at the point.";
     system_best_fit: "Best fit to given coordinates.";
     system_fit(sigma, redundancy, scale): "σ₀ of the fit {sigma} from {redundancy} degrees of freedom; scale {scale}.";
+    fit_unsettled: "the fit to its points came to no end";
 
     // Plots
     plot_radial(camera): "Radial distortion, camera {camera}";

@@ -275,11 +275,13 @@ translate! { Korean {
     built_on_broken(name): "{name} 형상을 측정할 수 없어 그에 따른 값도 없습니다";
     lacks_direction: "각은 두 방향 사이, 또는 한 점에서 다른 두 점 사이에서 잽니다";
     feature_not_measured(id): "{id}: 이 결과 뒤에 정의하여 아직 측정하지 않았습니다.";
+    feature_weak(id, percent): "{id}: 표준오차가 없습니다. 점들이 반지름을 {percent} %까지만, 또는 방향을 그만큼의 1/100 라디안까지만 결정합니다(측정에 쓴 형상 포함).";
     system_named(id): "좌표계 {id}";
     system_automatic: "대상물 평면 기준: Z는 사진 쪽을 향한 법선, X는 긴 방향, 원점은 무게중심.";
     system_plane_line_point: "평면, 직선, 점(3-2-1): 평면에서 Z = 0, 직선에서 Y = 0, 점에서 X = 0.";
     system_best_fit: "주어진 좌표에 최적 맞춤.";
     system_fit(sigma, redundancy, scale): "맞춤의 σ₀ {sigma}, 자유도 {redundancy}, 축척 {scale}.";
+    fit_unsettled: "점에 맞추는 계산이 수렴하지 않았습니다";
 
     // Plots
     plot_radial(camera): "방사왜곡, 카메라 {camera}";

@@ -1193,6 +1193,7 @@ declare! { object {
     position: "Position";
     direction: "Direction";
     form: "Form";
+    weakly_determined(percent): "so weakly determined ({percent} %) that it has no standard errors";
     range(rms, low, high): "rms {rms}, {low} to {high}";
     systems: "Coordinate systems";
     fit_sigma(sigma, unit): "σ₀ {sigma} {unit}";

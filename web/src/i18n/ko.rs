@@ -1156,6 +1156,7 @@ translate! { Korean object {
     position: "위치";
     direction: "방향";
     form: "형상";
+    weakly_determined(percent): "점들이 반지름이나 방향을 {percent} %까지만 결정하여 표준오차가 없습니다";
     range(rms, low, high): "RMS {rms}, {low} ~ {high}";
     systems: "좌표계";
     fit_sigma(sigma, unit): "σ₀ {sigma} {unit}";
