@@ -83,6 +83,10 @@ pub fn adjust(
     adjustment.options = options.clone();
     adjustment.termination = termination;
     adjustment.iterations = std::mem::take(&mut log.iterations);
+    adjustment.variance_components = components.0;
+    if adjustment.standard_errors_estimated() {
+        adjustment.global_test = None;
+    }
     adjustment.advice = judgement(&adjustment, unmodelled::estimate(document, &adjustment));
     adjustment.advice.extend(advice::advice(project, &session.network, &session.state, &adjustment));
     if !searching && matches!(termination, Termination::IterationLimit | Termination::Diverged) {
@@ -101,7 +105,6 @@ pub fn adjust(
     if !components.1 {
         adjustment.advice.push(Advice::VarianceComponentsUnsettled);
     }
-    adjustment.variance_components = components.0;
     adjustment.gross_errors = record;
     adjustment.covariance = solution.covariance;
     if !document.features.is_empty() || !document.systems.is_empty() {

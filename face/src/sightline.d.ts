@@ -507,6 +507,10 @@ export interface VarianceComponent {
   /** Standard deviation of what is not modelled, pixels; null unless asked for. */
   unmodelled: number | null;
   unmodelled_sigma: number | null;
+  /** Of image coordinates: root mean square of the a priori standard errors that the factor belongs to, pixels. */
+  a_priori_px: number | null;
+  /** Why nothing was estimated of the group, whose a priori standard errors stay; null where it was. */
+  not_estimated: null | { kind: "little_redundancy"; needed: number } | { kind: "no_residuals" };
 }
 
 /** By what observations, parameters and the network are judged. */
@@ -549,6 +553,7 @@ export interface Adjustment {
   redundancy: number;
   /** Null where the redundancy is 0. */
   sigma0: number | null;
+  /** Null where the redundancy is 0, and where variance components were estimated, which make the statistic the redundancy. */
   global_test: { statistic: number; lower: number; upper: number; passed: boolean } | null;
   /** Rms of the residuals of all image coordinates that took part, pixels. */
   rms_px: number | null;

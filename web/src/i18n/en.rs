@@ -769,6 +769,13 @@ declare! { desk {
     redundancy: "redundancy";
     rms_residual: "rms residual";
     all_image_coordinates: "all image coordinates";
+    standard_errors_estimated(factors): "No global test: standard errors estimated, {factors}";
+    times_a_priori_px(factor, px): "{factor} times the a priori {px} px";
+    times_a_priori(factor): "{factor} times the a priori ones";
+    and_unmodelled(factors, px): "{factors}, and {px} px that are not modelled";
+    not_estimated(redundancy, needed): "not estimated: redundancy {redundancy}, needed {needed}";
+    no_residuals: "not estimated: all residuals are 0";
+    errors_estimated: "standard errors estimated";
     rms_sigma: "rms σ";
     points_one_sigma(n): "{n} {n:point|points}, 1σ";
     relative_accuracy: "relative accuracy";
@@ -853,7 +860,7 @@ declare! { desk {
     weak_distance_parallel: "They look the same way: hold it or give it a σ, or take photos that converge.";
     weak_distance_body: "Hold it or give it a σ, or add photos that converge and points at different depths.";
     components: "Estimate the standard errors";
-    components_why: "One factor for image coordinates, control, distances and the rest, each from its own residuals, until sigma0 is 1.";
+    components_why: "One factor for image coordinates, control, distances and the rest, each from its own residuals, until sigma0 is 1. Groups that too little checks keep theirs. There is no global test then.";
     given_weights: "Adjust with the given standard errors";
     components_unsettled: "The variance components came to no end";
     components_unsettled_body: "Too few observations of one kind, or gross errors among them: take those out first.";

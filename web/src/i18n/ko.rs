@@ -745,6 +745,13 @@ translate! { Korean desk {
     redundancy: "잉여도";
     rms_residual: "잔차 RMS";
     all_image_coordinates: "모든 사진좌표";
+    standard_errors_estimated(factors): "전체 모형 검정 없음: 표준오차를 추정함, {factors}";
+    times_a_priori_px(factor, px): "사전 표준오차 {px} px의 {factor}배";
+    times_a_priori(factor): "사전 표준오차의 {factor}배";
+    and_unmodelled(factors, px): "{factors}, 모형화되지 않은 오차 {px} px";
+    not_estimated(redundancy, needed): "추정하지 않음: 잉여도 {redundancy}, 필요 {needed}";
+    no_residuals: "추정하지 않음: 잔차가 모두 0";
+    errors_estimated: "표준오차를 추정함";
     rms_sigma: "RMS σ";
     points_one_sigma(n): "{n}점, 1σ";
     relative_accuracy: "상대정확도";
@@ -828,7 +835,7 @@ translate! { Korean desk {
     weak_distance_parallel: "촬영 방향이 서로 나란합니다. 값을 고정하거나 σ를 주거나, 수렴 촬영을 추가하십시오.";
     weak_distance_body: "값을 고정하거나 σ를 주거나, 수렴 촬영과 깊이가 다른 점을 추가하십시오.";
     components: "표준오차 추정(분산 성분)";
-    components_why: "사진좌표, 기준점, 거리 등 종류마다 잔차에서 배율 하나씩을 추정하여 σ₀를 1로 맞춥니다.";
+    components_why: "사진좌표, 기준점, 거리 등 종류마다 잔차에서 배율 하나씩을 추정하여 σ₀를 1로 맞춥니다. 점검할 관측값이 너무 적은 묶음은 그대로 둡니다. 이때 전체 모형 검정은 하지 않습니다.";
     given_weights: "주어진 표준오차로 다시 조정";
     components_unsettled: "분산 성분 추정이 수렴하지 않았습니다";
     components_unsettled_body: "한 종류의 관측이 너무 적거나 과대오차가 있습니다. 과대오차부터 제거하십시오.";
