@@ -717,6 +717,8 @@ export interface MeasuredSamples {
   hot_sites: number | null;
   /** Corrections of the lens that the file names, in its own words; none was made. */
   corrections: string[];
+  /** Lists of corrections in the file that could not be read: what they name is not known. */
+  unread_corrections: number;
 }
 
 /** Lateral chromatic aberration of a colour against green. */
@@ -864,7 +866,10 @@ export interface Prediction {
   rays: number;
   /** Null below two rays, or where they do not meet. */
   xyz: [number, number, number] | null;
+  /** Null where a photo that sees it has no standard errors of its orientation. */
   sigma: [number, number, number] | null;
+  /** Oriented photos whose orientation has no standard errors: where one of them takes part no covariance is told. */
+  without_errors: string[];
   /** Every oriented photo. */
   photos: PhotoPrediction[];
 }
@@ -874,8 +879,10 @@ export interface PhotoPrediction {
   photo: string;
   measured: [number, number] | null;
   place: [number, number] | null;
-  /** uu, uv, vv of the place. */
+  /** uu, uv, vv of the place; null without the standard errors of the photos' orientations. */
   covariance: [number, number, number] | null;
+  /** The part of it that is known: it is at least as much. */
+  least_covariance: [number, number, number] | null;
   /** Whether the place lies in the picture. */
   inside: boolean;
   /** Distance of the measurement from the place, in pixels and in standard errors of both. */

@@ -284,6 +284,7 @@ declare! { desk {
     measured_hot(count): "{count} hot sites left out.";
     measured_corrections(names):
         "The file names corrections of its lens ({names}). None was made here: a camera calibrated in corrected pictures is another camera.";
+    unread_corrections: "A list of corrections of the lens in the file cannot be read: what it names is not known, and nothing of it was made.";
     corrections_made(names):
         "The camera's note says that it corrected: {names}. Its distortion is what the correction left, not the lens's: calibrate and measure with the same setting; it changes with zoom and focus.";
     corrections_without_distortion(names): "The camera's note says that it corrected: {names}. Distortion is not among them.";
@@ -495,6 +496,8 @@ declare! { desk {
     is_it(point, off, reach): "Is this target point {point}? It lies {off} px from where it should be (3σ {reach} px).";
     is_it_of_two(point, off, reach, second):
         "Is this target point {point}? It lies {off} px from where it should be (3σ {reach} px), a second one {second} px.";
+    is_it_near(point, off): "Is this target point {point}? It lies {off} px from where it should be; how far off that may be is known once the photos are adjusted.";
+    should_be_near(point): "Point {point} should be near here; how near is known once the photos are adjusted. Measure there?";
     should_be_here(point, reach): "Point {point} should be here, 3σ {reach} px: measure there?";
     yes: "Yes";
     next_place: "Next photo";
@@ -766,9 +769,6 @@ declare! { desk {
     a_priori_one: "a priori 1";
     test_passed: "Global test passed";
     test_failed: "Global test failed";
-    redundancy: "redundancy";
-    rms_residual: "rms residual";
-    all_image_coordinates: "all image coordinates";
     standard_errors_estimated(factors): "No global test: standard errors estimated, {factors}";
     times_a_priori_px(factor, px): "{factor} times the a priori {px} px";
     times_a_priori(factor): "{factor} times the a priori ones";
@@ -776,6 +776,9 @@ declare! { desk {
     not_estimated(redundancy, needed): "not estimated: redundancy {redundancy}, needed {needed}";
     no_residuals: "not estimated: all residuals are 0";
     errors_estimated: "standard errors estimated";
+    redundancy: "redundancy";
+    rms_residual: "rms residual";
+    all_image_coordinates: "all image coordinates";
     rms_sigma: "rms σ";
     points_one_sigma(n): "{n} {n:point|points}, 1σ";
     relative_accuracy: "relative accuracy";
@@ -1190,6 +1193,7 @@ declare! { object {
     quantity_diameter: "diameter";
     quantity_rms: "form, rms";
     no_features: "Nothing is measured yet. Choose points in the view or by their names, then what they make.";
+    weakly_determined(percent): "so weakly determined ({percent} %) that it has no standard errors";
     missing_points(names): "not determined here: {names}";
     deviation: "deviation";
     feature_name: "Name of the feature";
@@ -1200,7 +1204,6 @@ declare! { object {
     position: "Position";
     direction: "Direction";
     form: "Form";
-    weakly_determined(percent): "so weakly determined ({percent} %) that it has no standard errors";
     range(rms, low, high): "rms {rms}, {low} to {high}";
     systems: "Coordinate systems";
     fit_sigma(sigma, unit): "σ₀ {sigma} {unit}";

@@ -275,6 +275,7 @@ translate! { Korean desk {
     measured_hot(count): "핫픽셀 {count}개는 제외했습니다.";
     measured_corrections(names):
         "파일에 렌즈 보정({names})이 적혀 있으나 여기서는 적용하지 않았습니다. 보정된 영상에서 검정한 카메라는 이와 다른 카메라입니다.";
+    unread_corrections: "파일에 든 렌즈 보정 목록을 읽을 수 없어 어떤 보정인지 알 수 없습니다. 그 보정은 적용하지 않았습니다.";
     corrections_made(names):
         "제조사 기록에 따르면 카메라가 다음을 보정했습니다: {names}. 이때의 왜곡은 렌즈의 왜곡이 아니라 보정하고 남은 왜곡입니다. 검정과 측정을 같은 설정으로 하십시오. 보정량은 줌과 초점에 따라 달라집니다.";
     corrections_without_distortion(names): "제조사 기록에 따르면 카메라가 다음을 보정했습니다: {names}. 왜곡은 그 가운데 없습니다.";
@@ -484,6 +485,8 @@ translate! { Korean desk {
     is_it(point, off, reach): "이 표적이 점 {point}입니까? 예측 위치에서 {off} px 떨어져 있습니다 (3σ {reach} px).";
     is_it_of_two(point, off, reach, second):
         "이 표적이 점 {point}입니까? 예측 위치에서 {off} px 떨어져 있고 (3σ {reach} px), 또 하나는 {second} px 떨어져 있습니다.";
+    is_it_near(point, off): "이 표적이 점 {point}입니까? 예측 위치에서 {off} px 떨어져 있습니다. 예측의 표준오차는 사진을 조정한 뒤에 알 수 있습니다.";
+    should_be_near(point): "점 {point}의 예측 위치입니다. 예측의 표준오차는 사진을 조정한 뒤에 알 수 있습니다. 여기서 측정합니까?";
     should_be_here(point, reach): "점 {point}의 예측 위치입니다 (3σ {reach} px). 여기서 측정합니까?";
     yes: "예";
     next_place: "다음 사진";
@@ -742,9 +745,6 @@ translate! { Korean desk {
     a_priori_one: "사전값 1";
     test_passed: "전체 모형 검정 통과";
     test_failed: "전체 모형 검정 실패";
-    redundancy: "잉여도";
-    rms_residual: "잔차 RMS";
-    all_image_coordinates: "모든 사진좌표";
     standard_errors_estimated(factors): "전체 모형 검정 없음: 표준오차를 추정함, {factors}";
     times_a_priori_px(factor, px): "사전 표준오차 {px} px의 {factor}배";
     times_a_priori(factor): "사전 표준오차의 {factor}배";
@@ -752,6 +752,9 @@ translate! { Korean desk {
     not_estimated(redundancy, needed): "추정하지 않음: 잉여도 {redundancy}, 필요 {needed}";
     no_residuals: "추정하지 않음: 잔차가 모두 0";
     errors_estimated: "표준오차를 추정함";
+    redundancy: "잉여도";
+    rms_residual: "잔차 RMS";
+    all_image_coordinates: "모든 사진좌표";
     rms_sigma: "RMS σ";
     points_one_sigma(n): "{n}점, 1σ";
     relative_accuracy: "상대정확도";
@@ -1153,6 +1156,7 @@ translate! { Korean object {
     quantity_diameter: "지름";
     quantity_rms: "형상 RMS";
     no_features: "아직 측정한 형상이 없습니다. 화면에서 점을 고르거나 점번호를 적은 다음 만들 형상을 고르십시오.";
+    weakly_determined(percent): "점들이 반지름이나 방향을 {percent} %까지만 결정하여 표준오차가 없습니다";
     missing_points(names): "여기서 결정되지 않은 점: {names}";
     deviation: "편차";
     feature_name: "형상 이름";
@@ -1163,7 +1167,6 @@ translate! { Korean object {
     position: "위치";
     direction: "방향";
     form: "형상";
-    weakly_determined(percent): "점들이 반지름이나 방향을 {percent} %까지만 결정하여 표준오차가 없습니다";
     range(rms, low, high): "RMS {rms}, {low} ~ {high}";
     systems: "좌표계";
     fit_sigma(sigma, unit): "σ₀ {sigma} {unit}";
