@@ -90,6 +90,10 @@ pub fn adjust(
     adjustment.options = options.clone();
     adjustment.termination = termination;
     adjustment.iterations = std::mem::take(&mut log.iterations);
+    adjustment.variance_components = components.0;
+    if adjustment.standard_errors_estimated() {
+        adjustment.global_test = None;
+    }
     adjustment.advice = judgement(&adjustment, unmodelled::estimate(document, &adjustment));
     adjustment.advice.extend(advice::advice(project, &session.network, &session.state, &adjustment));
     if !searching && matches!(termination, Termination::IterationLimit | Termination::Diverged) {
@@ -108,7 +112,6 @@ pub fn adjust(
     if !components.1 {
         adjustment.advice.push(Advice::VarianceComponentsUnsettled);
     }
-    adjustment.variance_components = components.0;
     adjustment.gross_errors = record;
     adjustment.covariance = solution.covariance;
     tell_of_what_is_outside(document, &session, &left_out, &mut adjustment);

@@ -121,12 +121,31 @@ pub struct VarianceComponent {
     pub redundancy: f64,
     /// Factor on the group's a priori standard errors.
     pub factor: f64,
-    /// Standard error of the factor; null where the group has too little redundancy to tell, and its factor is 1.
+    /// Standard error of the factor; null where it was not estimated, and is 1.
     pub factor_sigma: Option<f64>,
     /// Standard deviation of what is not modelled, pixels; null where it was not asked for.
     pub unmodelled: Option<f64>,
     /// Its standard error.
     pub unmodelled_sigma: Option<f64>,
+    /// Of image coordinates: root mean square of the a priori standard errors that the factor belongs to, pixels.
+    #[serde(default)]
+    pub a_priori_px: Option<f64>,
+    /// Why nothing was estimated of the group, whose a priori standard errors stay as they are; null where it was.
+    #[serde(default)]
+    pub not_estimated: Option<NotEstimated>,
+}
+
+/// Why a variance component was not estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum NotEstimated {
+    /// The redundancy numbers of the group sum up to less: a variance from so few residuals would enter as exact and is not.
+    LittleRedundancy {
+        /// What is needed.
+        needed: f64,
+    },
+    /// All its residuals are 0: they say nothing of a variance.
+    NoResiduals,
 }
 
 /// Options of the adjustment.
@@ -490,6 +509,13 @@ pub enum Advice {
     },
 }
 
+impl Adjustment {
+    /// Whether standard errors were estimated from the residuals, so that sigma0 and the global test say nothing of the fit.
+    pub fn standard_errors_estimated(&self) -> bool {
+        self.variance_components.iter().any(|component| component.not_estimated.is_none())
+    }
+}
+
 impl Advice {
     /// Most image observations that a suspicion names.
     pub const SUSPECTS: usize = 20;
@@ -528,7 +554,8 @@ pub struct Adjustment {
     pub redundancy: usize,
     /// Standard deviation of unit weight; null where the redundancy is 0.
     pub sigma0: Option<f64>,
-    /// χ² test of sigma0; null where the redundancy is 0.
+    /// χ² test of sigma0; null where the redundancy is 0, and where variance components were estimated: they make the statistic the
+    /// redundancy, whatever the residuals are.
     pub global_test: Option<GlobalTest>,
     /// Rms of the residuals of all image coordinates that took part, pixels; null where there are none.
     #[serde(default)]

@@ -15,6 +15,9 @@
 //! then the earlier network is first laid upon the later one, by the similarity of those common points that agree with each other
 //! ([`similarity::fit_robust`]), without a scale where both networks have one of their own. What such a network did as a whole is not
 //! seen, and standard errors differ with the datum; [`Alignment`] says which it was.
+//!
+//! What moved is told against what stayed. Where, besides the three that any similarity brings together, fewer than half of the common
+//! points agree within [`AGREEING`] times the limit, nothing stayed: other names, a mirror image, another length of the same bar. Then no coordinate is compared ([`Alignment::Unlike`]).
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -22,8 +25,16 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::adjustment::{AdjustedCamera, Adjustment, PhotoUnit};
+use crate::initial::Spread;
 use crate::initial::similarity::{self, Similarity};
 use crate::project::{DatumKind, Parameter, Project, Role};
+
+/// A point agrees with its earlier self where its ratio is below so many times the limit of a single test. Standard errors of two
+/// sittings are too small by two or three where both leave the same out; a majority beyond that has no part that stayed, and what a
+/// similarity says of it (a scale of 0.24 for a mirror image) is nobody's movement.
+const AGREEING: f64 = 3.0;
+/// Without standard errors: where it moved by less than this part of the object's extent.
+const AGREEING_SHARE: f64 = 0.01;
 
 /// Control points that must have kept their coordinates for the system to be the same.
 const SAME_SYSTEM: usize = 3;
@@ -45,6 +56,21 @@ pub enum Alignment {
     Apart {
         /// How many are common.
         common: usize,
+    },
+    /// No similarity lays one upon the other so that half of the common points, beyond the three that any brings together, agree within
+    /// their standard errors: no coordinate is compared.
+    Unlike {
+        /// How many are common.
+        common: usize,
+        /// How many of them agree under the best that was found.
+        agreeing: usize,
+        /// Median of their differences over their standard errors; none without standard errors.
+        ratio: Option<f64>,
+        /// Ratio of lengths, later over earlier, of the similarity that fits best with a scale of its own; told where it makes enough
+        /// points agree though both networks have a scale.
+        scale: Option<f64>,
+        /// Whether the mirror image of the earlier network makes enough points agree.
+        mirrored: bool,
     },
     /// Their lengths are in different units: no coordinate is compared.
     Units {
@@ -180,15 +206,60 @@ fn aligned(
     }
     let source: Vec<_> = pairs.iter().map(|&(i, _)| Vector3::from(earlier.points[i].xyz)).collect();
     let target: Vec<_> = pairs.iter().map(|&(_, k)| Vector3::from(later.points[k].xyz)).collect();
+    let common = pairs.len();
     let Ok((fit, kept)) = similarity::fit_robust(&source, &target, 0) else {
-        return (Alignment::Apart { common: pairs.len() }, None);
+        return (Alignment::Apart { common }, None);
+    };
+    let extent = Spread::of(&target).map_or(0.0, |spread| spread.extent.norm());
+    // Three points agree under some similarity whatever they are: what counts are the others.
+    let majority = |agreeing: usize| agreeing >= 3 && 2 * (agreeing - 3) >= common - 3;
+    let agreement = |transform: &Similarity, mirrored: bool| {
+        let moved = pairs.iter().map(|&(i, k)| {
+            let (p, q) = (&earlier.points[i], &later.points[k]);
+            let [x, y, z] = p.xyz;
+            moved(&q.id, ([if mirrored { -x } else { x }, y, z], p.sigma), (q.xyz, q.sigma), transform)
+        });
+        Agreement::of(moved, AGREEING * later.criteria.w, AGREEING_SHARE * extent)
     };
     let both_scaled = has_scale(old, earlier) && has_scale(new, later);
     // About the centroids rotation and shift of least squares are the same with and without a scale.
     let scale = if both_scaled { 1.0 } else { fit.transform.scale };
+    let laid = Similarity { scale, ..fit.transform };
+    let found = agreement(&laid, false);
+    if !majority(found.points) {
+        let mirror: Vec<_> = source.iter().map(|p| Vector3::new(-p.x, p.y, p.z)).collect();
+        let mirrored = similarity::fit_robust(&mirror, &target, 0)
+            .is_ok_and(|(fit, _)| majority(agreement(&fit.transform, true).points));
+        let scaled = both_scaled && majority(agreement(&fit.transform, false).points);
+        let scale = scaled.then_some(fit.transform.scale);
+        return (Alignment::Unlike { common, agreeing: found.points, ratio: found.ratio, scale, mirrored }, None);
+    }
     let carried = kept.iter().filter(|kept| **kept).count();
     let alignment = Alignment::Fitted { points: carried, scale: (!both_scaled).then_some(scale) };
-    (alignment, Some(Similarity { scale, ..fit.transform }))
+    (alignment, Some(laid))
+}
+
+/// How well two networks agree under a transform.
+struct Agreement {
+    /// Points that agree.
+    points: usize,
+    /// Median of the ratios.
+    ratio: Option<f64>,
+}
+
+impl Agreement {
+    fn of(moved: impl Iterator<Item = Moved>, limit: f64, length: f64) -> Self {
+        let (mut points, mut ratios) = (0, Vec::new());
+        for moved in moved {
+            points += usize::from(match moved.ratio {
+                Some(ratio) => ratio <= limit,
+                None => moved.length() <= length,
+            });
+            ratios.extend(moved.ratio);
+        }
+        ratios.sort_by(f64::total_cmp);
+        Self { points, ratio: ratios.get(ratios.len() / 2).copied() }
+    }
 }
 
 /// Whether both are held by control points of which enough kept their coordinates.

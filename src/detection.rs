@@ -441,6 +441,8 @@ pub struct Measured {
     pub hot_sites: Option<usize>,
     /// Corrections of the lens that the file names, in its own words; none was made.
     pub corrections: Vec<String>,
+    /// Lists of corrections in the file that could not be read: what they name is not known.
+    pub unread_corrections: usize,
 }
 
 /// Which picture of a file with several is measured.

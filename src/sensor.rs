@@ -38,6 +38,8 @@ pub struct Header {
     pub damaged_rows: Vec<[u32; 2]>,
     /// Corrections of the lens that the file names, in its own words.
     pub corrections: Vec<String>,
+    /// Lists of corrections that could not be read: what they name is not known, and may be none.
+    pub unread_corrections: usize,
     /// Width and height of the small picture; 0 where there is none.
     pub small: [u32; 2],
 }
@@ -81,6 +83,8 @@ pub struct Sensor {
     pub damaged_rows: Vec<[u32; 2]>,
     /// Corrections of the lens that the file names, in its own words.
     pub corrections: Vec<String>,
+    /// Lists of corrections that could not be read.
+    pub unread_corrections: usize,
 }
 
 impl Shot {
@@ -143,8 +147,18 @@ impl Unpacked {
         match (header.mosaic, samples) {
             (Some(mosaic), Samples::U16(samples)) => {
                 let mosaic = mosaic.checked([header.width, header.height]).ok_or_else(|| broken(Damage::Header))?;
-                let Header { format, bits, corrections, .. } = header;
-                let sensor = Sensor { format, width, height, bits, mosaic, samples, damaged_rows, corrections };
+                let Header { format, bits, corrections, unread_corrections, .. } = header;
+                let sensor = Sensor {
+                    format,
+                    width,
+                    height,
+                    bits,
+                    mosaic,
+                    samples,
+                    damaged_rows,
+                    corrections,
+                    unread_corrections,
+                };
                 Ok(Shot::Sensor(sensor))
             }
             (Some(_), Samples::U8(_)) => Err(broken(Damage::Header)),

@@ -29,13 +29,15 @@ pub fn unpack(bytes: &[u8], named: &str, wanted: Wanted) -> Result<Unpacked> {
     let raw = FlashRaw::open_with(bytes, bounds()).map_err(|fault| refused(fault, named))?;
     let frame = raw.frame_info();
     check_size([frame.width, frame.height], bytes.len(), MOST_FROM_A_BYTE)?;
+    let (corrections, unread_corrections) = about::corrections(frame);
     let mut header = Header {
         format: raw.format().name().into(),
         width: frame.width,
         height: frame.height,
         bits: frame.bits_per_sample.into(),
         info: about::info(bytes, raw.metadata()),
-        corrections: about::corrections(frame),
+        corrections,
+        unread_corrections,
         ..Header::default()
     };
     let mut small = Vec::new();

@@ -395,6 +395,33 @@ fn the_file_is_told_and_shown() {
     assert_eq!(shown.samples, Samples::U16(dng.samples));
 }
 
+/// Lists cut off anywhere, that claim more than there is, or are noise: told as unread, never as no corrections.
+#[test]
+fn an_unreadable_list_of_corrections_is_told() {
+    let (canvas, _) = scene();
+    let whole = warp();
+    let read = |opcodes: Vec<u8>| {
+        let file = Dng { opcodes, ..exposed(&canvas, TWELVE, "RGGB", 1) }.file();
+        let header =
+            unpack(&file, Wanted { channel: Channel::Grey, samples: false, max_side: 0 }).expect("a header").header;
+        (header.corrections, header.unread_corrections)
+    };
+    assert_eq!(read(whole.clone()), (vec!["WarpRectilinear".to_owned()], 0));
+    assert_eq!(read(Vec::new()), (Vec::new(), 0));
+    assert_eq!(read(0u32.to_be_bytes().to_vec()), (Vec::new(), 0));
+    for end in [2, 5, 9, 19, whole.len() - 1] {
+        assert_eq!(read(whole[..end].to_vec()), (Vec::new(), 1), "{end}");
+    }
+    let mut more = whole.clone();
+    more[3] = 7;
+    assert_eq!(read(more), (Vec::new(), 1));
+    let mut noise = sightline::noise::Noise::new(5, 0);
+    for _ in 0..20 {
+        let list = (0..40).map(|_| (noise.normal() * 60.0) as i8 as u8 | 1).collect();
+        assert_eq!(read(list).1, 1);
+    }
+}
+
 /// An opcode list with a warp that does nothing.
 fn warp() -> Vec<u8> {
     let mut list = 1u32.to_be_bytes().to_vec();

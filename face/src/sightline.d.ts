@@ -282,6 +282,9 @@ export interface MeasuredFeature {
   residuals?: FeatureResidual[];
   /** What is drawn: ends of a distance, sides of an angle about its place, ends of a line or an axis. */
   ends?: [number, number, number][];
+  /** Why it has no standard errors though there are statistics: it, or what it is measured from, is so weakly determined that they mean
+   * nothing. Standard error of the radius over the radius, or of the direction in radians. */
+  weak?: number;
   /** Its points that this adjustment has not. */
   missing?: string[];
   /** Why there is no result. */
@@ -547,6 +550,10 @@ export interface VarianceComponent {
   /** Standard deviation of what is not modelled, pixels; null unless asked for. */
   unmodelled: number | null;
   unmodelled_sigma: number | null;
+  /** Of image coordinates: root mean square of the a priori standard errors that the factor belongs to, pixels. */
+  a_priori_px: number | null;
+  /** Why nothing was estimated of the group, whose a priori standard errors stay; null where it was. */
+  not_estimated: null | { kind: "little_redundancy"; needed: number } | { kind: "no_residuals" };
 }
 
 /** By what observations, parameters and the network are judged. */
@@ -589,6 +596,7 @@ export interface Adjustment {
   redundancy: number;
   /** Null where the redundancy is 0. */
   sigma0: number | null;
+  /** Null where the redundancy is 0, and where variance components were estimated, which make the statistic the redundancy. */
   global_test: { statistic: number; lower: number; upper: number; passed: boolean } | null;
   /** Rms of the residuals of all image coordinates that took part, pixels. */
   rms_px: number | null;
@@ -754,6 +762,8 @@ export interface MeasuredSamples {
   hot_sites: number | null;
   /** Corrections of the lens that the file names, in its own words; none was made. */
   corrections: string[];
+  /** Lists of corrections in the file that could not be read: what they name is not known. */
+  unread_corrections: number;
 }
 
 /** Lateral chromatic aberration of a colour against green. */
@@ -903,7 +913,10 @@ export interface Prediction {
   rays: number;
   /** Null below two rays, or where they do not meet. */
   xyz: [number, number, number] | null;
+  /** Null where a photo that sees it has no standard errors of its orientation. */
   sigma: [number, number, number] | null;
+  /** Oriented photos whose orientation has no standard errors: where one of them takes part no covariance is told. */
+  without_errors: string[];
   /** Every oriented photo. */
   photos: PhotoPrediction[];
 }
@@ -913,8 +926,10 @@ export interface PhotoPrediction {
   photo: string;
   measured: [number, number] | null;
   place: [number, number] | null;
-  /** uu, uv, vv of the place. */
+  /** uu, uv, vv of the place; null without the standard errors of the photos' orientations. */
   covariance: [number, number, number] | null;
+  /** The part of it that is known: it is at least as much. */
+  least_covariance: [number, number, number] | null;
   /** Whether the place lies in the picture. */
   inside: boolean;
   /** Distance of the measurement from the place, in pixels and in standard errors of both. */

@@ -58,6 +58,11 @@ pub struct MeasuredFeature {
     /// Two ends of what is drawn of a distance, or of a line along its points; empty otherwise.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ends: Vec<[f64; 3]>,
+    /// Why it has no standard errors though there are statistics: the points determine the form, or one that it is measured from, so
+    /// weakly that they mean nothing. Standard error of the radius over the radius, or of the direction in radians, whichever is
+    /// larger; null where standard errors hold.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weak: Option<f64>,
     /// Points of the feature that this adjustment has not.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub missing: Vec<String>,

@@ -113,13 +113,93 @@ fn a_scale_of_its_own_is_compared_and_not_fitted_away() {
     project.distances.push(Distance { from: "0".into(), to: "1".into(), length: 1.0, sigma: 0.1, check: false });
     let after = turned(&adjustment, 1.01);
     let found = compare((&project, &adjustment), (&project, &after));
-    assert!(matches!(found.alignment, Alignment::Fitted { scale: None, .. }));
-    assert!(found.rms.unwrap() > 1.0);
+    // Another length of the same bar: every point is off, and the scale says by what.
+    let Alignment::Unlike { common: 30, agreeing, scale: Some(scale), mirrored: false, .. } = found.alignment else {
+        panic!("{:?}", found.alignment)
+    };
+    assert!(agreeing < 15 && (scale - 1.01).abs() < 1e-9 && found.points.is_empty() && found.rms.is_none());
+    // Within the standard errors of most it is a difference like others.
+    let found = compare((&project, &adjustment), (&project, &turned(&adjustment, 1.0001)));
+    assert!(matches!(found.alignment, Alignment::Fitted { scale: None, .. }), "{:?}", found.alignment);
+    assert!(found.rms.unwrap() > 0.01);
     // A distance that is compared only, or whose ends are not in the network, gives none.
     project.distances[0].check = true;
     assert!(compare((&project, &adjustment), (&project, &after)).rms.unwrap() < 1e-7);
     project.distances[0] = Distance { check: false, to: "nowhere".into(), ..project.distances[0].clone() };
     assert!(compare((&project, &adjustment), (&project, &after)).rms.unwrap() < 1e-7);
+}
+
+/// Networks with noise: of the same object in another system they are compared, whatever part of up to three tenths moved; renumbered,
+/// mirrored or of another object they are not.
+#[test]
+fn what_has_no_part_that_stayed_is_not_laid_upon_the_other() {
+    let mut random = generator(71);
+    let mut noise = crate::noise::Noise::new(71, 0);
+    for seed in 0..120 {
+        let (mut project, mut before) = network(DatumKind::Free, 100 + seed);
+        let flat = [1.0, 0.1, 0.01][(uniform(&mut random) * 3.0) as usize];
+        before.points.iter_mut().for_each(|p| p.xyz[2] *= flat);
+        before.points.truncate(8 + (uniform(&mut random) * 22.0) as usize);
+        let n = before.points.len();
+        let scaled = uniform(&mut random) < 0.5;
+        if scaled {
+            project.distances.push(Distance {
+                from: "0".into(),
+                to: "1".into(),
+                length: 1.0,
+                sigma: 0.1,
+                check: false,
+            });
+        }
+        let mut again = before.clone();
+        for p in &mut again.points {
+            (0..3).for_each(|axis| p.xyz[axis] += SIGMA * noise.normal());
+        }
+        let scale = if scaled { 1.0 } else { 0.2 + 4.0 * uniform(&mut random) };
+        let system = |a: &Adjustment| {
+            let mut other = turned(a, scale);
+            other.points.iter_mut().for_each(|p| p.sigma = p.sigma.map(|s| s.map(|s| s * scale)));
+            other
+        };
+        let same = compare((&project, &before), (&project, &system(&again)));
+        assert!(matches!(same.alignment, Alignment::Fitted { .. }), "{seed}: {:?}", same.alignment);
+        let mut moving = again.clone();
+        let some = (uniform(&mut random) * 0.3 * n as f64) as usize;
+        moving.points[..some].iter_mut().for_each(|p| p.xyz[0] += 50.0);
+        let found = compare((&project, &before), (&project, &system(&moving)));
+        assert!(matches!(found.alignment, Alignment::Fitted { .. }), "{seed}, {some} of {n}: {:?}", found.alignment);
+        assert!(found.beyond >= some);
+
+        let unlike = |other: &Adjustment| {
+            let found = compare((&project, &before), (&project, &system(other)));
+            let Alignment::Unlike { common, agreeing, ratio, mirrored, .. } = found.alignment else {
+                panic!("{seed}, {n}: {:?}", found.alignment)
+            };
+            assert!(common == n && agreeing < n && ratio.is_some_and(|ratio| ratio > 4.0));
+            assert!(found.points.is_empty() && found.photos.is_empty() && found.rms.is_none() && found.beyond == 0);
+            mirrored
+        };
+        let mut renumbered = again.clone();
+        let shift = 1 + (uniform(&mut random) * (n - 1) as f64) as usize;
+        (0..n).for_each(|k| renumbered.points[k].xyz = again.points[(k + shift) % n].xyz);
+        assert!(!unlike(&renumbered));
+        // A mirror image of what is flat within its standard errors is the thing itself.
+        if flat > 0.05 {
+            let mut mirrored = again.clone();
+            let axis = (uniform(&mut random) * 3.0) as usize;
+            mirrored.points.iter_mut().for_each(|p| p.xyz[axis] = -p.xyz[axis]);
+            assert!(unlike(&mirrored), "{seed}");
+        }
+        let mut other = network(DatumKind::Free, 5000 + seed).1;
+        other.points.truncate(n);
+        assert!(!unlike(&other));
+        // Without standard errors the extent decides.
+        let mut bare = [before.clone(), renumbered, again];
+        bare.iter_mut().flat_map(|a| &mut a.points).for_each(|p| p.sigma = None);
+        let of = |later: &Adjustment| compare((&project, &bare[0]), (&project, later)).alignment;
+        assert!(matches!(of(&bare[1]), Alignment::Unlike { ratio: None, .. }));
+        assert!(matches!(of(&bare[2]), Alignment::Fitted { .. }));
+    }
 }
 
 #[test]

@@ -316,7 +316,7 @@ impl Sites<'_> {
 
     /// What the detection says of what it was measured on.
     fn told(&self, method: Method, hot: usize) -> Measured {
-        let Sensor { format, bits, mosaic, corrections, .. } = self.sensor;
+        let Sensor { format, bits, mosaic, corrections, unread_corrections, .. } = self.sensor;
         Measured {
             on: if method == Method::LeastSquares { MeasuredOn::Sites } else { MeasuredOn::InterpolatedSites },
             format: format.clone(),
@@ -329,6 +329,7 @@ impl Sites<'_> {
             read_noise: self.noise.readout(),
             hot_sites: Some(hot),
             corrections: corrections.clone(),
+            unread_corrections: *unread_corrections,
         }
     }
 }

@@ -77,6 +77,7 @@ reasons! {
     FeaturePoints { needed: usize, given: usize } => "points that this adjustment determines: {given}, needed: {needed}; add points, or measure them in more photos";
     FeaturePointMissing { name: String } => "point \"{name}\" is not determined by this adjustment: measure it in two photos or more";
     FeatureUndetermined => "the points do not determine it, since they lie in one place, on one line, in one plane or too near to it: add points apart from the others";
+    FeatureUnsettled => "the fit to the points came to no end: its least squares lie far off, as those of a round form through points of a nearly flat patch; add points apart from the others";
     FeatureNotFitted { name: String } => "\"{name}\" is not fitted to points: take a line, a plane, a circle, a sphere or a cylinder";
     FeatureBroken { name: String } => "it is built on \"{name}\", which could not be measured";
     FeatureNoDirection => "an angle is between two directions (of lines, planes, circles, cylinders), or at a point between two others";

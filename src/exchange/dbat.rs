@@ -114,7 +114,15 @@ impl Script<'_> {
 
     fn camera(&self, camera: &Element, id: String) -> Result<Camera> {
         let numbers = |name: &str, count: usize| {
-            let Some(element) = camera.child(name) else { return Ok(vec![0.0; count]) };
+            let missing = || self.invalid(name, Reason::Missing { name: name.into() });
+            let Some(element) = camera.child(name) else {
+                // A lens without distortion is one; a principal point, where it is not said, is nowhere.
+                return if matches!(name, "K" | "P" | "skew" | "model" | "cc") {
+                    Ok(vec![0.0; count])
+                } else {
+                    Err(missing())
+                };
+            };
             let found: Option<Vec<f64>> =
                 element.text.split([',', ' ']).filter(|word| !word.is_empty()).map(text::number).collect();
             let wrong =
@@ -136,11 +144,13 @@ impl Script<'_> {
             return Err(self.invalid("skew", Reason::Skew));
         }
         // The affinity multiplies x before the distortion: it is a matter of the pixel pitch here.
-        let aspect = camera
-            .child("aspect")
-            .and_then(|element| text::number(&element.text))
-            .filter(|aspect| *aspect > 0.0)
-            .unwrap_or(1.0);
+        let aspect = if camera.child("aspect").is_some() { numbers("aspect", 1)?[0] } else { 1.0 };
+        // No principal distance, or 0, is one that is not known.
+        for (name, wrong) in [("aspect", aspect <= 0.0), ("cc", c < 0.0)] {
+            if wrong {
+                return Err(self.invalid(name, Reason::SizeNotPositive { name: name.into() }));
+            }
+        }
         let square = sensor[1] / image[1];
         let pitch = [if aspect == 1.0 { sensor[0] / image[0] } else { square * aspect }, square];
         let interior = Interior::Brown {
@@ -240,6 +250,12 @@ impl Script<'_> {
                     let sigma = match (common, own("sxy")?, own("sx")?, own("sy")?) {
                         (Some(sigma), ..) | (None, Some(sigma), ..) => Sigma::One(sigma),
                         (None, None, Some(sx), Some(sy)) => Sigma::Two([sx, sy]),
+                        (None, None, Some(_), None) => {
+                            return Err(row.invalid("sy", Reason::NoColumn { column: "sy".into() }));
+                        }
+                        (None, None, None, Some(_)) => {
+                            return Err(row.invalid("sx", Reason::NoColumn { column: "sx".into() }));
+                        }
                         _ => Sigma::One(DEFAULT_SIGMA),
                     };
                     let (u, v) = (row.number(x, "x")?, row.number(y, "y")?);

@@ -3,8 +3,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::form::{Form, MOST, Row};
-use super::linear::across;
+use super::form::{Form, MOST, Motion, Row, Second};
+use super::linear::{across, axis_of};
 
 /// Centre, unit normal, radius.
 #[derive(Clone, Debug)]
@@ -57,6 +57,19 @@ impl Form for Circle {
             ]
         });
         rows.collect()
+    }
+
+    fn second(&self, point: &Vector3<f64>) -> Second {
+        let v = point - self.centre;
+        let [e, f] = across(&self.normal);
+        let shift = |axis| Motion { shift: axis_of(axis), ..Motion::default() };
+        let turn = |turn| Motion { turn, ..Motion::default() };
+        let motions = [shift(0), shift(1), shift(2), turn(e), turn(f)];
+        let height = self.normal.dot(&v);
+        let mut second = Second::zeros();
+        second.add_height(height, &motions);
+        second.add_across((v - height * self.normal).norm() - self.radius, &v, &self.normal, &motions);
+        second
     }
 
     fn moved(&self, step: &[f64; MOST]) -> Self {

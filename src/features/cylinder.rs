@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 
 use super::circle::Circle;
-use super::form::{Form, MOST, Row};
+use super::form::{Form, MOST, Row, Second};
 use super::line::Line;
 use super::linear::across;
 
@@ -69,6 +69,13 @@ impl Form for Cylinder {
             Row { point, distance: length - self.radius, by_form, by_point: outwards }
         };
         points.iter().enumerate().map(row).collect()
+    }
+
+    fn second(&self, point: &Vector3<f64>) -> Second {
+        let mut second = Second::zeros();
+        let Line { position, direction } = &self.axis;
+        second.add_across(self.distance(point), &(point - position), direction, &self.axis.motions());
+        second
     }
 
     fn moved(&self, step: &[f64; MOST]) -> Self {

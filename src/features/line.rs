@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::form::{Form, MOST, Row};
+use super::form::{Form, MOST, Motion, Row, Second};
 use super::linear::across;
 
 /// A point of the line and its unit direction.
@@ -16,6 +16,14 @@ impl Line {
     /// The foot of a point on it.
     pub fn foot(&self, point: &Vector3<f64>) -> Vector3<f64> {
         self.position + self.direction.dot(&(point - self.position)) * self.direction
+    }
+
+    /// Of its parameters.
+    pub fn motions(&self) -> [Motion; 4] {
+        let [e, f] = across(&self.direction);
+        let shift = |shift| Motion { shift, ..Motion::default() };
+        let turn = |turn| Motion { turn, ..Motion::default() };
+        [shift(e), shift(f), turn(e), turn(f)]
     }
 }
 
@@ -35,6 +43,20 @@ impl Form for Line {
             })
         });
         rows.collect()
+    }
+
+    /// Of |u|²/2 beyond its two components' squares of first derivatives: -(turn·u)(turn'·u), and -(turn·u) a by a point.
+    fn second(&self, point: &Vector3<f64>) -> Second {
+        let u = point - self.foot(point);
+        let mut second = Second::zeros();
+        let motions = self.motions();
+        for (k, one) in motions.iter().enumerate() {
+            second.by_point[k] = -one.turn.dot(&u) * self.direction;
+            for (l, other) in motions.iter().enumerate() {
+                second.by_form[(k, l)] = -one.turn.dot(&u) * other.turn.dot(&u);
+            }
+        }
+        second
     }
 
     fn moved(&self, step: &[f64; MOST]) -> Self {

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::form::{Form, MOST, Row};
+use super::form::{Form, MOST, Motion, Row, Second};
 use super::linear::across;
 
 /// A point of the plane and its unit normal.
@@ -25,6 +25,15 @@ impl Form for Plane {
             Row { point, distance: self.normal.dot(&v), by_form, by_point: self.normal }
         };
         points.iter().enumerate().map(row).collect()
+    }
+
+    fn second(&self, point: &Vector3<f64>) -> Second {
+        let [e, f] = across(&self.normal);
+        let turn = |turn| Motion { turn, ..Motion::default() };
+        let mut second = Second::zeros();
+        let motions = [Motion { shift: self.normal, ..Motion::default() }, turn(e), turn(f)];
+        second.add_height(self.distance(point), &motions);
+        second
     }
 
     fn moved(&self, step: &[f64; MOST]) -> Self {

@@ -1,8 +1,8 @@
 //! A sphere: d = |x - c| - r; initial values by the linear equation |x|² = 2c·x + (r² - |c|²).
 
-use nalgebra::{Matrix4, Vector3, Vector4};
+use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
-use super::form::{Form, MOST, Row};
+use super::form::{Form, MOST, Row, Second};
 
 /// Centre and radius.
 #[derive(Clone, Debug)]
@@ -42,6 +42,19 @@ impl Form for Sphere {
             Row { point, distance: length - self.radius, by_form, by_point: outwards }
         };
         points.iter().enumerate().map(row).collect()
+    }
+
+    /// ∂²d = (I - o oᵀ)/|x - c| with o from the centre to the point.
+    fn second(&self, point: &Vector3<f64>) -> Second {
+        let v = point - self.centre;
+        let (length, mut second) = (v.norm(), Second::zeros());
+        if length > 0.0 {
+            let across = Matrix3::identity() - v * v.transpose() / (length * length);
+            let part = across * ((length - self.radius) / length);
+            second.by_form.fixed_view_mut::<3, 3>(0, 0).copy_from(&part);
+            (0..3).for_each(|k| second.by_point[k] = -part.column(k).into_owned());
+        }
+        second
     }
 
     fn moved(&self, step: &[f64; MOST]) -> Self {

@@ -165,6 +165,7 @@ fn best_fit(given: &[GivenPoint], scaled: bool, points: &Points, result: &mut Me
     let weight = |g: &GivenPoint| Vector3::from(g.sigma.map_or([1.0; 3], |s| s.map(|s| 1.0 / (s * s))));
     let rows = |y: &Vector3<f64>| columns(&(y / size));
     let mut inverse = SMatrix::<f64, PARAMETERS, PARAMETERS>::identity();
+    let mut settled = false;
     for _ in 0..100 {
         let mut normal = SMatrix::<f64, PARAMETERS, PARAMETERS>::zeros();
         let mut right = SVector::<f64, PARAMETERS>::zeros();
@@ -186,9 +187,14 @@ fn best_fit(given: &[GivenPoint], scaled: bool, points: &Points, result: &mut Me
         rotation = nalgebra::Rotation3::from_scaled_axis(turn).into_inner() * rotation;
         shift += Vector3::new(step[3], step[4], step[5]);
         scale *= 1.0 + step[6] / size;
+        // Beyond the digits of the coordinates, far below any standard error; steps go on until they change nothing.
+        settled = step.amax() <= 1e-9 * size;
         if !(step.amax() > 1e-13 * size) {
             break;
         }
+    }
+    if !settled {
+        return Err(refused(Reason::FeatureUnsettled));
     }
     let mut by: [Function; PARAMETERS] = Default::default();
     let mut squares = 0.0;

@@ -37,8 +37,11 @@ pub struct Prediction {
     pub rays: usize,
     /// Object coordinates from these rays; null below two, or where they do not meet.
     pub xyz: Option<[f64; 3]>,
-    /// Their standard errors.
+    /// Their standard errors; null where a photo that sees it has none of its orientation.
     pub sigma: Option<[f64; 3]>,
+    /// Oriented photos whose orientation has no standard errors, since they are not adjusted or the adjustment has none: where one of
+    /// them takes part it is not known how far off a place may be, and no covariance is told.
+    pub without_errors: Vec<String>,
     /// Every oriented photo, in the project's order.
     pub photos: Vec<PhotoPrediction>,
 }
@@ -52,8 +55,10 @@ pub struct PhotoPrediction {
     pub measured: Option<[f64; 2]>,
     /// Where the rays of the other photos have it; null below two of them, or where it is behind the camera.
     pub place: Option<[f64; 2]>,
-    /// Covariance of that place: uu, uv, vv.
+    /// Covariance of that place: uu, uv, vv; null without the standard errors of the photos' orientations.
     pub covariance: Option<[f64; 3]>,
+    /// The part of it that comes from the measurements and the orientations that have standard errors: it is at least as much.
+    pub least_covariance: Option<[f64; 3]>,
     /// Whether that place lies in the picture.
     pub inside: bool,
     /// Distance of the measurement from that place.
@@ -85,7 +90,18 @@ struct Station {
     photo: OrientedPhoto,
     position: [f64; 3],
     rotation: [f64; 3],
-    covariance: Matrix6<f64>,
+    /// None where the orientation has no standard errors.
+    covariance: Option<Matrix6<f64>>,
+}
+
+/// What sights meet in.
+#[derive(Clone, Copy)]
+struct Met {
+    point: Vector3<f64>,
+    /// The part of its covariance that is known.
+    covariance: Matrix3<f64>,
+    /// Whether that is all of it.
+    whole: bool,
 }
 
 /// A measurement of the point.
@@ -98,8 +114,8 @@ struct Sight {
 
 /// Predicts where `point` should be in every oriented photo of the project.
 ///
-/// `adjustment` is the project's, for the standard errors of its photos and of unit weight; without it the orientation
-/// counts as free of errors. Of the project only cameras, photos and the point's observations are read.
+/// `adjustment` is the project's, for the standard errors of its photos and of unit weight; without it places are told and not how far
+/// off they may be. Of the project only cameras, photos and the point's observations are read.
 ///
 /// # Errors
 /// Those of [`Project::validate`]; [`Error::Unknown`] where the project has no such point.
@@ -139,8 +155,10 @@ pub fn predict(
         predicted
     });
     let photos = photos.collect();
-    let sigma = all.map(|(_, c)| [0, 1, 2].map(|k| c[(k, k)].max(0.0).sqrt()));
-    Ok(Prediction { point: point.into(), rays: sights.len(), xyz: all.map(|(x, _)| x.into()), sigma, photos })
+    let sigma = all.filter(|met| met.whole).map(|met| [0, 1, 2].map(|k| met.covariance[(k, k)].max(0.0).sqrt()));
+    let without = stations.iter().filter(|s| s.covariance.is_none()).map(|s| s.photo.id.clone()).collect();
+    let xyz = all.map(|met| met.point.into());
+    Ok(Prediction { point: point.into(), rays: sights.len(), xyz, sigma, without_errors: without, photos })
 }
 
 fn stations(project: &Project, adjustment: Option<&Adjustment>) -> Vec<Station> {
@@ -148,22 +166,21 @@ fn stations(project: &Project, adjustment: Option<&Adjustment>) -> Vec<Station> 
     let station = |photo: OrientedPhoto| {
         let (position, rotation) =
             project.photos.iter().find(|p| p.id == photo.id).and_then(|p| Some((p.position?, p.rotation?)))?;
-        let covariance = adjusted(&photo.id).and_then(covariance).unwrap_or_default();
+        let covariance = adjusted(&photo.id).and_then(covariance);
         Some(Station { photo, position, rotation, covariance })
     };
     OrientedPhoto::all(project).into_iter().filter_map(station).collect()
 }
 
-/// Covariance of a photo's six elements from their standard errors and correlations.
+/// Covariance of a photo's six elements from their standard errors and correlations; none without all of them.
 fn covariance(photo: &AdjustedPhoto) -> Option<Matrix6<f64>> {
     let (position, angles) = (photo.sigma_position?, photo.sigma_rotation?);
+    let rows = &photo.correlation.as_ref()?.matrix;
+    if rows.len() < 6 || rows.iter().take(6).any(|row| row.len() < 6) {
+        return None;
+    }
     let sigma = |k: usize| if k < 3 { position[k] } else { angles[k - 3] };
-    let correlation = |i: usize, j: usize| match &photo.correlation {
-        _ if i == j => 1.0,
-        Some(c) => c.matrix.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0),
-        None => 0.0,
-    };
-    let covariance = Matrix6::from_fn(|i, j| sigma(i) * sigma(j) * correlation(i, j));
+    let covariance = Matrix6::from_fn(|i, j| sigma(i) * sigma(j) * if i == j { 1.0 } else { rows[i][j] });
     covariance.iter().all(|c| c.is_finite()).then_some(covariance)
 }
 
@@ -177,7 +194,7 @@ fn sight(stations: &[Station], o: &Observation, sigma0: f64) -> Option<Sight> {
 }
 
 /// The point that sights meet in, with its covariance.
-fn meet(stations: &[Station], sights: &[&Sight]) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+fn meet(stations: &[Station], sights: &[&Sight]) -> Option<Met> {
     let in_image = |s: &Sight| s.sigma_px / stations[s.station].photo.principal_distance_px;
     let rays = sights.iter().map(|s| {
         let pose = stations[s.station].photo.pose;
@@ -193,7 +210,9 @@ fn meet(stations: &[Station], sights: &[&Sight]) -> Option<(Vector3<f64>, Matrix
         normal += by_point.transpose() * weight * by_point;
     }
     let covariance = normal.try_inverse()?;
-    (met.point.iter().chain(covariance.iter()).all(|x| x.is_finite())).then_some((met.point, covariance))
+    let whole = sights.iter().all(|s| stations[s.station].covariance.is_some());
+    let sound = met.point.iter().chain(covariance.iter()).all(|x| x.is_finite());
+    sound.then_some(Met { point: met.point, covariance, whole })
 }
 
 impl Station {
@@ -203,11 +222,9 @@ impl Station {
         image_jacobian(&pose.to_camera(point)) * pose.object_to_camera
     }
 
-    /// Covariance of ideal coordinates from that of the exterior orientation, by difference quotients.
+    /// Covariance of ideal coordinates from that of the exterior orientation, by difference quotients; nothing where that has none.
     fn of_pose(&self, point: &Vector3<f64>) -> Option<Matrix2<f64>> {
-        if self.covariance == Matrix6::zeros() {
-            return Some(Matrix2::zeros());
-        }
+        let Some(covariance) = self.covariance else { return Some(Matrix2::zeros()) };
         let reach = (point - Vector3::from(self.position)).norm();
         let image = |k: usize, step: f64| {
             let (mut position, mut rotation) = (self.position, self.rotation);
@@ -224,7 +241,7 @@ impl Station {
             let step = if k < 3 { STEP * reach } else { STEP };
             by_pose.set_column(k, &((image(k, step)? - image(k, -step)?) / (2.0 * step)));
         }
-        Some(by_pose * self.covariance * by_pose.transpose())
+        Some(by_pose * covariance * by_pose.transpose())
     }
 
     fn pixel(&self, [x, y]: [f64; 2]) -> Option<Vector2<f64>> {
@@ -232,10 +249,10 @@ impl Station {
     }
 
     /// Where the photo should show what other photos met in.
-    fn predicted(&self, measured: Option<[f64; 2]>, met: Option<(Vector3<f64>, Matrix3<f64>)>) -> PhotoPrediction {
+    fn predicted(&self, measured: Option<[f64; 2]>, met: Option<Met>) -> PhotoPrediction {
         let mut predicted = PhotoPrediction { photo: self.photo.id.clone(), measured, ..PhotoPrediction::default() };
         let place = || {
-            let (point, cofactors) = met?;
+            let Met { point, covariance: cofactors, .. } = met?;
             let image = self.photo.pose.image(&point)?;
             let by_point = self.by_point(&point);
             let ideal = by_point * cofactors * by_point.transpose() + self.of_pose(&point)?;
@@ -248,7 +265,9 @@ impl Station {
         };
         if let Some((pixel, covariance, inside)) = place() {
             predicted.place = Some(pixel.into());
-            predicted.covariance = Some(covariance);
+            predicted.least_covariance = Some(covariance);
+            let whole = self.covariance.is_some() && met.is_some_and(|met| met.whole);
+            predicted.covariance = whole.then_some(covariance);
             predicted.inside = inside;
             predicted.off_px = measured.map(|[u, v]| (pixel - Vector2::new(u, v)).norm());
         }
@@ -257,7 +276,8 @@ impl Station {
 }
 
 impl PhotoPrediction {
-    /// Half axes and angle (from u towards v) of the ellipse of so many standard errors about the place.
+    /// Half axes and angle (from u towards v) of the ellipse of so many standard errors about the place; none where these are not
+    /// known.
     pub fn ellipse(&self, sigmas: f64) -> Option<[f64; 3]> {
         let [uu, uv, vv] = self.covariance?;
         let (mean, difference) = (0.5 * (uu + vv), 0.5 * (uu - vv));
@@ -266,19 +286,27 @@ impl PhotoPrediction {
         Some([axis(mean + radius), axis(mean - radius), 0.5 * uv.atan2(difference)])
     }
 
-    /// Distance of a measurement of standard error `sigma_px` from the place, in standard errors of both.
-    pub fn distance(&self, [u, v]: [f64; 2], sigma_px: f64) -> Option<f64> {
-        let ([pu, pv], [uu, uv, vv]) = (self.place?, self.covariance?);
+    /// Distance of a measurement of standard error `sigma_px` from the place, in standard errors of both; none where these are not
+    /// known.
+    pub fn distance(&self, at: [f64; 2], sigma_px: f64) -> Option<f64> {
+        self.covariance.and_then(|covariance| self.apart(covariance, at, sigma_px))
+    }
+
+    fn apart(&self, [uu, uv, vv]: [f64; 3], [u, v]: [f64; 2], sigma_px: f64) -> Option<f64> {
+        let [pu, pv] = self.place?;
         let own = sigma_px.max(FINEST_PX).powi(2);
         let both = Matrix2::new(uu + own, uv, uv, vv + own).try_inverse()?;
         let d = Vector2::new(u - pu, v - pv);
         Some((d.transpose() * both * d)[0].max(0.0).sqrt())
     }
 
-    /// Targets that may be the point, nearest first: their places in the list, with their distances in standard errors.
+    /// Targets that may be the point, nearest first: their places in the list, with their distances in standard errors. Without those
+    /// of the orientations there are fewer: they lie within what is known of them, and are offers, no verdicts.
     pub fn candidates(&self, targets: &[Target]) -> Vec<(usize, f64)> {
         let sigma = |t: &Target| (0.5 * (t.sigma_u.powi(2) + t.sigma_v.powi(2))).sqrt();
-        let near = |(k, t): (usize, &Target)| Some((k, self.distance([t.u, t.v], sigma(t)).filter(|d| *d <= GATE)?));
+        let known = self.covariance.or(self.least_covariance);
+        let apart = |t: &Target| self.apart(known?, [t.u, t.v], sigma(t));
+        let near = |(k, t): (usize, &Target)| Some((k, apart(t).filter(|d| *d <= GATE)?));
         let mut found = targets.iter().enumerate().filter_map(near).collect::<Vec<_>>();
         found.sort_by(|a, b| a.1.total_cmp(&b.1));
         found

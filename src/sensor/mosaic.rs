@@ -168,12 +168,15 @@ pub struct Mosaic {
 }
 
 impl Mosaic {
-    /// Itself where it can be: the lit part inside the grid, black below white.
+    /// Itself where it can be: the lit part inside the grid, black below white, and black of every row and column or of none: what
+    /// a list does not reach would count as 0.
     pub(super) fn checked(self, [width, height]: [u32; 2]) -> Option<Self> {
         let [left, top, across, down] = self.active_area;
         let inside =
             |first: u32, count: u32, size: u32| count > 0 && first.checked_add(count).is_some_and(|e| e <= size);
-        let levels = self.black.is_sound() && self.white.is_finite() && self.white > self.black.largest();
+        let whole = |list: &[f64], size: u32| list.is_empty() || list.len() == size as usize;
+        let black = whole(&self.black.rows, height) && whole(&self.black.columns, width);
+        let levels = black && self.black.is_sound() && self.white.is_finite() && self.white > self.black.largest();
         (levels && inside(left, across, width) && inside(top, down, height)).then_some(self)
     }
 }
@@ -192,6 +195,22 @@ mod tests {
         assert_eq!((pattern.letters().as_str(), pattern.most()), ("GRBG", Colour::Green));
         for (letters, width) in [("", 1), ("RGB", 2), ("RGX", 3), ("RGGB", 0), ("GGGGGGGGG", 9), ("GGGGGGGGG", 1)] {
             assert!(Pattern::parse(letters, width).is_none(), "{letters}");
+        }
+    }
+
+    #[test]
+    fn black_of_some_rows_or_columns_only_is_refused() {
+        let mosaic = |rows: usize, columns: usize| Mosaic {
+            pattern: Pattern::parse("RGGB", 2).expect("a pattern"),
+            active_area: [0, 0, 6, 4],
+            black: Black { rows: vec![1.0; rows], columns: vec![1.0; columns], ..Black::uniform(10.0) },
+            white: 100.0,
+        };
+        for rows in 0..7 {
+            for columns in 0..9 {
+                let whole = matches!(rows, 0 | 4) && matches!(columns, 0 | 6);
+                assert_eq!(mosaic(rows, columns).checked([6, 4]).is_some(), whole, "{rows} {columns}");
+            }
         }
     }
 

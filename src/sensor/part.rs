@@ -100,8 +100,17 @@ mod tests {
             black: Black::uniform(64.0),
             white: 4095.0,
         };
-        let (format, damaged_rows, corrections) = ("DNG".into(), Vec::new(), Vec::new());
-        let sensor = Sensor { format, width: 8, height: 6, bits: 12, mosaic, samples, damaged_rows, corrections };
+        let sensor = Sensor {
+            format: "DNG".into(),
+            width: 8,
+            height: 6,
+            bits: 12,
+            mosaic,
+            samples,
+            damaged_rows: Vec::new(),
+            corrections: Vec::new(),
+            unread_corrections: 0,
+        };
         let shot = Shot::Sensor(sensor);
         let shown = part(&shot, [1, 1], 4);
         assert_eq!((shown.width, shown.rgba.len()), (4, 64));

@@ -6,14 +6,17 @@ mod adjust {
     mod aerial;
     mod behaviour;
     mod colours;
+    mod components;
     mod curved;
     mod damage;
     mod doctor;
     mod estimation;
     mod features;
+    mod forms;
     mod gross_errors;
     mod monte_carlo;
     mod oracle;
+    mod order;
     mod published;
     mod reports;
     mod slips;

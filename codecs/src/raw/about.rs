@@ -35,17 +35,21 @@ fn date(text: &str) -> Option<String> {
     (fits && !date.starts_with("0000")).then(|| date.to_owned())
 }
 
-/// Names of the corrections that a DNG lists: each once.
-pub fn corrections(frame: &FrameInfo) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for list in frame.opcodes.iter().flat_map(|opcodes| &opcodes.lists).filter(|list| list.len() > 4) {
-        for opcode in dng_opcodes::parse(list).unwrap_or_default() {
+/// Names of the corrections that a DNG lists, each once, and how many of its lists cannot be read: what those name is not known.
+pub fn corrections(frame: &FrameInfo) -> (Vec<String>, usize) {
+    let (mut names, mut unread) = (Vec::<String>::new(), 0);
+    for list in frame.opcodes.iter().flat_map(|opcodes| &opcodes.lists).filter(|list| !list.is_empty()) {
+        let Ok(opcodes) = dng_opcodes::parse(list) else {
+            unread += 1;
+            continue;
+        };
+        for opcode in opcodes {
             if !names.iter().any(|name| name == opcode.name()) {
                 names.push(opcode.name().to_owned());
             }
         }
     }
-    names
+    (names, unread)
 }
 
 #[cfg(test)]

@@ -24,6 +24,10 @@ use crate::project::DatumKind;
 /// Number of directions of a similarity.
 pub const SIMILARITY: usize = 7;
 
+/// Lengths and coordinates inside the frame that differ by less are the same: a sum over the points in another order is off by
+/// rounding, 1e-14, and would choose another datum.
+const ALIKE: f64 = 1e-9;
+
 /// Directions of a similarity at one scalar unknown.
 pub type Direction = [f64; SIMILARITY];
 
@@ -32,7 +36,8 @@ pub type Direction = [f64; SIMILARITY];
 pub struct FreeDatum {
     /// 7, or 6 where distances fix the scale.
     pub defect: usize,
-    /// Coordinates (point, axis) that carry the datum.
+    /// Coordinates (point, axis) that carry the datum, ascending: those of a point are looked for by bisection, and the order in
+    /// which the document names its datum points has no meaning.
     pub carriers: Vec<(usize, usize)>,
     /// Whether the carriers are held (minimal) rather than constrained on the whole (inner constraints).
     pub minimal: bool,
@@ -81,11 +86,13 @@ pub fn free_datum(network: &Network, state: &State) -> Result<Option<FreeDatum>>
         DatumKind::Minimal => true,
         DatumKind::Free => false,
     };
-    let carriers = if minimal {
+    let mut carriers = if minimal {
         minimal_carriers(network, state, points, defect)
     } else {
         points.iter().flat_map(|p| (0..3).map(move |a| (*p, a))).collect()
     };
+    carriers.sort_unstable();
+    carriers.dedup();
     let datum = FreeDatum { defect, carriers, minimal };
     if datum.is_regular(state) {
         return Ok(Some(datum));
@@ -94,24 +101,36 @@ pub fn free_datum(network: &Network, state: &State) -> Result<Option<FreeDatum>>
 }
 
 /// All coordinates of the two most distant points, and one of the point farthest from their line; with a known scale the
-/// second point stays free along the line.
+/// second point stays free along the line. Of points as far within rounding, as on a grid, that with the least coordinates: which
+/// stands first in the document decides nothing.
 fn minimal_carriers(network: &Network, state: &State, points: &[usize], defect: usize) -> Vec<(usize, usize)> {
     // Points with many rays first, since what is held should be well determined.
     let strong: Vec<usize> = points.iter().copied().filter(|p| network.points[*p].rays.len() >= 3).collect();
     let points = if strong.len() >= 3 { &strong } else { points };
     let at = |p: usize| Vector3::from(state.points[p]);
-    let farthest =
-        |measure: &dyn Fn(usize) -> f64| points.iter().copied().max_by(|a, b| measure(*a).total_cmp(&measure(*b)));
+    let farthest = |measure: &dyn Fn(usize) -> f64| {
+        let most = points.iter().map(|p| measure(*p)).fold(0.0, f64::max);
+        let alike = points.iter().copied().filter(|p| measure(*p) >= most * (1.0 - ALIKE));
+        alike.min_by(|a, b| {
+            let apart = (0..3).find(|k| (at(*a)[*k] - at(*b)[*k]).abs() > ALIKE);
+            apart.map_or(std::cmp::Ordering::Equal, |k| at(*a)[k].total_cmp(&at(*b)[k]))
+        })
+    };
     let centre = points.iter().map(|p| at(*p)).sum::<Vector3<f64>>() / points.len().max(1) as f64;
     let Some(first) = farthest(&|p| (at(p) - centre).norm()) else { return Vec::new() };
     let Some(second) = farthest(&|p| (at(p) - at(first)).norm()) else { return Vec::new() };
     let line = at(second) - at(first);
     let Some(third) = farthest(&|p| line.cross(&(at(p) - at(first))).norm()) else { return Vec::new() };
     let mut carriers: Vec<(usize, usize)> = (0..3).map(|a| (first, a)).collect();
-    let along = line.iamax();
+    let along = largest(&line);
     carriers.extend((0..3).filter(|a| defect == SIMILARITY || *a != along).map(|a| (second, a)));
-    carriers.push((third, line.cross(&(at(third) - at(first))).iamax()));
+    carriers.push((third, largest(&line.cross(&(at(third) - at(first))))));
     carriers
+}
+
+/// The axis of the largest component; of those alike within rounding the first.
+fn largest(v: &Vector3<f64>) -> usize {
+    (0..3).find(|a| v[*a].abs() >= v.amax() * (1.0 - ALIKE)).unwrap_or(0)
 }
 
 impl FreeDatum {

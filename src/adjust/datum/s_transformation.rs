@@ -23,25 +23,14 @@ pub struct Transformation {
 /// (DᵀG)⁻¹ᵀ-weighted constraint of the datum at one point: per direction a vector over its axes.
 pub fn carried(t: &Transformation, datum: Option<&FreeDatum>, point: usize) -> Vec<[f64; 3]> {
     let mut own = vec![[0.0; 3]; t.defect];
-    // Carriers are sorted by point under inner constraints and few under minimal ones.
     let carriers = datum.map_or(&[][..], |d| &d.carriers[..]);
-    let range = t.range(carriers, point);
-    for k in range {
+    let first = carriers.partition_point(|(p, _)| *p < point);
+    for (k, (_, axis)) in carriers.iter().enumerate().skip(first).take_while(|(_, (p, _))| *p == point) {
         for (j, own) in own.iter_mut().enumerate() {
-            own[carriers[k].1] += t.d[(k, j)];
+            own[*axis] += t.d[(k, j)];
         }
     }
     own
-}
-
-impl Transformation {
-    fn range(&self, carriers: &[(usize, usize)], point: usize) -> Vec<usize> {
-        if carriers.len() <= SIMILARITY {
-            return (0..carriers.len()).filter(|k| carriers[*k].0 == point).collect();
-        }
-        let first = carriers.partition_point(|(p, _)| *p < point);
-        (first..carriers.len()).take_while(|k| carriers[*k].0 == point).collect()
-    }
 }
 
 /// Q' = Q - G V - VᵀGᵀ + G (…) Gᵀ for one block.
@@ -68,8 +57,6 @@ pub fn transformation(normal: &Normal, context: Context<'_>, datum: &FreeDatum) 
     };
     let mut eliminated = Vec::new();
     let mut carriers: Vec<usize> = datum.carriers.iter().map(|(point, _)| *point).collect();
-    carriers.dedup();
-    carriers.sort_unstable();
     carriers.dedup();
     for &point in &carriers {
         let own = carried(&t, Some(datum), point);

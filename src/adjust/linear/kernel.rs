@@ -14,14 +14,22 @@ pub type Tile = [f64; AREA];
 
 /// Register block: four rows by four columns.
 const R: usize = 4;
+// Else the last block of a column would have rows of none.
+const _: () = assert!(TILE.is_multiple_of(R));
+
+/// The four numbers of a column from a multiple of four on.
+#[inline(always)]
+fn four(column: &[f64], from: usize) -> &[f64; R] {
+    &column.as_chunks::<R>().0[from / R]
+}
 
 /// c[0..4 rows from i, 4 columns from j] ± = a[rows i..] · b[rows j..]ᵀ over the columns from `first` on, minus if `SUBTRACT`.
 #[inline(always)]
 fn block<const SUBTRACT: bool>(c: &mut Tile, a: &Tile, b: &Tile, i: usize, j: usize, first: usize) {
     let mut sum = [[0.0; R]; R];
     for (a, b) in a[first * TILE..].chunks_exact(TILE).zip(b[first * TILE..].chunks_exact(TILE)) {
-        let a: &[f64; R] = a[i..i + R].try_into().unwrap_or(&[0.0; R]);
-        let b: &[f64; R] = b[j..j + R].try_into().unwrap_or(&[0.0; R]);
+        let a = four(a, i);
+        let b = four(b, j);
         for (sum, &b) in sum.iter_mut().zip(b) {
             for (sum, &a) in sum.iter_mut().zip(a) {
                 *sum += a * b;
@@ -111,8 +119,8 @@ pub fn solve_right(a: &mut Tile, l: &Tile) {
         for i in (0..TILE).step_by(R) {
             let mut sum = [[0.0; R]; R];
             for (a, l) in done.chunks_exact(TILE).zip(l.chunks_exact(TILE)) {
-                let a: &[f64; R] = a[i..i + R].try_into().unwrap_or(&[0.0; R]);
-                let l: &[f64; R] = l[j..j + R].try_into().unwrap_or(&[0.0; R]);
+                let a = four(a, i);
+                let l = four(l, j);
                 for (sum, &l) in sum.iter_mut().zip(l) {
                     for (sum, &a) in sum.iter_mut().zip(a) {
                         *sum += a * l;
@@ -140,8 +148,8 @@ pub fn factor(a: &mut Tile, mut pivot: impl FnMut(usize, f64) -> f64) {
         for i in (j..TILE).step_by(R) {
             let mut sum = [[0.0; R]; R];
             for column in done.chunks_exact(TILE) {
-                let a: &[f64; R] = column[i..i + R].try_into().unwrap_or(&[0.0; R]);
-                let b: &[f64; R] = column[j..j + R].try_into().unwrap_or(&[0.0; R]);
+                let a = four(column, i);
+                let b = four(column, j);
                 for (sum, &b) in sum.iter_mut().zip(b) {
                     for (sum, &a) in sum.iter_mut().zip(a) {
                         *sum += a * b;

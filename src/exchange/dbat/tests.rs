@@ -57,6 +57,25 @@ fn what_is_wrong_is_named() {
     let error = |from: &str, to: &str| import(&files(&SCRIPT.replace(from, to))).unwrap_err();
     assert_eq!(error("</input>", "").code(), "invalid");
     assert_eq!(error("ref/control.txt", "other.txt").code(), "unknown");
+    for (name, wrong) in [
+        ("aspect", "<aspect>one</aspect>"),
+        ("aspect", "<aspect>1,0x</aspect>"),
+        ("aspect", "<aspect></aspect>"),
+        ("aspect", "<aspect>0</aspect>"),
+        ("aspect", "<aspect>-1</aspect>"),
+        ("aspect", "<aspect>inf</aspect>"),
+        ("aspect", "<aspect>NaN</aspect>"),
+    ] {
+        let found = error("<aspect>1</aspect>", wrong);
+        assert_eq!((found.code(), found.place().field.as_deref()), ("invalid", Some(name)), "{wrong}");
+    }
+    assert!(import(&files(&SCRIPT.replace("<aspect>1</aspect>", ""))).is_ok());
+    assert_eq!(error("<pp>10.5,4.9</pp>", "").place().field.as_deref(), Some("pp"));
+    assert_eq!(error("<cc>12.5", "<cc>-12.5").place().field.as_deref(), Some("cc"));
+    let one_sided = SCRIPT.replace("id,im,x,y\" sxy=\"0.5\"", "id,im,x,y,sx\"");
+    let mut given = files(&one_sided);
+    given.insert("marks.txt".into(), b"1, 1, 10.5, 20.5, 0.5\n".to_vec());
+    assert_eq!(import(&given).unwrap_err().place().field.as_deref(), Some("sy"));
     assert_eq!(error("<model>3", "<model>-1").place().field.as_deref(), Some("model"));
     assert_eq!(error("<cc>12.5", "<cc>long").place().field.as_deref(), Some("cc"));
     assert_eq!(error("id,im,x,y", "id,x,y").place().field.as_deref(), Some("format"));

@@ -122,6 +122,53 @@ fn standard_errors_are_those_of_a_simulation() {
     assert!((sum[1] - expected[1]).abs() < 0.15 * (expected[0] * expected[2]).sqrt());
 }
 
+/// Whichever photos lack the standard errors of their orientation: no covariance, ellipse or distance in standard errors is told where
+/// one of them takes part, and all of it where none does.
+#[test]
+fn without_standard_errors_of_an_orientation_no_ellipse_is_told() {
+    let mut p = project();
+    for k in 0..3 {
+        let at = image(&p, k, POINT);
+        see(&mut p, k, at);
+    }
+    let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+    let matrix: Vec<Vec<f64>> = (0..6).map(|i| (0..6).map(|j| unit(i, j)).collect()).collect();
+    let whole = AdjustedPhoto {
+        sigma_position: Some([0.001; 3]),
+        sigma_rotation: Some([0.001; 3]),
+        correlation: Some(Correlation { names: Vec::new(), matrix }),
+        ..AdjustedPhoto::default()
+    };
+    let mut g = generator(11);
+    for draw in 0..40 {
+        let lacking: Vec<bool> = (0..5).map(|_| draw > 0 && uniform(&mut g) < 0.4).collect();
+        let photos = (0..5).filter_map(|k| {
+            let bare = AdjustedPhoto { id: k.to_string(), ..whole.clone() };
+            Some(match (lacking[k], (uniform(&mut g) * 4.0) as usize) {
+                (false, _) => bare,
+                (true, 0) => return None,
+                (true, 1) => AdjustedPhoto { sigma_position: None, ..bare },
+                (true, 2) => AdjustedPhoto { sigma_rotation: None, ..bare },
+                _ => AdjustedPhoto { correlation: None, ..bare },
+            })
+        });
+        let adjustment = Adjustment { sigma0: Some(1.0), photos: photos.collect(), ..Adjustment::default() };
+        let found = predict(&p, Some(&adjustment), "p", &PredictOptions::default()).expect("a prediction");
+        let named: Vec<usize> = found.without_errors.iter().map(|id| id.parse().expect("a number")).collect();
+        assert_eq!(named, (0..5).filter(|k| lacking[*k]).collect::<Vec<_>>());
+        assert_eq!(found.sigma.is_none(), lacking[..3].contains(&true));
+        for (k, photo) in found.photos.iter().enumerate() {
+            let taking_part = (0..3).filter(|other| *other != k).any(|other| lacking[other]) || lacking[k];
+            assert!(photo.place.is_some() && photo.least_covariance.is_some());
+            assert_eq!((photo.covariance.is_none(), photo.ellipse(3.0).is_none()), (taking_part, taking_part));
+            assert_eq!(photo.off_sigmas.is_none(), taking_part || k > 2);
+        }
+    }
+    let found = predict(&p, None, "p", &PredictOptions::default()).expect("a prediction");
+    assert!(found.without_errors.len() == 5 && found.sigma.is_none());
+    assert!(found.photos.iter().all(|photo| photo.place.is_some() && photo.covariance.is_none()));
+}
+
 /// A measurement that is off is told by how far, by the rays of the others alone; a target that lies there is offered.
 #[test]
 fn what_is_off_is_told_and_what_fits_is_offered() {
@@ -131,7 +178,19 @@ fn what_is_off_is_told_and_what_fits_is_offered() {
         see(&mut p, k, [u, v + if k == 3 { 30.0 } else { 0.0 }]);
     }
     p.observations[3].enabled = false;
-    let found = predict(&p, None, "p", &PredictOptions { lines_in: Some(Vec::new()) }).expect("a prediction");
+    let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+    let matrix: Vec<Vec<f64>> = (0..6).map(|i| (0..6).map(|j| unit(i, j)).collect()).collect();
+    let adjusted = |k: usize| AdjustedPhoto {
+        id: k.to_string(),
+        sigma_position: Some([1e-9; 3]),
+        sigma_rotation: Some([1e-9; 3]),
+        correlation: Some(Correlation { names: Vec::new(), matrix: matrix.clone() }),
+        ..AdjustedPhoto::default()
+    };
+    let adjustment = Adjustment { photos: (0..5).map(adjusted).collect(), ..Adjustment::default() };
+    let none = PredictOptions { lines_in: Some(Vec::new()) };
+    let bare = predict(&p, None, "p", &none).expect("a prediction");
+    let found = predict(&p, Some(&adjustment), "p", &none).expect("a prediction");
     assert!(found.photos.iter().all(|photo| photo.lines.is_empty()));
     let off = &found.photos[3];
     assert!((off.off_px.expect("a distance") - 30.0).abs() < 1e-3 && off.off_sigmas.is_none());
@@ -139,6 +198,9 @@ fn what_is_off_is_told_and_what_fits_is_offered() {
     let targets = [(u + 200.0, v), (u + 0.4, v), (u, v)].map(|(u, v)| super::super::target(u, v, None));
     let order = off.candidates(&targets).into_iter().map(|(k, _)| k).collect::<Vec<_>>();
     assert_eq!(order, [2, 1]);
+    // Offered too where the orientation has no standard errors, with no ellipse.
+    let offered = bare.photos[3].candidates(&targets).into_iter().map(|(k, _)| k).collect::<Vec<_>>();
+    assert_eq!((offered, bare.photos[3].ellipse(1.0)), (vec![2, 1], None));
     let [major, minor, _] = off.ellipse(1.0).expect("an ellipse");
     assert!(major >= minor && minor > 0.0);
     assert!(matches!(predict(&p, None, "q", &PredictOptions::default()), Err(Error::Unknown { .. })));

@@ -29,6 +29,9 @@ pub fn write(context: &Context, html: &mut Html) {
         let interval = format!("{} [{}, {}]", words.chi_squared(), fixed(test.lower, 0), fixed(test.upper, 0));
         key.push((interval, fixed(test.statistic, 1)));
     }
+    if let Some(estimated) = super::statistics::estimated(context) {
+        key.push((words.estimated_from_residuals().to_owned(), estimated));
+    }
     key.push((words.redundancy().to_owned(), count(adjustment.redundancy)));
     if let Some(n) = adjustment.precision.as_ref().and_then(|p| p.relative) {
         key.push((words.relative_accuracy().to_owned(), format!("1 : {}", count(three_digits(n)))));

@@ -38,6 +38,9 @@ fn figures<'a>(context: &Context<'a>, html: &mut Html, measured: &dyn Fn(&str) -
                     let missing = listed(found.missing.iter().map(String::as_str), LISTED);
                     notes.push(words.feature_lacks(&feature.id, &missing));
                 }
+                if let Some(weak) = found.weak {
+                    notes.push(words.feature_weak(&feature.id, &fixed(100.0 * weak, 0)));
+                }
                 figure(context, found)
             }
             Some(found) => {
@@ -208,6 +211,7 @@ fn why(context: &Context, error: &Error) -> String {
         }
         Error::Invalid { reason: Reason::FeaturePointMissing { name }, .. } => words.lacks_point(name),
         Error::Invalid { reason: Reason::FeatureUndetermined, .. } => words.points_undetermined().to_owned(),
+        Error::Invalid { reason: Reason::FeatureUnsettled, .. } => words.fit_unsettled().to_owned(),
         Error::Invalid { reason: Reason::FeatureNotFitted { name }, .. } => words.not_fitted(name),
         Error::Invalid { reason: Reason::FeatureBroken { name }, .. } => words.built_on_broken(name),
         Error::Invalid { reason: Reason::FeatureNoDirection, .. } => words.lacks_direction().to_owned(),

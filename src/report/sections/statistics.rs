@@ -1,6 +1,6 @@
 //! Tests and what they say: the global test, the limits of single tests, variance components, the largest |w|.
 
-use crate::adjustment::ObservationGroup;
+use crate::adjustment::{NotEstimated, ObservationGroup, VarianceComponent};
 use crate::report::context::{Context, largest_w};
 use crate::report::html::{Html, Table};
 use crate::report::number::{count, decimals_for, fixed, maybe};
@@ -32,6 +32,10 @@ fn global(context: &Context, html: &mut Html) {
         pairs.push((words.statistic_vpv().to_owned(), fixed(test.statistic, 1)));
         pairs.push((words.interval().to_owned(), interval));
     }
+    if let Some(estimated) = estimated(context) {
+        pairs.push((words.global_test(&fixed(100.0 * criteria.global_alpha, 0)), words.no_verdict().to_owned()));
+        pairs.push((words.estimated_from_residuals().to_owned(), estimated));
+    }
     pairs.push((words.critical_w(&fixed(100.0 * criteria.alpha, 1)), fixed(criteria.w, 2)));
     if let Some(tau) = criteria.tau {
         pairs.push((words.critical_tau(&fixed(100.0 * criteria.alpha, 1)), fixed(tau, 2)));
@@ -48,19 +52,43 @@ fn global(context: &Context, html: &mut Html) {
     html.pairs(&pairs);
 }
 
+fn group_name(context: &Context, group: &ObservationGroup) -> String {
+    let words = context.words;
+    match group {
+        ObservationGroup::Image { camera: Some(camera) } => format!("{} {camera}", words.image_coordinates()),
+        ObservationGroup::Image { camera: None } => words.image_coordinates().to_owned(),
+        ObservationGroup::Control => words.control_coordinates().to_owned(),
+        ObservationGroup::Position => words.observed_centres().to_owned(),
+        ObservationGroup::Distance => words.distances().to_owned(),
+        ObservationGroup::Parameter => words.observed_parameters().to_owned(),
+    }
+}
+
+/// What became of the a priori standard errors where they were estimated: "1.88 times the a priori 0.0082 px"; with the group's
+/// name where there are several.
+pub fn estimated(context: &Context) -> Option<String> {
+    let (words, all) = (context.words, &context.adjustment.variance_components);
+    let one = |component: &VarianceComponent| {
+        let factor = fixed(component.factor, component.factor_sigma.map_or(2, decimals_for).max(2));
+        let mut said = match component.a_priori_px {
+            Some(px) => words.times_a_priori_px(&factor, &fixed(px, decimals_for(px))),
+            None => words.times_a_priori(&factor),
+        };
+        if let Some(px) = component.unmodelled.filter(|px| *px > 0.0) {
+            said = words.and_unmodelled(&said, &fixed(px, decimals_for(px)));
+        }
+        if all.len() > 1 { format!("{}: {said}", group_name(context, &component.group)) } else { said }
+    };
+    let said: Vec<String> = all.iter().filter(|c| c.not_estimated.is_none()).map(one).collect();
+    (!said.is_empty()).then(|| said.join("; "))
+}
+
 fn components(context: &Context, html: &mut Html) {
     let (words, a) = (context.words, context.adjustment);
     let mut table = Table::new().words(words.group()).number(words.observations()).number(words.redundancy());
     table = table.number(words.factor()).number("σ").number(words.unmodelled_px()).number("σ");
     for component in &a.variance_components {
-        let group = match &component.group {
-            ObservationGroup::Image { camera: Some(camera) } => format!("{} {camera}", words.image_coordinates()),
-            ObservationGroup::Image { camera: None } => words.image_coordinates().to_owned(),
-            ObservationGroup::Control => words.control_coordinates().to_owned(),
-            ObservationGroup::Position => words.observed_centres().to_owned(),
-            ObservationGroup::Distance => words.distances().to_owned(),
-            ObservationGroup::Parameter => words.observed_parameters().to_owned(),
-        };
+        let group = group_name(context, &component.group);
         let decimals = component.factor_sigma.map_or(2, decimals_for);
         table.row(vec![
             group,
@@ -74,6 +102,18 @@ fn components(context: &Context, html: &mut Html) {
     }
     if !table.is_empty() {
         html.h3(words.variance_components()).table(table);
+        for component in &a.variance_components {
+            let (name, found) = (group_name(context, &component.group), fixed(component.redundancy, 1));
+            match component.not_estimated {
+                Some(NotEstimated::LittleRedundancy { needed }) => {
+                    html.note(&words.not_estimated(&name, &found, &fixed(needed, 0)));
+                }
+                Some(NotEstimated::NoResiduals) => {
+                    html.note(&words.no_residuals(&name));
+                }
+                None => {}
+            }
+        }
     }
 }
 

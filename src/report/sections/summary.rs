@@ -74,6 +74,9 @@ fn tested(context: &Context) -> String {
     if adjustment.termination != Termination::Converged {
         return words.not_converged().to_owned();
     }
+    if let Some(estimated) = super::statistics::estimated(context) {
+        return words.standard_errors_estimated(&estimated);
+    }
     let Some((sigma0, test)) = adjustment.sigma0.zip(adjustment.global_test.as_ref()) else {
         return words.nothing_checked().to_owned();
     };

@@ -37,6 +37,9 @@ fn included(context: &Context) -> Vec<String> {
     for component in a.variance_components.iter().filter_map(|c| c.unmodelled.filter(|u| *u > 0.0)) {
         all.push(words.gum_unmodelled(&fixed(component, decimals_for(component))));
     }
+    if let Some(estimated) = super::statistics::estimated(context) {
+        all.push(words.gum_estimated(&estimated));
+    }
     if let Some(sigma0) = a.sigma0 {
         all.push(words.gum_sigma0(&fixed(sigma0, 3), &count(a.redundancy)));
     }

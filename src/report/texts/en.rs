@@ -53,6 +53,7 @@ declare! {
     test_passed(sigma0, percent): "The standard deviation of unit weight is {sigma0} and passes the global test at {percent} %: the observations agree with the accuracy that was assumed of them.";
     test_too_large(sigma0, percent): "The standard deviation of unit weight is {sigma0} and fails the global test at {percent} %: the observations are worse than was assumed of them. All sigmas here are enlarged by it.";
     test_too_small(sigma0, percent): "The standard deviation of unit weight is {sigma0} and fails the global test at {percent} %: the observations are better than was assumed of them. All sigmas here are reduced by it.";
+    standard_errors_estimated(factors): "The standard errors were estimated from the residuals: {factors}. The standard deviation of unit weight is 1 by that, and no global test can tell whether the observations are as good as was assumed of them.";
     not_converged: "The adjustment did not converge: these numbers are not a result.";
     nothing_checked: "The network has no redundancy: nothing checks the observations.";
     known_to(value, k, percent): "A coordinate is known to {value} on average (k = {k}, about {percent} %).";
@@ -93,6 +94,7 @@ declare! {
     gum_not_included: "Not included";
     gum_image(sigma): "Image coordinates: a priori standard deviation {sigma} px (median).";
     gum_unmodelled(sigma): "What the camera model leaves over: {sigma} px, added in quadrature to every image coordinate.";
+    gum_estimated(factors): "These standard deviations, estimated from the residuals (type A): {factors}.";
     gum_sigma0(sigma0, r): "The agreement of the observations with each other: σ₀ = {sigma0} from {r} degrees of freedom (type A); all sigmas are multiplied by it.";
     gum_cameras(names): "The cameras, estimated together with the points: {names}.";
     gum_control(n, sigma): "{n} control {n:coordinate|coordinates} with their standard deviations of {sigma} (type B).";
@@ -240,6 +242,13 @@ declare! {
     factor: "factor";
     unmodelled_px: "unmodelled (px)";
     variance_components: "Variance components";
+    estimated_from_residuals: "standard errors estimated";
+    no_verdict: "none, since standard errors were estimated";
+    times_a_priori_px(factor, px): "{factor} times the a priori {px} px";
+    times_a_priori(factor): "{factor} times the a priori ones";
+    and_unmodelled(factor, px): "{factor}, and {px} px that are not modelled";
+    not_estimated(group, redundancy, needed): "{group}: not estimated, their a priori standard errors stay. Their redundancy is {redundancy}; a variance needs {needed}.";
+    no_residuals(group): "{group}: not estimated, since all their residuals are 0; their a priori standard errors stay.";
     iteration: "iteration";
     step: "largest step";
     largest_w: "Largest test values";
@@ -291,11 +300,13 @@ declare! {
     form_rms: "rms";
     smallest_largest: "smallest … largest";
     features_explained: "Forms fitted to the adjusted points by least squares of their orthogonal distances, without weights; standard errors (1σ) from the full covariance of the points. rms, smallest and largest are distances of the points from the form.";
+    feature_weak(id, percent): "{id} has no standard errors: the points determine its radius to {percent} % only, or its direction to as many hundredths of a radian, or those of what it is measured from.";
     feature_lacks(id, points): "{id} is without points that this adjustment has not: {points}.";
     feature_failed(id, why): "{id} could not be measured: {why}.";
     lacks_points(given, needed): "this adjustment determines {given} of its points, it needs {needed}";
     lacks_point(name): "point {name} is not determined by this adjustment";
     points_undetermined: "its points lie in one place, on one line, in one plane or too near to it";
+    fit_unsettled: "the fit to its points came to no end";
     not_fitted(name): "{name} is not fitted to points";
     built_on_broken(name): "it is built on {name}, which could not be measured";
     lacks_direction: "an angle is between two directions, or at a point between two others";

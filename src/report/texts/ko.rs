@@ -50,6 +50,7 @@ translate! { Korean {
     test_passed(sigma0, percent): "사후 단위중량 표준오차는 {sigma0}이며 유의수준 {percent} %의 전체 모형 검정을 통과하였습니다. 관측값이 가정한 정확도와 일치합니다.";
     test_too_large(sigma0, percent): "사후 단위중량 표준오차는 {sigma0}이며 유의수준 {percent} %의 전체 모형 검정을 통과하지 못하였습니다. 관측값이 가정보다 나쁘며, 모든 표준오차는 그만큼 크게 잡았습니다.";
     test_too_small(sigma0, percent): "사후 단위중량 표준오차는 {sigma0}이며 유의수준 {percent} %의 전체 모형 검정을 통과하지 못하였습니다. 관측값이 가정보다 좋으며, 모든 표준오차는 그만큼 작게 잡았습니다.";
+    standard_errors_estimated(factors): "표준오차를 잔차에서 추정하였습니다: {factors}. 따라서 사후 단위중량 표준오차는 1이 되며, 관측값이 가정만큼 좋은지 전체 모형 검정으로 알 수 없습니다.";
     not_converged: "조정이 수렴하지 않았으므로 이 수치는 결과가 아닙니다.";
     nothing_checked: "잉여도가 없어 관측값을 점검할 수 없습니다.";
     known_to(value, k, percent): "좌표의 평균 불확도는 {value}입니다(k = {k}, 약 {percent} %).";
@@ -90,6 +91,7 @@ translate! { Korean {
     gum_not_included: "포함하지 않은 것";
     gum_image(sigma): "영상좌표: 사전 표준오차 {sigma} px(중앙값).";
     gum_unmodelled(sigma): "카메라 모형이 설명하지 못하는 부분: {sigma} px, 모든 영상좌표의 분산에 더하였습니다.";
+    gum_estimated(factors): "위 표준오차를 잔차에서 추정(A형): {factors}.";
     gum_sigma0(sigma0, r): "관측값 사이의 일치: 자유도 {r}에서 σ₀ = {sigma0}(A형 평가). 모든 표준오차에 곱하였습니다.";
     gum_cameras(names): "점과 함께 추정한 카메라 매개변수: {names}.";
     gum_control(n, sigma): "표준오차 {sigma}인 기준점 좌표 {n}개(B형 평가).";
@@ -237,6 +239,13 @@ translate! { Korean {
     factor: "계수";
     unmodelled_px: "모형화되지 않은 부분 (px)";
     variance_components: "분산요소";
+    estimated_from_residuals: "표준오차를 추정함";
+    no_verdict: "표준오차를 추정하였으므로 판정 없음";
+    times_a_priori_px(factor, px): "사전 표준오차 {px} px의 {factor}배";
+    times_a_priori(factor): "사전 표준오차의 {factor}배";
+    and_unmodelled(factor, px): "{factor}, 모형화되지 않은 오차 {px} px";
+    not_estimated(group, redundancy, needed): "{group}: 추정하지 않았고 사전 표준오차를 그대로 썼습니다. 잉여도는 {redundancy}이며 분산을 추정하려면 {needed} 이상이어야 합니다.";
+    no_residuals(group): "{group}: 잔차가 모두 0이어서 추정하지 않았고 사전 표준오차를 그대로 썼습니다.";
     iteration: "반복";
     step: "최대 변화";
     largest_w: "가장 큰 검정값";
@@ -288,11 +297,13 @@ translate! { Korean {
     form_rms: "RMS";
     smallest_largest: "최소 … 최대";
     features_explained: "조정한 점에서 직교거리의 최소제곱으로 맞춘 형상이며 가중치는 쓰지 않습니다. 표준오차(1σ)는 점의 전체 공분산에서 구합니다. RMS, 최소, 최대는 점과 형상 사이의 거리입니다.";
+    feature_weak(id, percent): "{id}: 표준오차가 없습니다. 점들이 반지름을 {percent} %까지만, 또는 방향을 그만큼의 1/100 라디안까지만 결정합니다(측정에 쓴 형상 포함).";
     feature_lacks(id, points): "{id}: 이 조정에 없는 점은 빠졌습니다({points}).";
     feature_failed(id, why): "{id}: 측정할 수 없습니다. {why}.";
     lacks_points(given, needed): "이 조정에서 결정된 점이 {given}개인데 {needed}개가 필요합니다";
     lacks_point(name): "점 {name}의 좌표가 이 조정에서 결정되지 않았습니다";
     points_undetermined: "점들이 한곳, 한 직선이나 한 평면 위에 있거나 그에 너무 가깝습니다";
+    fit_unsettled: "점에 맞추는 계산이 수렴하지 않았습니다";
     not_fitted(name): "{name}{name:은|는} 점에 맞춘 형상이 아닙니다";
     built_on_broken(name): "{name} 형상을 측정할 수 없어 그에 따른 값도 없습니다";
     lacks_direction: "각은 두 방향 사이, 또는 한 점에서 다른 두 점 사이에서 잽니다";

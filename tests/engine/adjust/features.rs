@@ -258,7 +258,7 @@ fn standard_errors_are_the_scatter_of_adjusted_noise() {
 
 /// The least of a function of a few variables, by a simplex that creeps towards it (Nelder and Mead 1965): no derivative, nothing
 /// in common with what is tested.
-fn least(start: &[f64], step: f64, f: impl Fn(&[f64]) -> f64) -> Vec<f64> {
+pub fn least(start: &[f64], step: f64, f: impl Fn(&[f64]) -> f64) -> Vec<f64> {
     let n = start.len();
     let mut best = start.to_vec();
     let mut size = step;

@@ -294,6 +294,7 @@ declare! { desk {
     measured_hot(count): "{count} hot sites left out.";
     measured_corrections(names):
         "The file names corrections of its lens ({names}). None was made here: a camera calibrated in corrected pictures is another camera.";
+    unread_corrections: "A list of corrections of the lens in the file cannot be read: what it names is not known, and nothing of it was made.";
     corrections_made(names):
         "The camera's note says that it corrected: {names}. Its distortion is what the correction left, not the lens's: calibrate and measure with the same setting; it changes with zoom and focus.";
     corrections_without_distortion(names): "The camera's note says that it corrected: {names}. Distortion is not among them.";
@@ -508,6 +509,8 @@ declare! { desk {
     is_it(point, off, reach): "Is this target point {point}? It lies {off} px from where it should be (3σ {reach} px).";
     is_it_of_two(point, off, reach, second):
         "Is this target point {point}? It lies {off} px from where it should be (3σ {reach} px), a second one {second} px.";
+    is_it_near(point, off): "Is this target point {point}? It lies {off} px from where it should be; how far off that may be is known once the photos are adjusted.";
+    should_be_near(point): "Point {point} should be near here; how near is known once the photos are adjusted. Measure there?";
     should_be_here(point, reach): "Point {point} should be here, 3σ {reach} px: measure there?";
     yes: "Yes";
     next_place: "Next photo";
@@ -803,6 +806,13 @@ declare! { desk {
     a_priori_one: "a priori 1";
     test_passed: "Global test passed";
     test_failed: "Global test failed";
+    standard_errors_estimated(factors): "No global test: standard errors estimated, {factors}";
+    times_a_priori_px(factor, px): "{factor} times the a priori {px} px";
+    times_a_priori(factor): "{factor} times the a priori ones";
+    and_unmodelled(factors, px): "{factors}, and {px} px that are not modelled";
+    not_estimated(redundancy, needed): "not estimated: redundancy {redundancy}, needed {needed}";
+    no_residuals: "not estimated: all residuals are 0";
+    errors_estimated: "standard errors estimated";
     redundancy: "redundancy";
     rms_residual: "rms residual";
     all_image_coordinates: "all image coordinates";
@@ -924,7 +934,7 @@ declare! { desk {
     weak_distance_parallel: "They look the same way: hold it or give it a σ, or take photos that converge.";
     weak_distance_body: "Hold it or give it a σ, or add photos that converge and points at different depths.";
     components: "Estimate the standard errors";
-    components_why: "One factor for image coordinates, control, distances and the rest, each from its own residuals, until sigma0 is 1.";
+    components_why: "One factor for image coordinates, control, distances and the rest, each from its own residuals, until sigma0 is 1. Groups that too little checks keep theirs. There is no global test then.";
     given_weights: "Adjust with the given standard errors";
     components_unsettled: "The variance components came to no end";
     components_unsettled_body: "Too few observations of one kind, or gross errors among them: take those out first.";
@@ -1260,6 +1270,7 @@ declare! { object {
     quantity_diameter: "diameter";
     quantity_rms: "form, rms";
     no_features: "Nothing is measured yet. Choose points in the view or by their names, then what they make.";
+    weakly_determined(percent): "so weakly determined ({percent} %) that it has no standard errors";
     missing_points(names): "not determined here: {names}";
     deviation: "deviation";
     feature_name: "Name of the feature";

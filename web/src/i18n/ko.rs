@@ -285,6 +285,7 @@ translate! { Korean desk {
     measured_hot(count): "핫픽셀 {count}개는 제외했습니다.";
     measured_corrections(names):
         "파일에 렌즈 보정({names})이 적혀 있으나 여기서는 적용하지 않았습니다. 보정된 영상에서 검정한 카메라는 이와 다른 카메라입니다.";
+    unread_corrections: "파일에 든 렌즈 보정 목록을 읽을 수 없어 어떤 보정인지 알 수 없습니다. 그 보정은 적용하지 않았습니다.";
     corrections_made(names):
         "제조사 기록에 따르면 카메라가 다음을 보정했습니다: {names}. 이때의 왜곡은 렌즈의 왜곡이 아니라 보정하고 남은 왜곡입니다. 검정과 측정을 같은 설정으로 하십시오. 보정량은 줌과 초점에 따라 달라집니다.";
     corrections_without_distortion(names): "제조사 기록에 따르면 카메라가 다음을 보정했습니다: {names}. 왜곡은 그 가운데 없습니다.";
@@ -497,6 +498,8 @@ translate! { Korean desk {
     is_it(point, off, reach): "이 표적이 점 {point}입니까? 예측 위치에서 {off} px 떨어져 있습니다 (3σ {reach} px).";
     is_it_of_two(point, off, reach, second):
         "이 표적이 점 {point}입니까? 예측 위치에서 {off} px 떨어져 있고 (3σ {reach} px), 또 하나는 {second} px 떨어져 있습니다.";
+    is_it_near(point, off): "이 표적이 점 {point}입니까? 예측 위치에서 {off} px 떨어져 있습니다. 예측의 표준오차는 사진을 조정한 뒤에 알 수 있습니다.";
+    should_be_near(point): "점 {point}의 예측 위치입니다. 예측의 표준오차는 사진을 조정한 뒤에 알 수 있습니다. 여기서 측정합니까?";
     should_be_here(point, reach): "점 {point}의 예측 위치입니다 (3σ {reach} px). 여기서 측정합니까?";
     yes: "예";
     next_place: "다음 사진";
@@ -779,6 +782,13 @@ translate! { Korean desk {
     a_priori_one: "사전값 1";
     test_passed: "전체 모형 검정 통과";
     test_failed: "전체 모형 검정 실패";
+    standard_errors_estimated(factors): "전체 모형 검정 없음: 표준오차를 추정함, {factors}";
+    times_a_priori_px(factor, px): "사전 표준오차 {px} px의 {factor}배";
+    times_a_priori(factor): "사전 표준오차의 {factor}배";
+    and_unmodelled(factors, px): "{factors}, 모형화되지 않은 오차 {px} px";
+    not_estimated(redundancy, needed): "추정하지 않음: 잉여도 {redundancy}, 필요 {needed}";
+    no_residuals: "추정하지 않음: 잔차가 모두 0";
+    errors_estimated: "표준오차를 추정함";
     redundancy: "잉여도";
     rms_residual: "잔차 RMS";
     all_image_coordinates: "모든 사진좌표";
@@ -899,7 +909,7 @@ translate! { Korean desk {
     weak_distance_parallel: "촬영 방향이 서로 나란합니다. 값을 고정하거나 σ를 주거나, 수렴 촬영을 추가하십시오.";
     weak_distance_body: "값을 고정하거나 σ를 주거나, 수렴 촬영과 깊이가 다른 점을 추가하십시오.";
     components: "표준오차 추정(분산 성분)";
-    components_why: "사진좌표, 기준점, 거리 등 종류마다 잔차에서 배율 하나씩을 추정하여 σ₀를 1로 맞춥니다.";
+    components_why: "사진좌표, 기준점, 거리 등 종류마다 잔차에서 배율 하나씩을 추정하여 σ₀를 1로 맞춥니다. 점검할 관측값이 너무 적은 묶음은 그대로 둡니다. 이때 전체 모형 검정은 하지 않습니다.";
     given_weights: "주어진 표준오차로 다시 조정";
     components_unsettled: "분산 성분 추정이 수렴하지 않았습니다";
     components_unsettled_body: "한 종류의 관측이 너무 적거나 과대오차가 있습니다. 과대오차부터 제거하십시오.";
@@ -1223,6 +1233,7 @@ translate! { Korean object {
     quantity_diameter: "지름";
     quantity_rms: "형상 RMS";
     no_features: "아직 측정한 형상이 없습니다. 화면에서 점을 고르거나 점번호를 적은 다음 만들 형상을 고르십시오.";
+    weakly_determined(percent): "점들이 반지름이나 방향을 {percent} %까지만 결정하여 표준오차가 없습니다";
     missing_points(names): "여기서 결정되지 않은 점: {names}";
     deviation: "편차";
     feature_name: "형상 이름";

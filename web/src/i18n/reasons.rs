@@ -92,6 +92,9 @@ pub fn reason(reason: &Reason) -> String {
         R::FeatureUndetermined => {
             "점들이 한곳, 한 직선이나 한 평면 위에 있거나 그에 너무 가까워 결정되지 않습니다. 떨어진 곳의 점을 더하십시오"
         }
+        R::FeatureUnsettled => {
+            "점에 맞추는 계산이 수렴하지 않았습니다. 거의 평평한 면 위의 점에 맞춘 둥근 형상처럼 최소값이 멀리 있습니다. 떨어진 곳의 점을 더하십시오"
+        }
         R::FeatureNotFitted { name } => {
             return format!("\"{name}\": 점에 맞춘 형상이 아닙니다. 직선, 평면, 원, 구, 원통 가운데 고르십시오");
         }

@@ -77,6 +77,9 @@ pub struct Card {
     pub points: usize,
     pub outcome: CardOutcome,
     pub sigma0: Option<f64>,
+    /// Of image coordinates whose standard errors were estimated: the factor, and the a priori pixels it belongs to.
+    #[serde(default)]
+    pub estimated: Option<(f64, f64)>,
     pub step: String,
 }
 
@@ -87,6 +90,8 @@ pub enum CardOutcome {
     Passed,
     Failed,
     OutOfDate,
+    /// Standard errors were estimated from the residuals: there is no verdict.
+    Estimated,
 }
 
 #[derive(Serialize)]
@@ -623,8 +628,10 @@ async fn read_files(
 fn card(document: &Document, step: Step) -> Card {
     let current = document.current();
     let passed = current.and_then(|r| r.adjustment.global_test.as_ref()).map(|test| test.passed);
+    let adjustment = current.map(|r| &r.adjustment).filter(|a| a.standard_errors_estimated());
     let outcome = match passed {
         _ if document.out_of_date() => CardOutcome::OutOfDate,
+        _ if adjustment.is_some() => CardOutcome::Estimated,
         Some(true) => CardOutcome::Passed,
         Some(false) => CardOutcome::Failed,
         None => CardOutcome::None,
@@ -636,6 +643,10 @@ fn card(document: &Document, step: Step) -> Card {
         points: document.project.points.len(),
         outcome,
         sigma0: current.and_then(|r| r.adjustment.sigma0),
+        estimated: adjustment.and_then(|a| {
+            let mut told = a.variance_components.iter().filter(|c| c.not_estimated.is_none());
+            told.find_map(|c| Some((c.factor, c.a_priori_px?)))
+        }),
         step: step.name().to_owned(),
     }
 }

@@ -113,8 +113,8 @@ impl Desk {
         let prediction = untrack(|| self.prediction());
         self.select_photo(photo);
         let predicted = prediction.as_ref().and_then(|p| p.photos.iter().find(|p| p.photo == photo));
-        if let Some((place, ellipse)) = predicted.and_then(|p| Some((p.place?, p.ellipse(3.0)?))) {
-            self.show_place.set(Some((place, NEAR.max(2.0 * ellipse[0]))));
+        if let Some((place, ellipse)) = predicted.and_then(|p| Some((p.place?, p.ellipse(3.0)))) {
+            self.show_place.set(Some((place, NEAR.max(2.0 * ellipse.map_or(0.0, |ellipse| ellipse[0])))));
         }
     }
 

@@ -3,13 +3,14 @@
 use std::collections::HashSet;
 
 use leptos::prelude::*;
-use sightline::adjustment::{AdjustedPhoto, ObservationGroup, Termination, VarianceComponent, VarianceComponents};
+use sightline::adjustment::{AdjustedPhoto, NotEstimated, Termination, VarianceComponent, VarianceComponents};
 use sightline::project::{Camera, DatumKind, Parameter, Project, Role};
 pub use sightline::report::names::{parameter_name, parameter_unit};
 
 use super::advice::Advice;
 use super::apart::colour_name;
 use super::control::DatumChoice;
+use super::estimated::group_name;
 use super::field::Field;
 use super::gross_errors::{GrossErrorRecord, GrossErrors};
 use super::icon::{Glyph, Icon};
@@ -290,17 +291,14 @@ fn Components() -> impl IntoView {
         desk.document.with(|d| d.current().map(|r| r.adjustment.variance_components.clone()).unwrap_or_default())
     });
     let line = |component: VarianceComponent| {
-        let name = match &component.group {
-            ObservationGroup::Image { camera: Some(camera) } => format!("{} {camera}", text::image_coordinates()),
-            ObservationGroup::Image { camera: None } => text::image_coordinates().to_owned(),
-            ObservationGroup::Control => text::control_coordinates().to_owned(),
-            ObservationGroup::Position => text::projection_centre().to_owned(),
-            ObservationGroup::Distance => text::distances().to_owned(),
-            ObservationGroup::Parameter => text::camera_parameter().to_owned(),
-        };
-        let factor = match component.factor_sigma {
-            Some(sigma) => format!("× {} ± {}", format::fixed(component.factor, 3), format::fixed(sigma, 3)),
-            None => "× 1".to_owned(),
+        let name = group_name(&component.group);
+        let factor = match (component.factor_sigma, component.not_estimated) {
+            (Some(sigma), _) => format!("× {} ± {}", format::fixed(component.factor, 3), format::fixed(sigma, 3)),
+            (None, Some(NotEstimated::LittleRedundancy { needed })) => {
+                text::not_estimated(format::fixed(component.redundancy, 1), format::fixed(needed, 0))
+            }
+            (None, Some(NotEstimated::NoResiduals)) => text::no_residuals().to_owned(),
+            (None, None) => "× 1".to_owned(),
         };
         view! { <tr><td class="left">{name}</td><td class="large">{factor}</td></tr> }
     };

@@ -25,7 +25,7 @@ struct Inset {
     /// Outline of the target: full axes and angle.
     outline: Option<[f64; 3]>,
     /// Where it should be, with the ellipse of three standard errors.
-    predicted: Option<([f64; 2], [f64; 3])>,
+    predicted: Option<([f64; 2], Option<[f64; 3]>)>,
     off_px: Option<f64>,
     doubt: f64,
 }
@@ -40,10 +40,10 @@ fn insets(desk: Desk) -> Vec<Inset> {
     let mut all = desk.document.with(|d| {
         let of_photo = |photo: &sightline::project::Photo| {
             let known = predicted(&photo.id);
-            let place = known.and_then(|p| Some((p.place?, p.ellipse(3.0)?)));
+            let place = known.and_then(|p| Some((p.place?, p.ellipse(3.0))));
             let observation = d.project.observations.iter().find(|o| o.photo == photo.id && o.point == point);
             let (at, doubt) = match (observation, known) {
-                (Some(o), known) => ([o.u, o.v], known.and_then(|p| p.off_sigmas).unwrap_or(0.0)),
+                (Some(o), known) => ([o.u, o.v], known.and_then(|p| p.off_sigmas.or(p.off_px)).unwrap_or(0.0)),
                 (None, Some(p)) if p.inside => (p.place?, f64::INFINITY),
                 _ => return None,
             };
@@ -132,7 +132,7 @@ fn draw(desk: Desk, surface: &Surface, inset: &Inset) {
     let size = inset.outline.map_or(0.0, |o| 1.2 * o[0]);
     let spread = inset.predicted.map_or(0.0, |(place, e)| {
         let apart = (place[0] - inset.at[0]).hypot(place[1] - inset.at[1]);
-        1.2 * (apart + e[0].min(4.0 * REACH[0].max(size)))
+        1.2 * (apart + e.map_or(0.0, |e| e[0]).min(4.0 * REACH[0].max(size)))
     });
     let reach = REACH[0].max(size).max(spread).min(REACH[1]);
     let Some(cut) = desk.part(&inset.photo, inset.at, reach) else { return };
@@ -146,10 +146,19 @@ fn draw(desk: Desk, surface: &Surface, inset: &Inset) {
     let map = [a, b, c, d, a * cut.left + c * cut.top + e, b * cut.left + d * cut.top + f];
     surface.picture(&cut.picture, map, placement.scale >= 2.0);
     let accent = surface.token("--p-accent");
-    if let Some((place, [p, q, angle])) = inset.predicted {
+    if let Some((place, ellipse)) = inset.predicted {
         let [x, y] = placement.to_screen(place);
         surface.pen(&accent, 1.25, &[4.0, 3.0]);
-        surface.ellipse(x, y, (p * scale).max(2.0), (q * scale).max(2.0), placement.angle_on_screen(angle));
+        match ellipse {
+            Some([p, q, angle]) => {
+                surface.ellipse(x, y, (p * scale).max(2.0), (q * scale).max(2.0), placement.angle_on_screen(angle));
+            }
+            // How far off it may be is not known: a place and no ellipse.
+            None => {
+                surface.line(x - 8.0, y - 8.0, x + 8.0, y + 8.0);
+                surface.line(x - 8.0, y + 8.0, x + 8.0, y - 8.0);
+            }
+        }
     }
     if inset.measured {
         let [x, y] = placement.to_screen(inset.at);

@@ -16,7 +16,8 @@ use crate::store::{Desk, Layers};
 /// Colours and dashes of epipolar lines, one for each of the first photos they come from.
 const LINES: [(&str, &[f64]); 3] = [("--p-a", &[]), ("--p-b", &[8.0, 4.0]), ("--photo-ink-2", &[2.0, 4.0])];
 
-/// Draws where the chosen point should be: its epipolar lines and the ellipse of three standard errors.
+/// Draws where the chosen point should be: its epipolar lines and the ellipse of three standard errors, or a cross where these are
+/// not known.
 pub fn draw_prediction(surface: &Surface, placement: Placement, predicted: &PhotoPrediction, layers: Layers) {
     if layers.epipolar {
         for (line, (colour, dashes)) in predicted.lines.iter().zip(LINES.iter().cycle()) {
@@ -27,11 +28,17 @@ pub fn draw_prediction(surface: &Surface, placement: Placement, predicted: &Phot
             }
         }
     }
-    if let (true, Some(place), Some([a, b, angle])) = (layers.predicted, predicted.place, predicted.ellipse(3.0)) {
+    if let (true, Some(place)) = (layers.predicted, predicted.place) {
         let [x, y] = placement.to_screen(place);
         surface.pen(&surface.token("--p-accent"), 2.0, &[5.0, 4.0]);
         let half = |axis: f64| (axis * placement.scale).max(6.0);
-        surface.ellipse(x, y, half(a), half(b), placement.angle_on_screen(angle));
+        match predicted.ellipse(3.0) {
+            Some([a, b, angle]) => surface.ellipse(x, y, half(a), half(b), placement.angle_on_screen(angle)),
+            None => {
+                surface.line(x - 8.0, y - 8.0, x + 8.0, y + 8.0);
+                surface.line(x - 8.0, y + 8.0, x + 8.0, y - 8.0);
+            }
+        }
     }
 }
 

@@ -63,6 +63,8 @@ pub fn MarkingBar() -> impl IntoView {
                 }
             }
             ([], Some(reach)) => text::should_be_here(point, reach),
+            ([(target, _), ..], None) => text::is_it_near(point, off(*target).unwrap_or_default()),
+            ([], None) if place.get().is_some_and(|p| p.place.is_some()) => text::should_be_near(point),
             _ => text::click_point_here(point),
         }
     };

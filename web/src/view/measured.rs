@@ -53,7 +53,8 @@ pub fn sentence(measured: &Measured, picture: &PictureReport) -> String {
     let hot = measured.hot_sites.filter(|count| *count > 0).map(|count| text::measured_hot(format::count(count)));
     let corrections =
         (!measured.corrections.is_empty()).then(|| text::measured_corrections(measured.corrections.join(", ")));
-    [Some(on), noise, overexposed, hot, corrections].into_iter().flatten().collect::<Vec<_>>().join(" ")
+    let unread = (measured.unread_corrections > 0).then(|| text::unread_corrections().to_owned());
+    [Some(on), noise, overexposed, hot, corrections, unread].into_iter().flatten().collect::<Vec<_>>().join(" ")
 }
 
 fn colour(colour: Colour) -> &'static str {

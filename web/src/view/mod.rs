@@ -7,6 +7,7 @@ pub mod changes;
 pub mod control;
 mod corrections;
 pub mod equipment;
+pub mod estimated;
 pub mod experiments;
 pub mod field;
 pub mod gross_errors;

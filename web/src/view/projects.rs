@@ -3,6 +3,7 @@
 use leptos::html::Input;
 use leptos::prelude::*;
 
+use super::estimated::times;
 use super::icon::{Glyph, Icon};
 use super::strip::Thumbnail;
 use crate::browser::{event, page};
@@ -79,6 +80,10 @@ fn ProjectRow(
     };
     let sigma0 = card.sigma0.map(|s| format::fixed(s, 3)).unwrap_or_default();
     let outcome = card.outcome;
+    let estimated = match card.estimated {
+        Some((factor, px)) => format!("{}: {}", text::errors_estimated(), times(factor, None, Some(px))),
+        None => text::errors_estimated().to_owned(),
+    };
     let busy = move || desk.job.with(Option::is_some);
     view! {
         <tr data-project=key.get_value()>
@@ -106,6 +111,7 @@ fn ProjectRow(
                 CardOutcome::None => view! { "–" }.into_any(),
                 CardOutcome::Passed => view! { <span class="pass"><Glyph icon=Icon::Check size=14/></span> {sigma0.clone()} }.into_any(),
                 CardOutcome::Failed => view! { <span class="bad"><Glyph icon=Icon::Cross size=14/></span> {sigma0.clone()} }.into_any(),
+                CardOutcome::Estimated => view! { <span>{estimated.clone()}</span> }.into_any(),
                 CardOutcome::OutOfDate => view! { <span class="warn"><Glyph icon=Icon::Clock size=14/> {text::out_of_date}</span> }.into_any(),
             }}</td>
             <td class="l wide">{move || page::moment(card.changed, language().tag())}</td>

@@ -14,6 +14,7 @@ use sightline::adjustment::Adjustment;
 use sightline::project::{Camera, Project, Role};
 
 use super::changes::change_words;
+use super::estimated::estimated;
 use super::icon::{Glyph, Icon};
 use super::left_out::NotUsed;
 use super::plots::{ResidualPlot, Vector};
@@ -179,6 +180,7 @@ fn Hero(explain: Callback<Statistic>) -> impl IntoView {
         <div class="hero">
             <div><span><Explained explain of=Statistic::Sigma0 name=|| "σ₀"/></span><b class="huge" data-result="sigma0">{move || format::maybe(sigma0(), 3)}</b><small>{text::a_priori_one}</small></div>
             <div class="test">
+                {move || read(desk, |a, _| estimated(a)).map(|said| view! { <span data-result="estimated">{said}</span> })}
                 {move || test().map(|t| view! {
                     <span class=if t.passed { "pass" } else { "fail" }>
                         <Glyph icon=if t.passed { Icon::Check } else { Icon::Cross } size=14/>

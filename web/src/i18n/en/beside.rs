@@ -14,6 +14,12 @@ declare! { comparing {
         "Each result is in a system of its own: the one before was laid upon this one by the {points} common points that agree, with the scale {scale}. A movement of the whole is not seen.";
     fitted_rigidly(points):
         "Each result is in a system of its own: the one before was laid upon this one by the {points} common points that agree, without a scale, since both have their own. A movement of the whole is not seen.";
+    unlike(common, agreeing):
+        "Coordinates are not compared: no similarity lays one network upon the other. Of {common} common {common:point|points} {agreeing} {agreeing:agrees|agree} within the standard errors: too few to tell by them what moved. Were points given other names?";
+    unlike_mirrored(common, agreeing):
+        "Coordinates are not compared: one network is the mirror image of the other. As they are, {agreeing} of {common} common {common:point|points} {agreeing:agrees|agree} within the standard errors. Was an axis of the control points exchanged or its sign changed?";
+    unlike_scale(common, agreeing, scale):
+        "Coordinates are not compared: the networks fit with the lengths of the earlier one times {scale}, though both have a scale of their own. As they are, {agreeing} of {common} common {common:point|points} {agreeing:agrees|agree} within the standard errors. Is a distance another one, or its unit?";
     apart(common):
         "Coordinates are not compared: the two results have {common} common {common:point|points}, too few or on a line to lay one upon the other.";
     other_units(before, after): "Coordinates are not compared: lengths were in {before} and are in {after}.";

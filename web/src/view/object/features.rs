@@ -209,6 +209,7 @@ fn FeatureList() -> impl IntoView {
                     let fault = line.measured.as_ref().and_then(|m| m.error.clone());
                     let figures = line.measured.as_ref().filter(|m| m.error.is_none()).map(|m| figure(m, &unit.get()));
                     let missing = line.measured.as_ref().map(|m| m.missing.join(", ")).filter(|m| !m.is_empty());
+                    let weak = line.measured.as_ref().and_then(|m| m.weak).map(|w| format::fixed(100.0 * w, 0));
                     view! {
                         <li class:chosen=is>
                             <button class="feature" data-feature=key aria-pressed=move || pressed().to_string()
@@ -223,6 +224,7 @@ fn FeatureList() -> impl IntoView {
                                     (None, Some(error)) => view! { <span class="fault">{errors::sentence(&error)}</span> }.into_any(),
                                     (None, None) => view! { <span class="quantity">{text::out_of_date}</span> }.into_any(),
                                 }}
+                                {weak.map(|percent| view! { <small class="warn missing">{words::weakly_determined(percent)}</small> })}
                                 {missing.map(|names| view! { <small class="warn missing">{words::missing_points(names)}</small> })}
                             </button>
                         </li>

@@ -19,6 +19,11 @@ fn alignment_words(alignment: &Alignment) -> String {
         Alignment::Fitted { points, scale: None } => words::fitted_rigidly(points),
         Alignment::Fitted { points, scale: Some(scale) } => words::fitted(points, format::fixed(*scale, 6)),
         Alignment::Apart { common } => words::apart(common),
+        Alignment::Unlike { common, agreeing, mirrored: true, .. } => words::unlike_mirrored(common, agreeing),
+        Alignment::Unlike { common, agreeing, scale: Some(scale), .. } => {
+            words::unlike_scale(common, agreeing, format::fixed(*scale, 6))
+        }
+        Alignment::Unlike { common, agreeing, .. } => words::unlike(common, agreeing),
         Alignment::Units { before, after } => words::other_units(before, after),
     }
 }
