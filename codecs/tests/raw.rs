@@ -415,7 +415,7 @@ fn an_unreadable_list_of_corrections_is_told() {
     let mut more = whole.clone();
     more[3] = 7;
     assert_eq!(read(more), (Vec::new(), 1));
-    let mut noise = sightline::noise::Noise::new(5, 0);
+    let mut noise = Noise::new(5, 0);
     for _ in 0..20 {
         let list = (0..40).map(|_| (noise.normal() * 60.0) as i8 as u8 | 1).collect();
         assert_eq!(read(list).1, 1);

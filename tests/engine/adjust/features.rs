@@ -208,7 +208,11 @@ fn assert_draws_agree(project: &Project) {
         .map(|((_, _, s), q)| q / runs / (s * s))
         .sum::<f64>()
         / points.iter().filter(|(_, _, s)| *s > 0.0).count() as f64;
-    assert!((mean.sqrt() - 1.0).abs() < if draws == DRAWS[1] { 0.02 } else { 0.05 }, "all points of all systems: {}", mean.sqrt());
+    assert!(
+        (mean.sqrt() - 1.0).abs() < if draws == DRAWS[1] { 0.02 } else { 0.05 },
+        "all points of all systems: {}",
+        mean.sqrt()
+    );
 }
 
 #[test]

@@ -8,11 +8,11 @@ use sightline::noise::Noise;
 use sightline::project::{Feature, FeatureKind, Project};
 
 use super::features::least;
+use crate::support::extent;
 use crate::support::networks::Uniform;
 
 /// The scatter of so many is known to 2.5 %, of which four are allowed for.
 const DRAWS: usize = 800;
-const FORMS: u64 = 50;
 
 /// Points on a form with the covariance of each.
 struct Drawn {
@@ -105,7 +105,7 @@ fn noisy(drawn: &Drawn, noise: &mut Noise) -> Vec<Vector3<f64>> {
 fn standard_errors_of_any_form_are_its_scatter() {
     let (mut tested, mut refused) = ([0; 5], 0);
     let mut worst = 1.0_f64;
-    for seed in 0..FORMS {
+    for seed in 0..extent::cases(15, 50) as u64 {
         let form = drawn(300 + seed, [1e-5, 1e-2]);
         let mut noise = Noise::new(seed, 5);
         let first = measured(&form.kind, &noisy(&form, &mut noise), Some(&form.noise));
@@ -172,7 +172,7 @@ fn standard_errors_of_any_form_are_its_scatter() {
         }
     }
     println!("{tested:?} tested, {refused} refused, worst {worst:.3}");
-    assert!(tested.iter().all(|n| *n >= 6), "{tested:?}");
+    assert!(tested.iter().all(|n| *n >= extent::cases(1, 6)), "{tested:?}");
 }
 
 /// Round forms of short arcs in coarse noise: what is stated holds up to the end, and beyond it nothing is stated, nor of what is
@@ -180,7 +180,7 @@ fn standard_errors_of_any_form_are_its_scatter() {
 #[test]
 fn a_form_that_is_hardly_determined_states_no_standard_error() {
     let (mut stated, mut withheld, mut worst) = (0, 0, 1.0_f64);
-    for seed in 0..200 {
+    for seed in 0..extent::cases(40, 200) as u64 {
         // Circles and spheres: two of five.
         let seed = 5 * seed + 2 + seed % 2;
         let form = drawn(seed, [1e-3, 1e-1]);
@@ -210,7 +210,10 @@ fn a_form_that_is_hardly_determined_states_no_standard_error() {
         worst = worst.min(ratio);
     }
     println!("{stated} stated, {withheld} withheld, worst {worst:.3}");
-    assert!(stated >= 10 && withheld >= 10 && worst > 0.88, "{stated} {withheld} {worst}");
+    assert!(
+        stated >= extent::cases(1, 10) && withheld >= extent::cases(1, 10) && worst > 0.88,
+        "{stated} {withheld} {worst}"
+    );
 }
 
 /// Distance from a cylinder that bends by `curvature`, through `foot` with the normal n there, its axis across `t`; regular where
@@ -225,7 +228,7 @@ fn bent(x: &Vector3<f64>, n: &Vector3<f64>, t: &Vector3<f64>, [height, curvature
 #[test]
 fn a_cylinder_of_a_nearly_flat_patch_is_a_minimum_or_refused() {
     let (mut fitted, mut refused) = (0, 0);
-    for seed in 0..150 {
+    for seed in 0..extent::cases(40, 150) as u64 {
         let random = &mut Uniform(9000 + seed);
         let n = random.between(6.0, 12.99) as usize;
         let noise = 10f64.powf(random.between(-3.0, 0.0));
@@ -277,5 +280,5 @@ fn a_cylinder_of_a_nearly_flat_patch_is_a_minimum_or_refused() {
         );
     }
     println!("{fitted} fitted, {refused} refused");
-    assert!(fitted >= 20 && refused >= 5, "{fitted} {refused}");
+    assert!(fitted >= extent::cases(12, 20) && refused >= 5, "{fitted} {refused}");
 }

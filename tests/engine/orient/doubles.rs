@@ -66,7 +66,9 @@ fn photos_that_come_later_show_the_same_points() {
             let own = document.observations.iter().filter(|o| o.point == point.id);
             let own: BTreeSet<&str> = own.map(|o| sheet.truth[&(o.photo.clone(), o.u.to_bits())].as_str()).collect();
             mixed += usize::from(own.len() > 1);
-            own.iter().for_each(|dot| drop(names.entry(dot).or_default().insert(&point.id)));
+            for dot in own {
+                names.entry(dot).or_default().insert(&point.id);
+            }
         }
         let doubles = names.values().filter(|points| points.len() > 1).count();
         let c = adjustment.cameras[0].camera.interior.get(Parameter::C).expect("a value");
