@@ -71,7 +71,7 @@ pub(super) fn from_targets(project: &mut Project, targets: &[PhotoTargets], opti
 
 /// The pose that explains most targets, where it explains more than the present one.
 fn best(view: &View, named: &Pairs, others: &[Vector3<f64>], tolerance: f64) -> Option<Pose> {
-    let present = explained(view, &view.photo.pose, others, tolerance).0.0.len();
+    let present = explained(view, &view.photo.pose, others, tolerance).object.len();
     let resections = space_resection(&named.0, &named.1).unwrap_or_default().into_iter().map(|found| found.pose);
     let mut best: Option<(usize, Pose)> = None;
     for start in std::iter::once(view.photo.pose).chain(resections) {
@@ -94,7 +94,7 @@ fn refined(
 ) -> Option<(usize, usize, Pose)> {
     let mut pose = start;
     for radius in RADII {
-        let ((mut object, mut image), _) = explained(view, &pose, others, radius * tolerance);
+        let Explained { mut object, mut image, .. } = explained(view, &pose, others, radius * tolerance);
         object.extend(&named.0);
         image.extend(&named.1);
         pose = pose.refined(&object, &image)?;
@@ -108,17 +108,20 @@ fn refined(
     if own.count() < named.0.len() {
         return None;
     }
-    let ((object, _), seen) = explained(view, &pose, others, tolerance);
-    Some((object.len(), seen, pose))
+    let found = explained(view, &pose, others, tolerance);
+    Some((found.object.len(), found.seen, pose))
 }
 
-/// Points with the target that alone lies where a pose sees them, and how many points it sees.
-fn explained(
-    view: &View,
-    pose: &Pose,
-    points: &[Vector3<f64>],
-    radius_px: f64,
-) -> ((Vec<Vector3<f64>>, Vec<[f64; 2]>), usize) {
+/// Points of which one target alone lies where a pose sees them.
+struct Explained {
+    object: Vec<Vector3<f64>>,
+    /// Their targets as rays.
+    image: Vec<[f64; 2]>,
+    /// How many points the pose sees, with a target or without.
+    seen: usize,
+}
+
+fn explained(view: &View, pose: &Pose, points: &[Vector3<f64>], radius_px: f64) -> Explained {
     let (mut object, mut image) = (Vec::new(), Vec::new());
     let mut seen = 0;
     for x in points {
@@ -129,5 +132,5 @@ fn explained(
             image.push(view.free[free].ray);
         }
     }
-    ((object, image), seen)
+    Explained { object, image, seen }
 }

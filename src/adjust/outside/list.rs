@@ -60,7 +60,8 @@ fn of_set_aside(aside: &SetAside) -> (LeftOutBy, LeftOutReason) {
 
 impl<'a> List<'a> {
     fn new(document: &'a Project, adjustment: &'a Adjustment) -> Self {
-        let (mut of_photo, mut of_point): (HashMap<&str, Vec<usize>>, HashMap<&str, Vec<usize>>) = Default::default();
+        let mut of_photo: HashMap<&str, Vec<usize>> = HashMap::new();
+        let mut of_point: HashMap<&str, Vec<usize>> = HashMap::new();
         for (row, o) in document.observations.iter().enumerate() {
             of_photo.entry(&o.photo).or_default().push(row);
             of_point.entry(&o.point).or_default().push(row);

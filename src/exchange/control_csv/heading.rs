@@ -95,7 +95,7 @@ impl Named {
             all.iter().flatten().copied().find(|said| matches!(said, Said::Towards(_) | Said::SigmaTowards(_)))
         };
         // Of two parts at least one is known, and the others mean no other thing.
-        let height = parts.iter().any(|part| *part == Some(Said::Field(Field::Z)));
+        let height = parts.contains(&Some(Said::Field(Field::Z)));
         named.said =
             if parts.len() > 1 && height { Some(Said::Field(Field::Z)) } else { direction(&parts).or(parts[0]) };
         if named.said.is_none() {
