@@ -21,7 +21,7 @@ fn network(control: (usize, f64), seed: u64) -> Project {
         control,
         ..Wanted::default()
     };
-    let mut project = noisy(&exact(&wanted, seed), &mut Noise::new(seed));
+    let mut project = noisy(&exact(&wanted, seed), &mut Noise::new(seed, 0));
     for photo in &mut project.photos {
         (photo.position, photo.rotation) = (None, None);
     }
