@@ -59,6 +59,8 @@ pub struct Oriented {
     pub notes: Vec<Note>,
 }
 
+/// Share of the measurements that agree where given coordinates orient the photos rightly.
+const MOSTLY: f64 = 0.7;
 /// Noise over the a priori sigma at which a network is believed.
 const FINE_SIGMAS: f64 = 3.0;
 
@@ -76,12 +78,19 @@ pub fn orient(project: &Project) -> Result<Oriented> {
         }
     }
     let sources = give_principal_distances(&mut start);
-    let mut attempt = Attempt::new(project, &start, &start.adjustable, &sources);
+    let mut attempt = Attempt::new(project, &start, &start.adjustable, &sources, true);
     if !attempt.settled && start.given_px.iter().any(Option::is_some) {
         // A given principal distance is information: a rough model of few photos may have carried it away.
         let free: Vec<bool> = start.adjustable.iter().zip(&start.given_px).map(|(a, px)| *a && px.is_none()).collect();
-        let again = Attempt::new(project, &start, &free, &sources);
+        let again = Attempt::new(project, &start, &free, &sources, true);
         if again.settled && 2 * again.block.oriented() >= attempt.block.oriented() {
+            attempt = again;
+        }
+    }
+    if attempt.frame == Some(Frame::Known) && !attempt.agrees() {
+        // Given coordinates that contradict each other orient photos in contradicting ways: the photos by themselves tell which fit.
+        let again = Attempt::new(project, &start, &start.adjustable, &sources, false);
+        if again.block.agreeing() > attempt.block.agreeing() {
             attempt = again;
         }
     }
@@ -118,12 +127,23 @@ struct Attempt {
 }
 
 impl Attempt {
+    /// Whether most measurements agree.
+    fn agrees(&self) -> bool {
+        self.block.agreeing() as f64 >= MOSTLY * self.block.sights.len() as f64
+    }
+
     /// Orients what can be oriented while only the principal distances of the cameras in `free` may change; in the end all may
-    /// that may be changed at all.
-    fn new(project: &Project, start: &Block, free: &[bool], sources: &[Option<DistanceSource>]) -> Self {
+    /// that may be changed at all. Begins with photos of known points, if `by_known`, or else with the photos by themselves.
+    fn new(
+        project: &Project,
+        start: &Block,
+        free: &[bool],
+        sources: &[Option<DistanceSource>],
+        by_known: bool,
+    ) -> Self {
         let mut holding = start.clone();
         holding.adjustable = free.to_vec();
-        let mut models = Models::new(from_known(&holding));
+        let mut models = Models::new(if by_known { from_known(&holding) } else { holding });
         models.build(sources, fine_px(project));
         let Models { mut block, frame, mut apart } = models;
         let mut frame = frame;

@@ -10,7 +10,7 @@ use sightline::matching::{MatchOptions, PhotoTargets, match_uncoded};
 use sightline::orient::{Note, orient};
 use sightline::project::{Parameter, Project};
 
-/// The sheet with the names of its four codes only; all dots are targets.
+/// The sheet with the names of its four codes and a few dots; all dots are targets.
 struct Sheet {
     project: Project,
     targets: Vec<PhotoTargets>,
@@ -27,9 +27,9 @@ fn sheet() -> Option<Sheet> {
         photo.targets.push(target(o.u, o.v));
         truth.insert((o.photo.clone(), o.u.to_bits()), o.point.clone());
     }
-    let is_code = |id: &str| id.len() == 4;
-    project.observations.retain(|o| is_code(&o.point));
-    project.points.retain(|p| is_code(&p.id));
+    let is_named = |id: &str| id.len() == 4 || id.parse::<usize>().is_ok_and(|k| k % 7 == 3);
+    project.observations.retain(|o| is_named(&o.point));
+    project.points.retain(|p| is_named(&p.id));
     Some(Sheet { project, targets, truth })
 }
 
@@ -57,7 +57,9 @@ fn photos_that_come_later_show_the_same_points() {
         let (adjustment, _) = step(&mut document, &sheet.targets);
         println!("{first:?}: {} points from four photos", adjustment.points.len());
         document.photos.iter_mut().for_each(|p| p.enabled = true);
-        let later = sheet.project.observations.iter().filter(|o| !first.contains(&o.photo.as_str()));
+        // What is named in them are the four codes, in one plane.
+        let later = sheet.project.observations.iter();
+        let later = later.filter(|o| !first.contains(&o.photo.as_str()) && o.point.len() == 4);
         document.observations.extend(later.cloned());
         let (adjustment, notes) = step(&mut document, &sheet.targets);
         let mut names: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
