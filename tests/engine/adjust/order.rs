@@ -164,8 +164,8 @@ fn scale(name: &str, all: &BTreeMap<String, f64>) -> f64 {
     match parts[..] {
         ["covariance", p, i, q, j] => {
             let variance = |p: &str, i: &str| all[&format!("covariance {p} {i} {p} {i}")].max(0.0);
-            // Of what is held it is that of the largest.
-            (variance(p, i) * variance(q, j)).sqrt().max(1e-9 * all["largest variance"])
+            // Of what is held, whose variance is 0, it is what the S-transformation leaves of the largest: some 1e-13 of it.
+            (variance(p, i) * variance(q, j)).sqrt().max(1e-6 * all["largest variance"])
         }
         ["ray", _, _, "0" | "1"] | [.., "redundancy"] => 1.0,
         // What is held is moved by nothing, but for rounding.
