@@ -49,7 +49,6 @@ mod experiments {
 
 /// From names to initial values.
 mod orient {
-    mod doubles;
     mod left_out;
     mod naming;
     mod orientation;

@@ -200,7 +200,8 @@ fn too_little_control_that_agrees_is_an_error_with_names() {
         };
         assert!(agreeing.len() < 4, "seed {seed}: {agreeing:?}");
         let told = Error::ControlDisagrees { agreeing, disagreeing: disagreeing.clone() }.to_string();
-        assert!(disagreeing.iter().all(|id| told.contains(id)), "{told}");
+        // A sentence names five and counts the rest.
+        assert!(disagreeing.iter().take(5).all(|id| told.contains(id)), "{told}");
     }
 }
 
