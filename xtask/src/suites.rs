@@ -226,6 +226,9 @@ fn node_tests(folder: &str, all: &Run, variables: &[(&str, &str)]) -> Outcome<Co
         let at_a_time = format!("--test-concurrency={at_a_time}");
         let mut command = program("node", &["--test", &at_a_time, "--test-force-exit", "--test-reporter=spec"]);
         command.args(files.iter().map(|name| format!("{folder}/{name}"))).envs(variables.iter().copied());
+        if all.is_all() {
+            command.env("SIGHTLINE_EXTENT", "all");
+        }
         count = count.plus(counted(&mut command, node_count)?);
     }
     Ok(count)
