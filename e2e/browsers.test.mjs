@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { before, test } from 'node:test';
 
 import { open } from './browser.mjs';
-import { madeSample } from './desk.mjs';
+import { sample } from './desk.mjs';
 import { firefox, webkit } from './others.mjs';
 
 /** What the sample's results say, as it is shown. */
@@ -20,7 +20,7 @@ let expected;
 before(async () => {
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
-    await madeSample(page);
+    await sample(page);
     await page.waitForSelector('[data-result=sigma0]');
     expected = await page.evaluate(shown);
     assert.ok(expected.results.length > 2 && expected.rows.length > 4, JSON.stringify(expected));

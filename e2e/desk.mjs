@@ -53,20 +53,10 @@ export async function photos(page, paths) {
   await idle(page);
 }
 
-/** The sample project, made by its button: its photos are rendered, measured and adjusted. */
-export async function madeSample(page) {
+/** The sample project, opened and adjusted. */
+export async function sample(page) {
   await page.click('.sample');
   await page.waitForFunction(() => location.hash === '#results', undefined, { timeout: 300_000 });
-}
-
-/** The sample project, adjusted: opened from the project file that `cargo xtask test page` has had made once (sample.mjs), which takes a
- * tenth of the time of making it; without one it is made. */
-export async function sample(page) {
-  const file = process.env.SIGHTLINE_SAMPLE;
-  if (!file) return madeSample(page);
-  await drop(page, [file]);
-  await page.waitForFunction(() => location.hash === '#results', undefined, { timeout: 120_000 });
-  await idle(page);
 }
 
 /** Waits until no long work is under way. */

@@ -3,12 +3,12 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { open } from './browser.mjs';
-import { downloads, idle, madeSample, photos, scratch, unzipped } from './desk.mjs';
+import { downloads, idle, photos, sample, scratch, unzipped } from './desk.mjs';
 
 test('the sample opens in one click, and dropped coded photos become results in at most eight', { timeout: 900_000 }, async () => {
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
-    await madeSample(page);
+    await sample(page);
     await page.waitForSelector('[data-result=sigma0]');
     const saved = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
     await idle(page);

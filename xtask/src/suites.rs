@@ -171,11 +171,7 @@ fn browser(all: &Run) -> Outcome<Count> {
         // Photos in formats that only a program writes.
         ("SIGHTLINE_EXAMPLES", build::examples()?),
     ];
-    let mut variables: Vec<_> = variables.iter().map(|(name, value)| (*name, value.as_str())).collect();
-    // Most tests begin with the sample: it is made once.
-    let sample = format!("{}/Sample.sightline", build::target_directory()?);
-    run(program("node", &["e2e/sample.mjs", &sample]).envs(variables.iter().copied()))?;
-    variables.push(("SIGHTLINE_SAMPLE", &sample));
+    let variables: Vec<_> = variables.iter().map(|(name, value)| (*name, value.as_str())).collect();
     node_tests("e2e", all, &variables)
 }
 
