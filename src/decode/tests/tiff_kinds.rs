@@ -1,6 +1,9 @@
 //! TIFF files as many programs write them: every layout of samples is read to the last one or refused with a code, and of several
 //! pictures the one of full resolution is read.
 
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
 use super::*;
 
 /// Pseudo-random numbers, xorshift.
