@@ -32,8 +32,9 @@ pub fn parse(text: &str) -> Result<Vec<Mark>> {
 pub fn observations(text: &str) -> Result<Vec<Observation>> {
     let mut rows = text::rows(text);
     // The first row may be a heading.
-    let numbers = |fields: &[String]| fields.iter().any(|field| text::number(field).is_some());
-    let heading = rows.first().is_some_and(|row| row.fields.len() >= 4 && !numbers(&row.fields[2..4]));
+    // Words, not what merely is no number: "848,5" is a measurement that cannot be read, and must not go as a heading.
+    let words = |fields: &[String]| fields.iter().all(|field| field.starts_with(char::is_alphabetic));
+    let heading = rows.first().is_some_and(|row| row.fields.len() >= 4 && words(&row.fields[2..4]));
     let order = if heading { order(&rows.remove(0).fields) } else { None };
     let order = order.unwrap_or([0, 1, 2, 3, 4, 5]);
     if let Some(line) = separated_both_ways(text, &rows) {
@@ -182,7 +183,7 @@ mod tests {
         for sure in ["1,2,848,514\n", "1,2,848.0,514,0.1\n", "1 2 848 514 1\n", "1;2;848;514;1\n"] {
             assert!(parse(sure).is_ok(), "{sure}");
         }
-        // A decimal comma is no number here.
+        // A decimal comma is no number here, and a row of them is no heading.
         assert!(parse("1;2;848,5;514,25\n1;3;84;51\n1;4;85;52\n").is_err());
     }
 
