@@ -91,7 +91,9 @@ fn assemble_dist(profile: Profile) -> Outcome {
         }
     }
     page::assemble(&root(), &folder)?;
+    page::seal(&folder)?;
     offline::seal(&folder)?;
+    let folder = page::build_folder(&folder)?;
     for cut in [parts::PAGE, parts::WORKER] {
         report("dist", &folder.join(format!("{}_bg.wasm", cut.module)));
         for part in cut.later(&folder)? {
@@ -107,7 +109,7 @@ fn assemble_dist(profile: Profile) -> Outcome {
 /// Leaves the decoders of HEIC and RAW photos in the dist/ that is served: the page stands without them.
 pub fn decoders() -> Outcome {
     modules(Profile::Serve, &["sightline-codecs"])?;
-    changed(&root().join("dist"), &[("sightline_codecs", page::CODECS)])
+    changed(&page::build_folder(&root().join("dist"))?, &[("sightline_codecs", page::CODECS)])
 }
 
 /// Both, compiled together: what they have in common is built once.

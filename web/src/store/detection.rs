@@ -65,7 +65,9 @@ impl Desk {
             _ => None,
         };
         self.change_on(|document| {
-            cameras::measured_in(document.project_mut(), photo, channel, &detection);
+            if !cameras::is_measured_in(&document.project, photo, channel, &detection) {
+                cameras::measured_in(document.project_mut(), photo, channel, &detection);
+            }
             targets::take_detection(document, photo, detection, family);
         });
     }
