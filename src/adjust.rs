@@ -26,7 +26,7 @@ use crate::features::{self, Function};
 use crate::project::{Parameter, Project, Role};
 
 use diagnosis::judgement::judgement;
-use diagnosis::{advice, structure};
+use diagnosis::{advice, questions, structure};
 use problem::additional::LeftOut;
 use problem::network::Network;
 pub(crate) use problem::numbering::Numbering;
@@ -41,13 +41,16 @@ pub use problem::unmodelled::estimate as unmodelled;
 /// # Errors
 /// Whatever [`Project::validate`] finds; [`crate::Error::Empty`] without observations;
 /// [`crate::Error::MissingInitialValues`]; [`crate::Error::RankDefect`] when the network does not determine what is to be
-/// estimated. An iteration that does not converge is a result.
+/// estimated, or when all photos were taken from one place. An iteration that does not converge is a result.
 pub fn adjust(
     project: &Project,
     options: &AdjustOptions,
     on_iteration: &mut dyn FnMut(&Iteration) -> bool,
 ) -> Result<Adjustment> {
     project.validate()?;
+    if let Some(error) = questions::one_place(project) {
+        return Err(error);
+    }
     let document = project;
     let weighted = unmodelled::weighted(project, options.unmodelled)?;
     let sized = eccentric::sized(weighted, options.target_diameter)?;
@@ -83,7 +86,8 @@ pub fn adjust(
     adjustment.options = options.clone();
     adjustment.termination = termination;
     adjustment.iterations = std::mem::take(&mut log.iterations);
-    adjustment.advice = judgement(&adjustment, unmodelled::estimate(document, &adjustment));
+    adjustment.advice = questions::questions(document, session.network.bars.len(), &adjustment);
+    adjustment.advice.extend(judgement(&adjustment, unmodelled::estimate(document, &adjustment)));
     adjustment.advice.extend(advice::advice(project, &session.network, &session.state, &adjustment));
     if !searching && matches!(termination, Termination::IterationLimit | Termination::Diverged) {
         // Its own residuals show no gross error: those of a robust start do.

@@ -7,6 +7,7 @@ mod camera;
 pub(crate) mod criteria;
 mod features;
 mod given;
+mod questions;
 
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +18,9 @@ pub use criteria::Criteria;
 pub(crate) use criteria::is_distortion;
 pub use features::{FeatureResidual, Measured, MeasuredFeature, MeasuredSystem, Quantity, SystemPoint};
 pub use given::{Given, GivenObservation, GrossError, GrossErrorAction};
+pub use questions::{
+    CameraDoubt, Exchange, ImplausibleCamera, MirroredControl, OneStation, UndecidedAxes, UnitOf, UnitRatio,
+};
 
 /// How the iteration ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -467,6 +471,18 @@ pub enum Advice {
         /// Observations of other kinds, with w.
         given: Vec<(Given, f64)>,
     },
+    /// Given coordinates are a mirror image of what the photos show.
+    MirroredControl(MirroredControl),
+    /// Given points lie in a plane, and nothing tells whether their axes are mirrored.
+    UndecidedAxes(UndecidedAxes),
+    /// Something seems to be given in another unit than the rest.
+    UnitRatio(UnitRatio),
+    /// Photos were taken from one place.
+    OneStation(OneStation),
+    /// A camera cannot be what it is said to be.
+    ImplausibleCamera(ImplausibleCamera),
+    /// Nothing gives a scale: lengths are right relative to each other only and have no unit.
+    NoScale,
 }
 
 impl Advice {

@@ -47,6 +47,7 @@ mod experiments {
 mod orient {
     mod naming;
     mod orientation;
+    mod questions;
     mod seeded;
 }
 
