@@ -27,6 +27,7 @@ mod pass;
 mod picture;
 mod rendered;
 mod search;
+mod shading;
 mod shot;
 mod sites;
 mod whole;

@@ -358,6 +358,24 @@ pub(crate) mod levels {
     }
 }
 
+/// Light that changes across a target: how much of it the disc shows.
+pub(crate) mod light {
+    use super::Source;
+
+    table! {
+        /// χ² of two degrees of freedom up to which light is flat, and from which on it is not.
+        LIT: [f64; 2] = [4.0, 9.0], Derived "chance: 13 and 1 in 100 targets in flat light; in between the centre is off by up to a third of its standard error";
+        /// The same of a contrast whose slope is not that of light.
+        UNLIKE: [f64; 2] = [9.0, 16.0], Derived "chance: 1 in 100 and 1 in 3000; a slope of its own costs small targets most of their precision";
+        /// Standard deviation of the light's change from pixel to pixel, as a share of it.
+        STEEPEST: f64 = 0.02, Judged "a tenth across a target of 5 px: more is a shadow's edge";
+        /// Least semi-minor axis in pixels, and redundancy, of the part of a disc that shows the light inside.
+        CORE: [f64; 2] = [1.5, 6.0], Judged "fewer pixels know less of it than the background";
+        /// Variance of a slope, in square grey levels a pixel, that no picture is free of.
+        FLOOR: f64 = 1e-8, Judged "a thousandth of a level across a target: drawings without noise have no variance";
+    }
+}
+
 /// The fit of a rendered ellipse.
 pub(crate) mod fit {
     use super::Source;

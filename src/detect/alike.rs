@@ -13,6 +13,7 @@ use super::acceptance::{
     size::{EDGES_LARGE, FIT_SMALL},
 };
 use super::code::{may_be_in_ring, outline_of};
+use super::edges::lit::Light;
 use super::edges::surround::{self, Glance};
 use super::ellipse::outline::Outline;
 use super::lump::{self, Lump};
@@ -229,6 +230,7 @@ impl<T: Sample> Measure<'_, T> {
                 strip: None,
                 saturation: self.levels.saturation,
                 stairs: false,
+                light: Light::around(&around).slope(),
                 quantum: self.levels.quantum,
                 developed: self.levels.developed,
                 prior: Some(prior),

@@ -9,7 +9,8 @@ use super::acceptance::outline::GAP_MINOR;
 use super::acceptance::size::FIT_SMALL;
 use super::centroid::{self, Centre};
 use super::edges::blur::{self, BLURRED, DEFOCUSED, SHARP};
-use super::edges::edge::{self, Edges};
+use super::edges::edge::{self, Edges, Profile};
+use super::edges::lit::Light;
 use super::edges::look;
 use super::edges::propagation;
 use super::edges::quality;
@@ -170,8 +171,14 @@ impl<'a, T: Sample> Measure<'a, T> {
                 (fit_rms, occluded) = (fit.rms, fit.occluded);
                 Centre { u: outline.u, v: outline.v, covariance }
             }
-            Method::Intensity => centroid::intensity(&self.plane, &outline, &surround, margin).ok_or(Reason::NoFit)?,
-            Method::Gradient => centroid::gradient(&self.plane, &outline, &surround, margin).ok_or(Reason::NoFit)?,
+            Method::Intensity => {
+                let light = self.light(&outline, &surround, blur);
+                centroid::intensity(&self.plane, &outline, &surround, &light, margin).ok_or(Reason::NoFit)?
+            }
+            Method::Gradient => {
+                let light = self.light(&outline, &surround, blur);
+                centroid::gradient(&self.plane, &outline, &surround, &light, margin).ok_or(Reason::NoFit)?
+            }
         };
         let (a, b, angle) = outline.axes();
         let [uu, uv, vv] = centre.covariance;
@@ -206,19 +213,32 @@ impl<'a, T: Sample> Measure<'a, T> {
         })
     }
 
+    /// How the light changes across a disc.
+    fn light(&self, outline: &Outline, surround: &Surround, blur: f64) -> Light {
+        Light::of(&self.plane, outline, surround, blur, self.levels.saturation)
+    }
+
     /// The ellipse through edges refined with the target's own levels and blur, and the covariance of its centre: the
     /// propagated noise, and as much more as the edges scatter more than it explains.
     fn refined_ellipse(&mut self, found: &Found, surround: &Surround) -> Result<(EllipseFit, [f64; 3]), Reason> {
-        let outline = found.ellipse.outline;
-        let profile = blur::profile(&outline, surround, found.strength, found.blur);
+        let mut outline = found.ellipse.outline;
+        let light = self.light(&outline, surround, found.blur);
+        let profile = Profile { light: light.share(), ..blur::profile(&outline, surround, found.strength, found.blur) };
         let count = (outline.perimeter() / 4.0).round() as usize * 4;
-        edge::refine(&self.plane, &outline, &profile, count.clamp(20, 1500), &mut self.edges);
-        let fit = through::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
+        let count = count.clamp(20, 1500);
+        edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
+        let mut fit = through::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
+        if light.slope() != [0.0; 2] {
+            // the light has moved the edges that the rays were cast across
+            outline = Outline { u: fit.outline.u, v: fit.outline.v, ..outline };
+            edge::refine(&self.plane, &outline, &profile, count, &mut self.edges);
+            fit = through::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
+        }
         let cofactors = fit.normal.cholesky().ok_or(Reason::NoFit)?.inverse();
         let influence = propagation::influence(&outline, &profile, &self.edges, &fit.outline, &cofactors);
         let noise = surround.noise.powi(2).max(1.0 / 12.0);
         let variance = noise.max(fit.rms * fit.rms / influence.edge.max(1e-12));
-        let slope = surround.carried(influence.slope);
+        let slope = light.carried(influence.slope, influence.light);
         Ok((fit, std::array::from_fn(|i| variance * influence.noise[i] + slope[i])))
     }
 
@@ -265,6 +285,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             strip: strip(&found.ellipse.outline, &found.kept, found.blur),
             saturation: self.levels.saturation,
             stairs: self.levels.stairs,
+            light: Light::around(&surround).slope(),
             quantum: self.levels.quantum,
             developed: self.levels.developed,
             prior: self.prior,
@@ -276,7 +297,8 @@ impl<'a, T: Sample> Measure<'a, T> {
         let mut surround = self.surround(&outline, blur, kept)?;
         (surround.contrast, surround.outer) = (contrast, outer.min(surround.outer));
         let strip = strip(&outline, kept, blur);
-        let last = Region { outline, half_band: half_band(blur), surround: &surround, kept, strip, ..region };
+        let light = Light::around(&surround).slope();
+        let last = Region { outline, half_band: half_band(blur), surround: &surround, kept, strip, light, ..region };
         let mut fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
         let b = fit.outline.semi_axes().1;
         let gap = b - 2.0 * fit.blur;

@@ -18,6 +18,7 @@ pub(crate) mod fit;
 mod flats;
 pub(crate) mod neighbours;
 mod scatter;
+pub(crate) mod shade;
 mod sketch;
 pub(crate) mod strip;
 

@@ -1,6 +1,7 @@
 //! How blurred a target's edges are, from how steep they are; and from which blur on that asks for something else.
 
 use super::edge::{self, Profile};
+use super::lit::Light;
 use super::surround::Surround;
 pub(crate) use crate::detect::acceptance::blur::{BLURRED, DEFOCUSED, SHARP, SOFT};
 use crate::detect::ellipse::outline::Outline;
@@ -39,6 +40,7 @@ pub(crate) fn profile(outline: &Outline, surround: &Surround, strength: f64, mut
         slope: surround.slope,
         origin: [outline.u, outline.v],
         contrast,
+        light: Light::around(surround).share(),
         blur: (blur * blur + 1.0 / 12.0).sqrt(),
     }
 }

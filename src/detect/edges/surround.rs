@@ -269,15 +269,6 @@ struct Sums {
     gg: f64,
 }
 
-impl Surround {
-    /// Covariance of a centre (uu, uv, vv) that moves by M g when the slope changes by g: M S M'.
-    pub fn carried(&self, m: [[f64; 2]; 2]) -> [f64; 3] {
-        let [uu, uv, vv] = self.slope_covariance;
-        let product = |a: [f64; 2], b: [f64; 2]| a[0] * (uu * b[0] + uv * b[1]) + a[1] * (uv * b[0] + vv * b[1]);
-        [product(m[0], m[0]), product(m[0], m[1]), product(m[1], m[1])]
-    }
-}
-
 impl Sums {
     fn of(spots: impl Iterator<Item = Spot>) -> Self {
         let mut sums = Self::default();

@@ -39,6 +39,8 @@ pub(crate) struct Region<'a> {
     pub saturation: f64,
     /// Whether edges are the stairs of the pixels.
     pub stairs: bool,
+    /// Slope of the contrast, in grey levels a pixel, that the light around promises.
+    pub light: [f64; 2],
     /// Distance of two grey levels.
     pub quantum: f64,
     /// Whether what is left all around is what a camera does to edges.
@@ -98,6 +100,8 @@ pub(crate) struct Band {
     /// After u, v and s as rendered, then after p, q and r.
     pub(super) derivatives: [Vec<f32>; 2 * DERIVATIVES],
     pub(super) residual: Vec<f32>,
+    /// x and y times the share: what a slope of the contrast changes.
+    lit: [Vec<f32>; 2],
     sizes: Vec<u32>,
 }
 
@@ -241,13 +245,47 @@ impl Band {
         }
     }
 
-    /// Residuals, grey less model, for contrast and background (level, slope).
-    pub fn subtract(&mut self, contrast: f64, background: [f64; 3]) {
-        let (contrast, [level, gx, gy]) = (contrast as f32, background.map(|b| b as f32));
+    /// Residuals, grey less model, for contrast (level, slope) and background (level, slope).
+    pub fn subtract(&mut self, contrast: [f64; 3], background: [f64; 3]) {
+        let [[contrast, hx, hy], [level, gx, gy]] = [contrast, background].map(|plane| plane.map(|b| b as f32));
         let columns = self.grey.iter().zip(&self.kept).zip(&self.x).zip(&self.y).zip(&self.share);
         for (residual, ((((grey, kept), x), y), share)) in self.residual.iter_mut().zip(columns) {
-            *residual = grey - (level * kept + gx * x + gy * y + contrast * share);
+            *residual = grey - (level * kept + gx * x + gy * y + (contrast + hx * x + hy * y) * share);
         }
+    }
+
+    /// What a slope of the contrast changes, h = (x, y) I, against the unknowns, against itself (xx, xy, yy) and against the residuals:
+    /// J'h, h'h, h'r of the band.
+    pub fn lit(&mut self, contrast: f64) -> ([Unknowns; 2], [f64; 3], [f64; 2]) {
+        let Self { lit, x, y, share, .. } = self;
+        for (lit, place) in lit.iter_mut().zip([x, y]) {
+            lit.clear();
+            lit.extend(place.iter().zip(&*share).map(|(place, share)| place * share));
+        }
+        let [u, v, p, q, r, s, share, kept, x, y] = self.columns();
+        let along = |lit: &[f32]| {
+            let ([outline], [levels]) = (products([lit], [u, v, p, q, r, s]), products([lit], [share, kept, x, y]));
+            Unknowns::from_iterator(outline.map(|sum| sum * contrast).into_iter().chain(levels))
+        };
+        let [first, second] = &self.lit;
+        let [own, [_, last]] = products([first, second], [first, second]);
+        let [left] = products([&self.residual], [first, second]);
+        ([along(first), along(second)], [own[0], own[1], last], left)
+    }
+
+    /// Takes off the residuals what corrections of the unknowns and of the contrast's slope change, were the model linear.
+    pub fn correct(&mut self, contrast: f64, step: &Unknowns, slope: [f64; 2]) {
+        let mut residual = std::mem::take(&mut self.residual);
+        let columns = self.columns().into_iter().zip(step.iter()).enumerate();
+        let factors =
+            columns.map(|(i, (column, step))| (column, if i < 2 * DERIVATIVES { contrast * step } else { *step }));
+        for (column, factor) in factors.chain(self.lit.iter().map(Vec::as_slice).zip(slope)) {
+            let factor = factor as f32;
+            for (residual, column) in residual.iter_mut().zip(column) {
+                *residual -= factor * column;
+            }
+        }
+        self.residual = residual;
     }
 
     /// Takes out pixels whose residual exceeds `limit`; the number taken. What disturbs them is blurred too: pixels within

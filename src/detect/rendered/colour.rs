@@ -97,6 +97,11 @@ impl Correlation {
         Some(Self(rho))
     }
 
+    /// Variance of a sum of many neighbours over what it would be without correlation: all of them together, never less than one.
+    pub fn together(&self) -> f64 {
+        (1.0 + 2.0 * self.0[1..].iter().sum::<f64>()).clamp(1.0, 40.0)
+    }
+
     /// Variance of a target's centre over what it would be without correlation.
     pub fn factor(&self, target: &Colour) -> f64 {
         let sum: f64 = self.0[1..].iter().zip(&target.moved[1..]).map(|(rho, moved)| rho * moved).sum();

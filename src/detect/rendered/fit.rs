@@ -1,8 +1,9 @@
 //! Least-squares fit of a rendered ellipse, the default measurement.
 //!
-//! g(x, y) = B + gx x + gy y + C I(x, y; u, v, p, q, r, s) for all pixels around the target, with I the exact image of the
-//! blurred ellipse ([`rendered`](super::rendered)): ten unknowns, weights equal. No pixel is lost and none is
-//! interpolated, so the centre reaches the Cramér-Rao bound of the photograph.
+//! g(x, y) = B + gx x + gy y + (C + hx x + hy y) I(x, y; u, v, p, q, r, s) for all pixels around the target, with I the exact image of the
+//! blurred ellipse ([`rendered`](super::rendered)): ten unknowns, weights equal, and the slope h of the contrast, which is none in flat
+//! light and follows from the others where light multiplies ([`shade`](super::shade)). No pixel is lost and none is interpolated, so the
+//! centre reaches the Cramér-Rao bound of the photograph.
 //!
 //! Light that blur carries from what stands around onto those pixels pulls the centre; in the end it is taken back to first order
 //! ([`neighbours`](super::neighbours)), δ = N⁻¹ J'l, and δ δ' is added to the covariance.
@@ -12,10 +13,11 @@
 //! same, as the residuals are always exact.
 
 use super::band::{Band, Normal, Prior, Region, Unknowns};
-use super::colour::Colour;
+use super::colour::{Colour, Correlation};
 use super::flats::Flats;
 use super::neighbours::Neighbours;
 use super::scatter;
+use super::shade::{Freed, Shade};
 use crate::detect::acceptance::fit as limits;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::normal::BLUR;
@@ -34,6 +36,8 @@ const LEAST_SHARE: f64 = 0.2;
 /// Rounds at most: as a rule; of a fit with known blur and contrast, whose disc its blur has nearly swallowed; and of one that is
 /// clipped, which has a longer way to its contrast.
 const ROUNDS: [u32; 3] = [12, 24, 40];
+/// Rounds that a slope of the contrast may add.
+const ROUNDS_SHADED: u32 = 4;
 /// Least blur, and least radius in units of blur and pixel, for which derivatives are sketched: there the standard error of a
 /// centre comes out within about one percent.
 const SHARPEST: f64 = 0.4;
@@ -99,7 +103,7 @@ pub(crate) fn approach<T: Sample>(
             // only the foot of its profile shows, where a sketch is not good enough
             work.residuals(&state, false)?;
         } else {
-            work.band.subtract(state.contrast, state.background);
+            work.band.subtract(state.disc(), state.background);
         }
         if anew {
             normal = work.normal(&state, &flats);
@@ -131,8 +135,9 @@ pub(crate) fn fit<T: Sample>(
     let (mut render_all, mut near, mut disturbed, mut dropped) = (true, true, true, 0);
     let (mut anew, mut last) = (true, state.first());
     let (mut limit, mut rounds) = (f64::INFINITY, 0);
-    for round in 0.. {
-        state.may_go_on(round)?;
+    let (mut shade, mut shaded) = (Shade::default(), 0);
+    for round in 0u32.. {
+        state.may_go_on(round.saturating_sub(shaded))?;
         // derivatives only show the way
         let sketched = render_all && state.may_be_sketched();
         if sketched {
@@ -171,7 +176,17 @@ pub(crate) fn fit<T: Sample>(
         let slow = size > SLOW * last;
         last = size;
         if settled && !disturbed {
-            break;
+            if shaded > 0 {
+                break;
+            }
+            shaded = ROUNDS_SHADED;
+            let Some(found) = work.shade(&state, &flats, &invert(&normal)?) else { break };
+            let size = found.step.fixed_rows::<6>(0).amax();
+            (state.light, shade) = (found.slope, found);
+            state.add(&shade.step);
+            if !(size >= converged && state.outline.is_proper()) {
+                break;
+            }
         }
         near = size <= NEAR * state.pixel();
         render_all = !near || slow;
@@ -199,6 +214,9 @@ pub(crate) fn fit<T: Sample>(
     if dropped > 0 && mean * variance > covariance[0] + covariance[2] {
         covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
     }
+    for (sum, added) in covariance.iter_mut().zip(shade.covariance) {
+        *sum += added;
+    }
     let Workspace { band, field, origin, coloured, .. } = work;
     let mut colour =
         (*coloured || beyond).then(|| band.colour(field, &cofactors, state.contrast, &state.outline, *origin));
@@ -209,7 +227,8 @@ pub(crate) fn fit<T: Sample>(
             covariance = covariance.map(|value| value * (1.0 + share * (limits::MOVED_TOGETHER - 1.0)));
         }
     }
-    let mut outline = state.outline;
+    let [moved_u, moved_v] = shade.moved;
+    let mut outline = Outline { u: state.outline.u + moved_u, v: state.outline.v + moved_v, ..state.outline };
     let reach = region.half_band.min(region.surround.outer.max(1.0)) + 0.3;
     if let Some(neighbours) = Neighbours::of(plane, &outline, state.blur, state.contrast, reach, rms) {
         let [u, v] = work.origin;
@@ -242,6 +261,7 @@ impl Workspace {
             outline: region.outline,
             blur: blur.clamp(BLUR.0, BLUR.1),
             contrast: surround.contrast,
+            light: region.light,
             background: [surround.level, surround.slope[0], surround.slope[1]],
             prior: region.prior,
             before: f64::INFINITY,
@@ -259,8 +279,26 @@ impl Workspace {
         }
         self.field.render(&state.outline, state.blur, derivatives, &self.band.spans);
         self.band.gather(&self.field, self.origin, derivatives.then_some(&state.outline));
-        self.band.subtract(state.contrast, state.background);
+        self.band.subtract(state.disc(), state.background);
         Some(())
+    }
+
+    /// The slope of the contrast and what follows from it; none in flat light.
+    fn shade(&mut self, state: &State, flats: &Flats, cofactors: &Normal) -> Option<Shade> {
+        let Self { band, field, origin, coloured, .. } = self;
+        let mut lit = band.lit(state.contrast);
+        flats.add_lit(state.disc(), state.background, &mut lit);
+        let freed = Freed::of(&lit, cofactors)?;
+        // how much pixels scatter is seen where nothing of the light is left in them
+        let residual = band.residual.clone();
+        band.correct(state.contrast, &freed.step(), freed.slope);
+        let (variance, _) = band.variance();
+        let together = coloured.then(|| {
+            let own = band.colour(field, cofactors, state.contrast, &state.outline, *origin);
+            Correlation::of(std::iter::once(&own)).map_or(1.0, |correlation| correlation.together())
+        });
+        band.residual = residual;
+        freed.shade(cofactors, state.background, state.disc(), variance, together.unwrap_or(1.0))
     }
 
     /// Residual beyond which, near the end, a pixel is not the target's.
@@ -286,7 +324,7 @@ impl Workspace {
 
     fn right(&self, state: &State, flats: &Flats) -> Unknowns {
         let mut right = self.band.right(state.contrast);
-        flats.add_right(state.contrast, state.background, &mut right);
+        flats.add_right(state.disc(), state.background, &mut right);
         if let Some(prior) = &state.prior {
             prior.add_right(state.blur, state.contrast, &mut right);
         }
@@ -299,6 +337,8 @@ struct State {
     outline: Outline,
     blur: f64,
     contrast: f64,
+    /// Slope of the contrast.
+    light: [f64; 2],
     background: [f64; 3],
     prior: Option<Prior>,
     /// Contrast that the scale has room for, and the largest that is believed.
@@ -310,6 +350,11 @@ struct State {
 }
 
 impl State {
+    /// Contrast and its slope.
+    fn disc(&self) -> [f64; 3] {
+        [self.contrast, self.light[0], self.light[1]]
+    }
+
     /// Blur and pixel together: corrections that are small against it change the profile in proportion.
     fn pixel(&self) -> f64 {
         self.blur + 0.3

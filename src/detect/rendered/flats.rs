@@ -45,16 +45,35 @@ impl Flats {
         }
     }
 
-    /// Adds J'r of the flat parts for contrast and background (level, slope).
-    pub fn add_right(&self, contrast: f64, [level, gx, gy]: [f64; 3], right: &mut Unknowns) {
+    /// Adds J'r of the flat parts for contrast (level, slope) and background (level, slope).
+    pub fn add_right(&self, [contrast, hx, hy]: [f64; 3], [level, gx, gy]: [f64; 3], right: &mut Unknowns) {
         for (m, share) in [(&self.inside, 1.0), (&self.outside, 0.0)] {
-            let level = level + share * contrast;
+            let [level, gx, gy] = [level + share * contrast, gx + share * hx, gy + share * hy];
             let sum = m.g - level * m.n - gx * m.x - gy * m.y;
             right[6] += share * sum;
             right[7] += sum;
             right[8] += m.gx - level * m.x - gx * m.xx - gy * m.xy;
             right[9] += m.gy - level * m.y - gx * m.xy - gy * m.yy;
         }
+    }
+
+    /// Adds J'h, h'h (xx, xy, yy) and h'r of the flat parts for what a slope of the contrast changes: h = (x, y) inside, nothing outside.
+    pub fn add_lit(
+        &self,
+        [contrast, hx, hy]: [f64; 3],
+        [level, gx, gy]: [f64; 3],
+        (along, own, left): &mut ([Unknowns; 2], [f64; 3], [f64; 2]),
+    ) {
+        let m = &self.inside;
+        let [level, gx, gy] = [level + contrast, gx + hx, gy + hy];
+        for (along, sums) in along.iter_mut().zip([[m.x, m.x, m.xx, m.xy], [m.y, m.y, m.xy, m.yy]]) {
+            for (k, sum) in sums.into_iter().enumerate() {
+                along[6 + k] += sum;
+            }
+        }
+        *own = [own[0] + m.xx, own[1] + m.xy, own[2] + m.yy];
+        left[0] += m.gx - level * m.x - gx * m.xx - gy * m.xy;
+        left[1] += m.gy - level * m.y - gx * m.xy - gy * m.yy;
     }
 }
 
@@ -76,7 +95,8 @@ impl Moments {
         let (whole, rest) = (near as i32, (level - near) as f32);
         let [sigmas, quiet, print] = FLAT;
         let limit = sigmas * surround.noise.max(quiet) + if inside { print * surround.contrast.abs() } else { 0.0 };
-        let (limit, slope) = (limit as f32, surround.slope[0] as f32);
+        let slope = surround.slope[0] + if inside { region.light[0] } else { 0.0 };
+        let (limit, slope) = (limit as f32, slope as f32);
         let saturation = region.saturation as i32;
         let first = (first as i64 - middle) as i32;
         let mut sums = [0i32; 5];
@@ -142,6 +162,7 @@ fn nearest(level: f64) -> f64 {
 fn origin(y: usize, region: &Region, inside: bool) -> (i64, f64) {
     let surround = region.surround;
     let dy = y as f64 + 0.5 - region.outline.v;
-    let level = surround.level + surround.slope[1] * dy + if inside { surround.contrast } else { 0.0 };
+    let level =
+        surround.level + surround.slope[1] * dy + if inside { surround.contrast + region.light[1] * dy } else { 0.0 };
     (region.outline.u.floor() as i64, level)
 }

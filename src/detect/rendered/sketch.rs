@@ -98,6 +98,7 @@ mod tests {
                 strip: None,
                 saturation: 255.0,
                 stairs: false,
+                light: [0.0; 2],
                 quantum: 1.0,
                 developed: false,
                 prior: None,

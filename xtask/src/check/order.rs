@@ -62,6 +62,7 @@ const ORDERS: [Order; 3] = [
             "acceptance",
             "median",
             "normal",
+            "shading",
             "part",
             "ellipse",
             "picture",
