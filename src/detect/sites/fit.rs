@@ -1,7 +1,8 @@
 //! Least-squares fit of a rendered ellipse to the sites of one colour.
 //!
-//! g(x, y) = B + gx x + gy y + C I(x, y; u, v, p, q, r, s) as for pictures ([`rendered`](crate::detect::rendered)), here at the
-//! sites alone, each weighted by the inverse of its variance r + g g(x, y). The variance follows the model, not the sample: weights that
+//! g(x, y) = B + gx x + gy y + (C + hx x + hy y) I(x, y; u, v, p, q, r, s) as for pictures ([`rendered`](crate::detect::rendered)), with
+//! the slope h of the contrast that the light gives it ([`shade`](crate::detect::rendered::shade)), here at the sites alone, each
+//! weighted by the inverse of its variance r + g g(x, y). The variance follows the model, not the sample: weights that
 //! know a sample's noise would draw the fit to the dark. Which sites the white level clips follows the model too, so that the
 //! choice says nothing of their noise. The covariance is that of the Cramér-Rao bound of these sites where the model holds, and as
 //! much more as the residuals show where it does not. Light that blur carries from what stands around onto the sites is taken back to first
@@ -13,6 +14,7 @@ use super::Sites;
 use crate::detect::acceptance::sites::{DISTURBED, EXPLAINED, FAR, LENS, OVEREXPOSED};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::normal::BLUR;
+use crate::detect::rendered::shade::{Freed, Shade};
 use crate::detect::rendered::{Field, Span};
 use system::{System, UNKNOWNS, Unknowns, counts, modelled};
 
@@ -52,6 +54,8 @@ struct State {
     outline: Outline,
     blur: f64,
     contrast: f64,
+    /// Slope of the contrast.
+    light: [f64; 2],
     background: [f64; 3],
 }
 
@@ -76,12 +80,26 @@ pub(super) fn fit<L: Fn(f64, f64) -> f64>(
     let mut state = first(start, blur, &chosen)?;
     approach(sites, &mut chosen, &mut state, true, field)?;
     chosen = around(&state.outline, state.blur)?;
-    let origin = [state.outline.u, state.outline.v];
-    // the plane of the ground goes through the new middle
-    let [level, gx, gy] = state.background;
-    state.background = [level + gx * (origin[0] - start.u) + gy * (origin[1] - start.v), gx, gy];
-    let origin = approach(sites, &mut chosen, &mut state, false, field)?;
+    state.count_from(&[start.u, start.v]);
+    let mut origin = approach(sites, &mut chosen, &mut state, false, field)?;
+    let shade = shade(sites, &chosen, &state, field, origin);
+    if let Some(Shade { slope, step, .. }) = &shade {
+        state.light = *slope;
+        state.add(step, f64::INFINITY);
+        if !state.outline.is_proper() {
+            return None;
+        }
+        state.count_from(&origin);
+        origin = approach(sites, &mut chosen, &mut state, false, field)?;
+    }
     let (mut found, system) = finished(sites, &chosen, &state, field, origin)?;
+    if let Some(Shade { moved, covariance, .. }) = &shade {
+        (found.outline.u, found.outline.v) = (found.outline.u + moved[0], found.outline.v + moved[1]);
+        found.covariance.iter_mut().zip(covariance).for_each(|(sum, added)| *sum += added);
+        if !(found.covariance[0] > 0.0 && found.covariance[2] > 0.0) {
+            return None;
+        }
+    }
     if let Some(light) = light(&found, reach(state.blur)) {
         let [pu, pv] = system.pulled(sites, &chosen, &state, field, origin, |x, y| state.contrast * light(x, y))?;
         (found.outline.u, found.outline.v) = (found.outline.u - pu, found.outline.v - pv);
@@ -183,6 +201,7 @@ fn first(outline: &Outline, blur: f64, chosen: &[Site]) -> Option<State> {
         outline: *outline,
         blur,
         contrast: disc - ground,
+        light: [0.0; 2],
         background: [ground, 0.0, 0.0],
     })
 }
@@ -195,7 +214,26 @@ fn render(field: &mut Field, state: &State) {
     field.render(&state.outline, state.blur, true, &spans);
 }
 
+/// What the light makes of a fit that has converged; none in flat light.
+fn shade(sites: &Sites, chosen: &[Site], state: &State, field: &Field, origin: [f64; 2]) -> Option<Shade> {
+    let system = System::of(sites, chosen, state, field, origin, false);
+    let cofactors = system.cofactors()?;
+    let free = system.used.checked_sub(UNKNOWNS).filter(|free| *free >= UNKNOWNS)? as f64;
+    let freed = Freed::of(&system.lit(sites, chosen, state, field, origin), &cofactors)?;
+    // the model's own variances, and what it does not explain
+    let variance = (system.squares[0] / free).max(1.0);
+    freed.shade(&cofactors, state.background, [state.contrast, state.light[0], state.light[1]], variance, 1.0)
+}
+
 impl State {
+    /// Counts the slopes from the outline's centre that were counted from another place.
+    fn count_from(&mut self, before: &[f64; 2]) {
+        let [dx, dy] = [self.outline.u - before[0], self.outline.v - before[1]];
+        let [level, gx, gy] = self.background;
+        self.background = [level + gx * dx + gy * dy, gx, gy];
+        self.contrast += self.light[0] * dx + self.light[1] * dy;
+    }
+
     fn add(&mut self, step: &Unknowns, most: f64) {
         self.outline = self.outline.plus(&step.as_slice()[..5]);
         self.blur = (self.blur + step[5]).clamp(BLUR.0, BLUR.1);

@@ -6,6 +6,7 @@ use super::{Site, Sites, State};
 use crate::detect::acceptance::sites::WHITE;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::rendered::Field;
+use crate::detect::rendered::shade::Lit;
 
 /// u, v, p, q, r, s, contrast, and the ground's level and slopes.
 pub(super) const UNKNOWNS: usize = 10;
@@ -31,8 +32,9 @@ pub(super) fn modelled(site: &Site, state: &State, field: &Field, origin: [f64; 
     } else {
         (0.0, [0.0; 3])
     };
-    let [level, gx, gy] = state.background;
-    Modelled { level: level + gx * x + gy * y + state.contrast * share, share, slopes }
+    let ([level, gx, gy], [hx, hy]) = (state.background, state.light);
+    let disc = state.contrast + hx * x + hy * y;
+    Modelled { level: level + gx * x + gy * y + disc * share, share, slopes }
 }
 
 /// Whether the white level leaves a site alone: by its sample at first, then by what the model expects of it.
@@ -116,6 +118,27 @@ impl System {
         Self { right, ..*self }.solve().map(|moved| [moved[0], moved[1]])
     }
 
+    /// What a slope of the contrast changes, h = (x, y) I, against the unknowns, itself (xx, xy, yy) and the residuals, weighted.
+    pub fn lit(&self, sites: &Sites, chosen: &[Site], state: &State, field: &Field, origin: [f64; 2]) -> Lit {
+        let (mut along, mut own, mut left) = ([Unknowns::zeros(); 2], [0.0; 3], [0.0; 2]);
+        for site in chosen {
+            let model = modelled(site, state, field, origin);
+            if model.share == 0.0 || !counts(sites, site, model.level, false) {
+                continue;
+            }
+            let weight = 1.0 / sites.noise.variance(model.level);
+            let places = [site.x as f64 + 0.5 - origin[0], site.y as f64 + 0.5 - origin[1]];
+            let [x, y] = places.map(|place| place * model.share);
+            let row = Unknowns::from(row(site, state, &model, origin));
+            for (k, lit) in [x, y].into_iter().enumerate() {
+                along[k] += weight * lit * row;
+                left[k] += weight * lit * (site.light - model.level);
+            }
+            own = [own[0] + weight * x * x, own[1] + weight * x * y, own[2] + weight * y * y];
+        }
+        (along, own, left)
+    }
+
     /// Scales of a unit diagonal, and the matrix with a trace of damping for what clipped sites do not determine.
     fn scaled(&self) -> (Normal, Unknowns) {
         let scale = Unknowns::from_fn(|i, _| 1.0 / self.normal[(i, i)].max(1e-300).sqrt());
@@ -134,8 +157,14 @@ impl System {
 
     /// Covariance of the centre with the given weights.
     pub fn covariance(&self) -> Option<[f64; 3]> {
+        let inverse = self.cofactors()?;
+        Some([(0, 0), (0, 1), (1, 1)].map(|place| inverse[place]))
+    }
+
+    /// Covariance of all unknowns with the given weights.
+    pub fn cofactors(&self) -> Option<Normal> {
         let (matrix, scale) = self.scaled();
         let inverse = matrix.cholesky()?.inverse();
-        Some([(0, 0), (0, 1), (1, 1)].map(|(i, j)| inverse[(i, j)] * scale[i] * scale[j]))
+        Some(Normal::from_fn(|i, j| inverse[(i, j)] * scale[i] * scale[j]))
     }
 }
