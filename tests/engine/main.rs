@@ -23,6 +23,7 @@ mod adjust {
 mod detect {
     mod codes;
     mod formats;
+    mod light;
     mod ordinary;
     mod panel;
     mod photos;
@@ -83,6 +84,7 @@ mod support {
     pub mod data;
     pub mod dense;
     pub mod grid_fit;
+    pub mod light;
     pub mod networks;
     pub mod painter;
     pub mod print_shot;
