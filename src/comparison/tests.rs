@@ -183,7 +183,7 @@ fn what_has_no_part_that_stayed_is_not_laid_upon_the_other() {
         let shift = 1 + (uniform(&mut random) * (n - 1) as f64) as usize;
         (0..n).for_each(|k| renumbered.points[k].xyz = again.points[(k + shift) % n].xyz);
         assert!(!unlike(&renumbered));
-        // A mirror image of what is flat within its standard errors is the thing itself.
+        // An object that is flat within its standard errors equals its mirror image.
         if flat > 0.05 {
             let mut mirrored = again.clone();
             let axis = (uniform(&mut random) * 3.0) as usize;

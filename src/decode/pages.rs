@@ -1,4 +1,4 @@
-//! Which picture of a TIFF file is measured: the first that is no reduced copy and no mask.
+//! Selects the page of a TIFF file to measure: the first that is neither a reduced-resolution copy nor a mask.
 //!
 //! TIFF 6.0, `NewSubfileType` (254): bit 0 is a reduced-resolution version of another image of the file, bit 2 a transparency mask; the older
 //! `SubfileType` (255) has 2 for a reduced one. The pictures are those of the chain of directories; a file whose first one is a

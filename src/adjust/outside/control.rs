@@ -25,7 +25,7 @@ use super::retest::unit;
 
 /// Probability that a network without an error names a control point.
 const ALPHA: f64 = 1e-3;
-/// Fewest control points that agree: of four one may be wrong and is told, of three that fit nothing can be said.
+/// Minimum number of agreeing control points: with four, one wrong point can be identified; three fit any error.
 const FEWEST: usize = 4;
 /// Points freed of their coordinates at most, each an adjustment.
 const MOST_FREED: usize = 12;
@@ -101,7 +101,7 @@ fn sides(project: &Project, numbering: &Numbering) -> (Vec<usize>, Vec<usize>) {
     (aside.collect(), used)
 }
 
-/// Refuses a control datum of which too little agrees to tell what is wrong.
+/// Refuses a control datum if too few control points agree to identify the wrong ones.
 ///
 /// # Errors
 /// [`Error::ControlDisagrees`] where control points were set aside and fewer than four, or less than half, are left; where none is

@@ -24,7 +24,7 @@ const UNPREDICTED: f64 = 0.01;
 const MOST_ROUNDS: usize = 3;
 
 /// The image coordinates' standard deviation in units of their a priori ones, from residuals, which large ones do not change; at least 1:
-/// what is as far off as its own standard errors allow fits.
+/// an item within the limit of its own standard errors fits.
 pub fn unit(session: &Session<'_>, options: &AdjustOptions) -> f64 {
     let Ok(residuals) = session.residuals(options) else { return 1.0 };
     let coordinates: Vec<f64> = residuals.into_iter().flatten().collect();
