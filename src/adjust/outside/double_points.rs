@@ -73,8 +73,9 @@ mod tests {
             let covariance = Matrix3::from_diagonal(&sigma.component_mul(&sigma));
             let mut candidates = Vec::new();
             for k in 0..40 {
-                // Six standard errors of both from each other in the weakest direction; the second ten are measured beside each other.
-                let place = Vector3::new(3.0 * f64::from(k % 7), 0.0, 4.5 * f64::from(k / 7));
+                // Twelve standard errors of both from each other in the weakest direction, so that none of 700 pairs is near by chance;
+                // the second ten are measured beside each other.
+                let place = Vector3::new(3.0 * f64::from(k % 7), 0.0, 8.5 * f64::from(k / 7));
                 let noise = Vector3::from_fn(|a, _| sigma[a] * normal());
                 let places = vec![(2 * k as usize, [100.0, 100.0])];
                 candidates.push(Candidate { xyz: place + noise, covariance, places });
