@@ -41,7 +41,7 @@ function everywhere() {
 }
 
 const shown = (page) => page.getAttribute('.strip .chosen [data-photo]', 'data-photo');
-const untilShown = (page, photo) => page.waitForFunction((photo) => document.querySelector('.strip .chosen [data-photo]')?.dataset.photo === photo, String(photo));
+const untilShown = (page, photo) => page.waitForFunction((photo) => document.querySelector('.strip .chosen [data-photo]')?.dataset.photo === photo, String(photo), { timeout: 120_000 });
 
 /** Photos with their targets found, codes unread, at the naming step: what a person has clicked so far. */
 async function withoutCodes(page) {
