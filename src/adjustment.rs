@@ -8,6 +8,7 @@ pub(crate) mod criteria;
 mod features;
 mod given;
 mod left_out;
+mod questions;
 
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +20,9 @@ pub(crate) use criteria::is_distortion;
 pub use features::{FeatureResidual, Measured, MeasuredFeature, MeasuredSystem, Quantity, SystemPoint};
 pub use given::{Given, GivenObservation, GrossError, GrossErrorAction};
 pub use left_out::{LeftOutBy, LeftOutItem, LeftOutKind, LeftOutReason};
+pub use questions::{
+    CameraDoubt, Exchange, ImplausibleCamera, MirroredControl, OneStation, UndecidedAxes, UnitOf, UnitRatio,
+};
 
 /// How the iteration ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -514,6 +518,18 @@ impl Adjustment {
     pub fn standard_errors_estimated(&self) -> bool {
         self.variance_components.iter().any(|component| component.not_estimated.is_none())
     }
+    /// Given coordinates are a mirror image of what the photos show.
+    MirroredControl(MirroredControl),
+    /// Given points lie in a plane, and nothing tells whether their axes are mirrored.
+    UndecidedAxes(UndecidedAxes),
+    /// Something seems to be given in another unit than the rest.
+    UnitRatio(UnitRatio),
+    /// Photos were taken from one place.
+    OneStation(OneStation),
+    /// A camera cannot be what it is said to be.
+    ImplausibleCamera(ImplausibleCamera),
+    /// Nothing gives a scale: lengths are right relative to each other only and have no unit.
+    NoScale,
 }
 
 impl Advice {
