@@ -511,13 +511,6 @@ pub enum Advice {
         /// The pairs.
         pairs: Vec<(String, String)>,
     },
-}
-
-impl Adjustment {
-    /// Whether standard errors were estimated from the residuals, so that sigma0 and the global test say nothing of the fit.
-    pub fn standard_errors_estimated(&self) -> bool {
-        self.variance_components.iter().any(|component| component.not_estimated.is_none())
-    }
     /// Given coordinates are a mirror image of what the photos show.
     MirroredControl(MirroredControl),
     /// Given points lie in a plane, and nothing tells whether their axes are mirrored.
@@ -532,9 +525,32 @@ impl Adjustment {
     NoScale,
 }
 
+impl Adjustment {
+    /// Whether standard errors were estimated from the residuals, so that sigma0 and the global test say nothing of the fit.
+    pub fn standard_errors_estimated(&self) -> bool {
+        self.variance_components.iter().any(|component| component.not_estimated.is_none())
+    }
+}
+
 impl Advice {
     /// Most image observations that a suspicion names.
     pub const SUSPECTS: usize = 20;
+
+    /// Whether it says that something given contradicts the photos. sigma0 and the global test may not show it, so that it stands beside them
+    /// wherever they are stated.
+    pub fn contradicts(&self) -> bool {
+        match self {
+            Self::ControlMisfit { .. }
+            | Self::ExchangedPoints { .. }
+            | Self::Suspected { .. }
+            | Self::MirroredControl(_)
+            | Self::UndecidedAxes(_)
+            | Self::UnitRatio(_)
+            | Self::ImplausibleCamera(_) => true,
+            Self::OneStation(station) => station.all,
+            _ => false,
+        }
+    }
 }
 
 /// Precision of the whole object.

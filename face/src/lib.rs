@@ -23,7 +23,9 @@ use sightline::image::{Grey, Samples};
 use sightline::network::Network;
 use sightline::project::{Camera, GivenPoint, Project};
 use sightline::sensor::{self, Shot};
-use sightline::{Error, adjust, decode, detect, exchange, exif, experiments, features, matching, network, orient, plausibility};
+use sightline::{
+    Error, adjust, decode, detect, exchange, exif, experiments, features, matching, network, orient, plausibility,
+};
 
 #[wasm_bindgen(typescript_custom_section)]
 const DECLARATIONS: &str = include_str!("sightline.d.ts");

@@ -218,6 +218,22 @@ pub enum Note {
     NoScale,
 }
 
+impl Note {
+    /// Whether it says that something given contradicts the photos, like [`Advice::contradicts`](crate::adjustment::Advice::contradicts).
+    pub fn contradicts(&self) -> bool {
+        match self {
+            Self::ControlMisfit { .. }
+            | Self::ExchangedPoints { .. }
+            | Self::MirroredControl(_)
+            | Self::UndecidedAxes(_)
+            | Self::UnitRatio(_)
+            | Self::ImplausibleCamera(_) => true,
+            Self::OneStation(station) => station.all,
+            _ => false,
+        }
+    }
+}
+
 pub(super) fn of_frame(block: &Block, frame: Option<Frame>, scaled: bool) -> Vec<Note> {
     let source = match frame {
         None => return Vec::new(),

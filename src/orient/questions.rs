@@ -51,7 +51,7 @@ pub(super) fn axes(project: &Project, block: &Block) -> Option<Note> {
             let bare = without_given(project);
             let mut start = Block::new(&bare);
             let sources = give_principal_distances(&mut start);
-            let block = Attempt::new(&bare, &start, &start.adjustable, &sources).block;
+            let block = Attempt::new(&bare, &start, &start.adjustable, &sources, true).block;
             axes::question(&pairs(project, &block), &poses(&block))
         }
         _ => None,

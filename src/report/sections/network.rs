@@ -97,7 +97,12 @@ pub fn said(context: &Context, advice: &Advice) -> String {
         Advice::Insignificant { camera, parameter, ratio, .. } => {
             words.weak_insignificant(camera, &parameter_name(*parameter), &fixed(*ratio, 1))
         }
-        Advice::Suspected { count: n, .. } => words.weak_suspected(&count(*n)),
+        Advice::Suspected { count: n, observations, given } => {
+            let given = given.iter().map(|(what, _)| context.given_name(what));
+            let names: Vec<String> =
+                given.chain(observations.iter().map(|(photo, point, _)| format!("{point} – {photo}"))).collect();
+            words.weak_suspected(&count(*n), &listed(names.iter().map(String::as_str), 5))
+        }
         Advice::ControlMisfit { point, difference, sigma_ratio } => {
             let axis = &main_axis(difference);
             let size = context.with_unit(difference[0].hypot(difference[1]).hypot(difference[2]));
@@ -121,15 +126,9 @@ pub fn said(context: &Context, advice: &Advice) -> String {
     }
 }
 
-/// What spoils everything else, and no test of residuals shows; the summary has it as well.
+/// What contradicts the photos, and no test of residuals may show; the summary has it as well.
 pub fn questions(context: &Context) -> Vec<String> {
-    let spoils = |advice: &&Advice| {
-        matches!(
-            advice,
-            Advice::MirroredControl(_) | Advice::UndecidedAxes(_) | Advice::UnitRatio(_) | Advice::ImplausibleCamera(_)
-        ) || matches!(advice, Advice::OneStation(station) if station.all)
-    };
-    context.adjustment.advice.iter().filter(spoils).map(|advice| said(context, advice)).collect()
+    context.adjustment.advice.iter().filter(|a| a.contradicts()).map(|advice| said(context, advice)).collect()
 }
 
 fn exchange(context: &Context, exchange: Exchange) -> String {

@@ -71,7 +71,7 @@ declare! {
     left_of_photos(n, of): "{n} of {of} photos";
     left_of_points(n, of): "{n} of {of} object points";
     left_of_parameters(n): "{n} camera {n:parameter|parameters}";
-    left_largest(names): "The largest that were not used: {names}.";
+    left_named(names): "Among them: {names}.";
     left_out_short: "not used";
     pixels(n): "{n} px";
     left_out_by: "by";
@@ -177,7 +177,7 @@ declare! {
     weak_sigmas(sigma0): "The residuals are larger than the standard deviations of the image coordinates say (σ₀ {sigma0}).";
     weak_unmodelled(sigma0): "The unmodelled part belongs to other weights: σ₀ is {sigma0}.";
     weak_insignificant(camera, name, ratio): "Camera {camera}: {name} is {ratio} of its standard deviations and not told from 0.";
-    weak_suspected(n): "{n} {n:observation is|observations are} suspected of a gross error.";
+    weak_suspected(n, names): "{n} {n:observation is|observations are} suspected of a gross error: {names}.";
     control_misfit(point, size, sigmas, axis): "Control point {point} is {size} ({sigmas} sigma) from where the photos see it, mainly in {axis}.";
     exchanged_points(a, b): "Control points {a} and {b} seem exchanged.";
     double_points(n, pairs): "{n} {n:pair|pairs} of points are nearer to each other than their standard errors tell apart: {pairs}.";

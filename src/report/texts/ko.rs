@@ -68,7 +68,7 @@ translate! { Korean {
     left_of_photos(n, of): "사진 {of}매 중 {n}매";
     left_of_points(n, of): "대상점 {of}점 중 {n}점";
     left_of_parameters(n): "카메라 변수 {n}개";
-    left_largest(names): "사용하지 않은 것 가운데 가장 큰 것: {names}.";
+    left_named(names): "주요 항목: {names}.";
     left_out_short: "사용하지 않음";
     pixels(n): "{n} px";
     left_out_by: "제외한 단계";
@@ -174,7 +174,7 @@ translate! { Korean {
     weak_sigmas(sigma0): "잔차가 영상좌표의 표준오차보다 큽니다(σ₀ {sigma0}).";
     weak_unmodelled(sigma0): "모형화되지 않은 부분이 다른 가중치의 것입니다(σ₀ {sigma0}).";
     weak_insignificant(camera, name, ratio): "카메라 {camera}: {name} 값은 표준오차의 {ratio}배로 0과 구별되지 않습니다.";
-    weak_suspected(n): "관측값 {n}개가 과대오차로 의심됩니다.";
+    weak_suspected(n, names): "관측값 {n}개가 과대오차로 의심됩니다: {names}.";
     control_misfit(point, size, sigmas, axis): "기준점 {point}의 좌표가 사진에서 구한 위치와 {size}({sigmas} 시그마) 다릅니다. 주로 {axis} 방향입니다.";
     exchanged_points(a, b): "기준점 {a}{a:과|와} {b}의 좌표가 서로 바뀐 것으로 보입니다.";
     double_points(n, pairs): "표준오차로 구분되지 않을 만큼 가까운 점 {n}쌍: {pairs}.";

@@ -82,6 +82,46 @@ pub fn Advice() -> impl IntoView {
     }
 }
 
+/// What contradicts the photos, a line each beside sigma0, which may not show it.
+#[component]
+pub fn Contradictions() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let found = Memo::new(move |_| {
+        let mut found = desk.document.with(|d| {
+            let Some(result) = d.current() else { return Vec::new() };
+            let advice = result.adjustment.advice.iter().filter(|advice| advice.contradicts());
+            advice.map(|advice| network_item(advice, &result.adjustment.criteria)).collect::<Vec<_>>()
+        });
+        if desk.document.with(|d| d.current().is_some()) {
+            let noted = desk
+                .notes
+                .with(|all| all.iter().filter(|note| note.contradicts()).filter_map(note_item).collect::<Vec<_>>());
+            found.extend(noted);
+        }
+        let mut said = HashSet::new();
+        found.retain(|item| said.insert(item.title.clone()));
+        found
+    });
+    move || {
+        let items = found.get();
+        let show = move |_| desk.go(Step::Adjust);
+        (!items.is_empty()).then(|| {
+            view! {
+                <ul class="contradictions" role="alert" data-result="contradictions">
+                    {items.into_iter().map(|item| view! {
+                        <li>
+                            <Glyph icon=Icon::Warning/>
+                            <b>{item.title}</b>
+                            <span class="evidence">{item.evidence}</span>
+                            <button class="link" on:click=show>{text::show}</button>
+                        </li>
+                    }).collect_view()}
+                </ul>
+            }
+        })
+    }
+}
+
 fn follow(desk: Desk, target: &Target) {
     match target {
         Target::None => {}
@@ -639,7 +679,7 @@ mod tests {
                 | A::Suspected { .. }
                 | A::ControlMisfit { .. }
                 | A::ExchangedPoints { .. }
-                | A::DoublePoints { .. } => {}
+                | A::DoublePoints { .. }
                 | A::MirroredControl(_)
                 | A::UndecidedAxes(_)
                 | A::UnitRatio(_)
