@@ -29,7 +29,7 @@ use crate::features::{self, Function};
 use crate::project::{Datum, DatumKind, Parameter, Project, Role};
 
 use diagnosis::judgement::judgement;
-use diagnosis::{advice, structure};
+use diagnosis::{advice, questions, structure};
 use outside::control::{Comparison, Findings};
 pub(crate) use outside::double_points::{Candidate, pairs as pairs_of_one};
 use problem::additional::{Key, LeftOut};
@@ -46,13 +46,16 @@ pub use problem::unmodelled::estimate as unmodelled;
 /// # Errors
 /// Whatever [`Project::validate`] finds; [`crate::Error::Empty`] without observations;
 /// [`crate::Error::MissingInitialValues`]; [`crate::Error::RankDefect`] when the network does not determine what is to be
-/// estimated. An iteration that does not converge is a result.
+/// estimated, or when all photos were taken from one place. An iteration that does not converge is a result.
 pub fn adjust(
     project: &Project,
     options: &AdjustOptions,
     on_iteration: &mut dyn FnMut(&Iteration) -> bool,
 ) -> Result<Adjustment> {
     project.validate()?;
+    if let Some(error) = questions::one_place(project) {
+        return Err(error);
+    }
     let document = project;
     let weighted = unmodelled::weighted(project, options.unmodelled)?;
     let sized = eccentric::sized(weighted, options.target_diameter)?;
@@ -94,7 +97,8 @@ pub fn adjust(
     if adjustment.standard_errors_estimated() {
         adjustment.global_test = None;
     }
-    adjustment.advice = judgement(&adjustment, unmodelled::estimate(document, &adjustment));
+    adjustment.advice = questions::questions(document, session.network.bars.len(), &adjustment);
+    adjustment.advice.extend(judgement(&adjustment, unmodelled::estimate(document, &adjustment)));
     adjustment.advice.extend(advice::advice(project, &session.network, &session.state, &adjustment));
     if !searching && matches!(termination, Termination::IterationLimit | Termination::Diverged) {
         // Its own residuals show no gross error: those of a robust start do.

@@ -8,6 +8,7 @@ pub(crate) mod criteria;
 mod features;
 mod given;
 mod left_out;
+mod questions;
 
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +20,9 @@ pub(crate) use criteria::is_distortion;
 pub use features::{FeatureResidual, Measured, MeasuredFeature, MeasuredSystem, Quantity, SystemPoint};
 pub use given::{Given, GivenObservation, GrossError, GrossErrorAction};
 pub use left_out::{LeftOutBy, LeftOutItem, LeftOutKind, LeftOutReason};
+pub use questions::{
+    CameraDoubt, Exchange, ImplausibleCamera, MirroredControl, OneStation, UndecidedAxes, UnitOf, UnitRatio,
+};
 
 /// How the iteration ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -507,6 +511,18 @@ pub enum Advice {
         /// The pairs.
         pairs: Vec<(String, String)>,
     },
+    /// Given coordinates are a mirror image of what the photos show.
+    MirroredControl(MirroredControl),
+    /// Given points lie in a plane, and nothing tells whether their axes are mirrored.
+    UndecidedAxes(UndecidedAxes),
+    /// Something seems to be given in another unit than the rest.
+    UnitRatio(UnitRatio),
+    /// Photos were taken from one place.
+    OneStation(OneStation),
+    /// A camera cannot be what it is said to be.
+    ImplausibleCamera(ImplausibleCamera),
+    /// Nothing gives a scale: lengths are right relative to each other only and have no unit.
+    NoScale,
 }
 
 impl Adjustment {
@@ -519,6 +535,22 @@ impl Adjustment {
 impl Advice {
     /// Most image observations that a suspicion names.
     pub const SUSPECTS: usize = 20;
+
+    /// Whether it says that something given contradicts the photos. sigma0 and the global test may not show it, so that it stands beside them
+    /// wherever they are stated.
+    pub fn contradicts(&self) -> bool {
+        match self {
+            Self::ControlMisfit { .. }
+            | Self::ExchangedPoints { .. }
+            | Self::Suspected { .. }
+            | Self::MirroredControl(_)
+            | Self::UndecidedAxes(_)
+            | Self::UnitRatio(_)
+            | Self::ImplausibleCamera(_) => true,
+            Self::OneStation(station) => station.all,
+            _ => false,
+        }
+    }
 }
 
 /// Precision of the whole object.

@@ -126,6 +126,11 @@ pub enum Defect {
         /// Camera parameters taking part, as `camera.parameter`.
         parameters: Vec<String>,
     },
+    /// All photos were taken from one place: there is no depth and no principal distance.
+    OneStation {
+        /// The photos.
+        photos: Vec<String>,
+    },
 }
 
 /// What is wrong with a picture's file.
@@ -342,7 +347,9 @@ impl Defect {
         match self {
             Self::NoDatum { .. } => Place::field("datum"),
             Self::TooFewRays { points } => Place { point: points.first().cloned(), ..Place::default() },
-            Self::PhotoUndetermined { photos } => Place { photo: photos.first().cloned(), ..Place::default() },
+            Self::PhotoUndetermined { photos } | Self::OneStation { photos } => {
+                Place { photo: photos.first().cloned(), ..Place::default() }
+            }
             Self::NotTied { groups } => {
                 Place { photo: groups.get(1).and_then(|g| g.first()).cloned(), ..Place::default() }
             }
@@ -458,6 +465,12 @@ impl fmt::Display for Defect {
                 }
                 f.write_str(" hold or observe some of them, or add rays")
             }
+            Self::OneStation { photos } => write!(
+                f,
+                "all photos were taken from one place ({}): they show neither depth nor principal distance; take photos from \
+                 other places, or give control points",
+                listed(photos)
+            ),
         }
     }
 }

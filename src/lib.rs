@@ -76,6 +76,7 @@ pub mod network;
 pub mod noise;
 pub mod orient;
 pub mod plan;
+pub mod plausibility;
 pub mod project;
 pub mod render;
 pub mod report;

@@ -24,6 +24,7 @@ mod neighbour;
 mod note;
 mod plane;
 mod principal_distance;
+mod questions;
 mod readmission;
 mod refine;
 mod remaining;
@@ -47,6 +48,7 @@ use refine::{Freedom, distance_sigmas_px, refine};
 
 use crate::error::{Error, Lack, Result};
 use crate::initial::robust::quantile;
+use crate::plausibility::{cameras, one_station};
 use crate::project::{Parameter, Project, Role};
 use crate::rotation;
 
@@ -71,11 +73,21 @@ const FINE_SIGMAS: f64 = 3.0;
 /// the document is inconsistent. A project that cannot be oriented is no error: the notes say what is missing.
 pub fn orient(project: &Project) -> Result<Oriented> {
     project.validate()?;
+    let doubts = cameras::implausible(project);
+    let (given, believed) = (project, cameras::without(project, &doubts));
+    let project = believed.as_ref().unwrap_or(project);
     let mut start = Block::new(project);
     for (what, missing) in [(Lack::Photos, project.photos.is_empty()), (Lack::Observations, start.sights.is_empty())] {
         if missing {
             return Err(Error::Empty { what });
         }
+    }
+    let station = one_station::is_all(project);
+    if let Some(station) = station.as_ref().filter(|_| !questions::is_known(&start)) {
+        // No depth and no principal distance: whatever were adjusted here would be noise.
+        let notes = doubts.into_iter().map(Note::ImplausibleCamera);
+        let notes = std::iter::once(Note::OneStation(station.clone())).chain(notes).collect();
+        return Ok(Oriented { project: project.clone(), notes });
     }
     let sources = give_principal_distances(&mut start);
     let mut attempt = Attempt::new(project, &start, &start.adjustable, &sources, true);
@@ -94,7 +106,9 @@ pub fn orient(project: &Project) -> Result<Oriented> {
             attempt = again;
         }
     }
-    let Attempt { block, apart, frame, scaled, .. } = attempt;
+    let Attempt { mut block, apart, frame, scaled, .. } = attempt;
+    let misframed = questions::misframed(project, &mut block);
+    let axes = questions::axes(project, &block);
     let sigmas = distance_sigmas_px(&block);
     let mut notes = note::of_frame(&block, frame, scaled);
     notes.extend(note::of_cameras(project, &block, &sources, &sigmas));
@@ -105,6 +119,17 @@ pub fn orient(project: &Project) -> Result<Oriented> {
     notes.extend(note::of_observations(project, &block));
     let doubles = doubles::notes(project, &block);
     let mut project = filled(project, &block);
+    let mut questions = questions::units(given, &project);
+    questions.extend(axes);
+    questions.extend(
+        station
+            .map_or_else(|| one_station::groups(&project), |station| vec![station])
+            .into_iter()
+            .map(Note::OneStation),
+    );
+    questions.extend(doubts.into_iter().chain(misframed).map(Note::ImplausibleCamera));
+    questions.extend((frame.is_some() && !scaled && block.oriented() > 0).then_some(Note::NoScale));
+    notes.splice(0..0, questions);
     set_aside(&mut project, &block);
     notes.extend(note::of_control(&project, frame));
     notes.extend(doubles);

@@ -21,7 +21,7 @@ use crate::error::{Defect, Result};
 use crate::project::{Parameter, Plan, PlanStation};
 
 pub use form::{check_form, faces_on, least_diameter, targets_on};
-pub use make::{Made, MakeOptions, make};
+pub use make::{Ended, Made, MakeOptions, make};
 pub use origin::{from_network, from_project};
 pub use suggest::{Suggested, suggest};
 

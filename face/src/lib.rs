@@ -23,7 +23,9 @@ use sightline::image::{Grey, Samples};
 use sightline::network::Network;
 use sightline::project::{Camera, GivenPoint, Project};
 use sightline::sensor::{self, Shot};
-use sightline::{Error, adjust, decode, detect, exchange, exif, experiments, features, matching, network, orient};
+use sightline::{
+    Error, adjust, decode, detect, exchange, exif, experiments, features, matching, network, orient, plausibility,
+};
 
 #[wasm_bindgen(typescript_custom_section)]
 const DECLARATIONS: &str = include_str!("sightline.d.ts");
@@ -278,6 +280,20 @@ pub fn predict_point(
 pub fn orient_project(#[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue) -> Thrown {
     let oriented = value::project(&project).and_then(|project| orient::orient(&project));
     oriented.map(value::oriented_object).map_err(|error| thrown(&error))
+}
+
+/// The project with two axes of everything given in the object's system exchanged, or one with the other sign; orientations and tie points
+/// become null. What `orient` and `adjust` propose as `mirrored_control`.
+#[wasm_bindgen(js_name = exchangeAxes, unchecked_return_type = "Project")]
+pub fn exchange_axes(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Exchange")] exchange: JsValue,
+) -> Thrown {
+    let exchanged = || {
+        let exchange = value::read(&exchange, "exchange")?;
+        Ok(plausibility::exchange_axes(&value::project(&project)?, exchange))
+    };
+    exchanged().map(value::project_object).map_err(|error: Error| thrown(&error))
 }
 
 /// Adjusts the project; every iteration is shown to `options.on_iteration`, which stops the work by returning false.

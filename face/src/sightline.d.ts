@@ -502,7 +502,14 @@ export type Advice =
   /** Two control points whose coordinates fit when they are exchanged. */
   | { kind: "exchanged_points"; points: [string, string] }
   /** Points nearer to each other than their standard errors tell apart. */
-  | { kind: "double_points"; pairs: [string, string][] };
+  | { kind: "double_points"; pairs: [string, string][] }
+  | ({ kind: "mirrored_control" } & MirroredControl)
+  | ({ kind: "undecided_axes" } & UndecidedAxes)
+  | ({ kind: "unit_ratio" } & UnitRatio)
+  | ({ kind: "one_station" } & OneStation)
+  | ({ kind: "implausible_camera" } & ImplausibleCamera)
+  /** Nothing gives a scale: lengths are right relative to each other only and have no unit. */
+  | { kind: "no_scale" };
 
 /** An item of the input that took no part in the adjustment. */
 export interface LeftOut {
@@ -532,6 +539,58 @@ export interface LeftOut {
   /** The same in standard errors of the difference; absent without statistics. */
   size_sigma?: number;
 }
+
+/** Two axes exchanged, or one with the other sign. */
+export type Exchange = "xy" | "xz" | "yz" | "x" | "y" | "z";
+
+/** Given coordinates are a mirror image of what the photos show. `exchange` undoes it; `alternatives` would as well, and photos and sizes of
+ * coordinates do not tell which it was. Standard deviations of a coordinate in the similarity of both, project unit. */
+export interface MirroredControl {
+  exchange: Exchange;
+  alternatives?: Exchange[];
+  rms_given: number;
+  rms_exchanged: number;
+  points: number;
+}
+
+/** Given points lie in a plane, and nothing tells whether their axes are mirrored. With the axes as given the cameras stand on the side that
+ * `normal` points to. */
+export interface UndecidedAxes {
+  points: number;
+  normal: [number, number, number];
+}
+
+/** Something is `ratio` times as long as the rest implies, about as much as two units differ (`nearest`: 1000, 25.4, 304.8, 10, 12, 100 ...
+ * or an inverse). */
+export interface UnitRatio {
+  of: "control" | "distance" | "camera";
+  ratio: number;
+  nearest: number;
+  /** The distances compared. */
+  distances?: [string, string][];
+  /** The camera whose principal distance it is. */
+  camera?: string;
+}
+
+/** Photos taken from one place; all of them: there is no depth and no principal distance. */
+export interface OneStation {
+  photos: string[];
+  all: boolean;
+}
+
+/** A camera that cannot be what it is said to be; orientation does not use it as given. */
+export type ImplausibleCamera = { camera: string } & (
+  /** Along the longer side, radians; below 1° or above 150°. `pixels`: the camera has no pixel pitch, so that `value` counts pixels. */
+  | { reason: "field_of_view"; angle: number; value: number; pixels: boolean }
+  /** Photos with measurements outside of the camera's pictures; largest u and v. */
+  | { reason: "image_size"; photos: string[]; size: [number, number]; measured: [number, number] }
+  /** A photo of `factor` times the camera's size. */
+  | { reason: "resized"; photo: string; factor: number }
+  /** A photo that is the part of a picture that begins at `offset`, pixels. */
+  | { reason: "cropped"; photo: string; offset: [number, number] }
+  /** A photo taken at another principal distance. */
+  | { reason: "other_distance"; photo: string; value: number }
+);
 
 /** An estimated variance component. */
 export interface VarianceComponent {
@@ -976,7 +1035,14 @@ export type Note =
   /** Two control points whose coordinates fit when they are exchanged. */
   | { note: "exchanged_points"; points: [string, string] }
   /** Points nearer to each other than their standard errors tell apart. */
-  | { note: "double_points"; pairs: [string, string][] };
+  | { note: "double_points"; pairs: [string, string][] }
+  | ({ note: "mirrored_control" } & MirroredControl)
+  | ({ note: "undecided_axes" } & UndecidedAxes)
+  | ({ note: "unit_ratio" } & UnitRatio)
+  /** Without control points and all photos: nothing is oriented. */
+  | ({ note: "one_station" } & OneStation)
+  | ({ note: "implausible_camera" } & ImplausibleCamera)
+  | { note: "no_scale" };
 
 export interface OrientedProject extends Project {
   notes: Note[];
@@ -1262,6 +1328,12 @@ export interface MadePlan {
   stations: PlanStation[];
   prediction: PlanPrediction;
   compared: number;
+  /** Why the search ended; what the plan lacks then is in `prediction.lacks`. */
+  ended:
+    | { why: "reached" | "no_place" | "time" }
+    | { why: "most_photos"; most: number }
+    /** So many further photos gained nothing. */
+    | { why: "no_gain"; tried: number };
 }
 
 /** A grey picture, row by row from the top left. */

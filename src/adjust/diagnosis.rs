@@ -3,6 +3,7 @@
 pub mod advice;
 pub mod judgement;
 mod null_space;
+pub mod questions;
 pub mod rank_defect;
 pub mod slips;
 pub mod structure;

@@ -6,6 +6,7 @@ use super::absolute::Frame;
 use super::block::{Block, principal_distance_px};
 use super::tied;
 use crate::adjust::wrong_control;
+use crate::adjustment::{ImplausibleCamera, MirroredControl, OneStation, UndecidedAxes, UnitRatio};
 use crate::initial::Degeneracy;
 use crate::project::{DatumKind, Project, Role};
 
@@ -203,6 +204,34 @@ pub enum Note {
         /// The pairs.
         pairs: Vec<(String, String)>,
     },
+    /// Given coordinates are a mirror image of what the photos show.
+    MirroredControl(MirroredControl),
+    /// Given points lie in a plane, and nothing tells whether their axes are mirrored.
+    UndecidedAxes(UndecidedAxes),
+    /// Something seems to be given in another unit than the rest.
+    UnitRatio(UnitRatio),
+    /// Photos were taken from one place.
+    OneStation(OneStation),
+    /// A camera cannot be what it is said to be, and is not used as given.
+    ImplausibleCamera(ImplausibleCamera),
+    /// Nothing gives a scale.
+    NoScale,
+}
+
+impl Note {
+    /// Whether it says that something given contradicts the photos, like [`Advice::contradicts`](crate::adjustment::Advice::contradicts).
+    pub fn contradicts(&self) -> bool {
+        match self {
+            Self::ControlMisfit { .. }
+            | Self::ExchangedPoints { .. }
+            | Self::MirroredControl(_)
+            | Self::UndecidedAxes(_)
+            | Self::UnitRatio(_)
+            | Self::ImplausibleCamera(_) => true,
+            Self::OneStation(station) => station.all,
+            _ => false,
+        }
+    }
 }
 
 pub(super) fn of_frame(block: &Block, frame: Option<Frame>, scaled: bool) -> Vec<Note> {

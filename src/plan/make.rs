@@ -52,6 +52,32 @@ pub struct Made {
     pub prediction: Prediction,
     /// How many sets of photos were judged.
     pub compared: usize,
+    /// Why the search ended.
+    #[serde(default)]
+    pub ended: Ended,
+}
+
+/// Why a search for a plan ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "why", rename_all = "snake_case")]
+pub enum Ended {
+    /// The plan reaches what is wanted.
+    #[default]
+    Reached,
+    /// It has as many photos as it may have.
+    MostPhotos {
+        /// How many that are.
+        most: usize,
+    },
+    /// No further photo makes it better: the limit is the object, the camera, or where photos can be taken.
+    NoGain {
+        /// Photos that were added without any gain.
+        tried: usize,
+    },
+    /// No other place shows enough points of the plan.
+    NoPlace,
+    /// The search has spent the time it may take.
+    Time,
 }
 
 /// The search with what it has spent.
@@ -110,6 +136,17 @@ impl Search<'_> {
         tied.into_iter().find(|tied| !tied.is_empty()).unwrap_or(free)
     }
 
+    /// How much a photo's attitude differs from that of the chosen photo which is most like it, radians; roll counts like direction.
+    fn variety(&self, chosen: &[usize], other: usize) -> f64 {
+        let own = &self.pool[other].pose.object_to_camera;
+        let shots = self.shots(chosen);
+        let turns = shots.iter().map(|shot| {
+            let turn = own * shot.pose.object_to_camera.transpose();
+            (0.5 * (turn.trace() - 1.0)).clamp(-1.0, 1.0).acos()
+        });
+        turns.fold(f64::INFINITY, f64::min)
+    }
+
     /// Exchanges single photos until the goal is reached or nothing gets better.
     fn exchange(&mut self, chosen: &mut [usize], mut best: f64) -> f64 {
         for _ in 0..ROUNDS {
@@ -156,6 +193,7 @@ pub fn make(plan: &Plan, options: &MakeOptions, progress: Progress) -> Result<Ma
     let mut chosen: Vec<usize> = Vec::new();
     let mut best = search.judge(&chosen);
     let (mut least, mut of) = (best, 0);
+    let mut ended = Ended::MostPhotos { most };
     while best > goal && chosen.len() < most && !search.spent() {
         if !progress(chosen.len(), 2 * most) {
             return Err(Error::Cancelled);
@@ -168,23 +206,32 @@ pub fn make(plan: &Plan, options: &MakeOptions, progress: Progress) -> Result<Ma
             let step = (search.pool.len() / ADDED).max(1);
             promising.extend(search.tied(&chosen).into_iter().step_by(step));
         }
-        let mut added: Option<(f64, usize)> = None;
+        // A network that is not determined has the same value whatever is added: then the photo that differs most from the others, in
+        // direction or roll, is what determines a camera.
+        let mut added: Option<(f64, f64, usize)> = None;
         for other in promising {
             let mut trial = chosen.clone();
             trial.push(other);
-            let value = search.judge(&trial);
-            if added.is_none_or(|(least, _)| value < least) {
-                added = Some((value, other));
+            let (value, variety) = (search.judge(&trial), search.variety(&chosen, other));
+            if added.is_none_or(|(least, most, _)| value < least || value == least && variety > most) {
+                added = Some((value, variety, other));
             }
         }
-        let Some((value, other)) = added else { break };
+        let Some((value, _, other)) = added else {
+            ended = Ended::NoPlace;
+            break;
+        };
         chosen.push(other);
         best = value;
         if best < least {
             (least, of) = (best, chosen.len());
         } else if chosen.len() >= of + PATIENCE {
+            ended = Ended::NoGain { tried: PATIENCE };
             break;
         }
+    }
+    if search.spent() && matches!(ended, Ended::MostPhotos { .. }) && chosen.len() < most {
+        ended = Ended::Time;
     }
     // What gained nothing in the end is not asked of anybody.
     if best > goal && of > 0 {
@@ -226,7 +273,8 @@ pub fn make(plan: &Plan, options: &MakeOptions, progress: Progress) -> Result<Ma
     name(&mut shots, search.taken.len());
     let prediction = judged(&setup, &shots);
     let stations = shots.into_iter().map(|shot| shot.station).collect();
-    Ok(Made { stations, prediction, compared: search.compared })
+    let ended = if prediction.reached { Ended::Reached } else { ended };
+    Ok(Made { stations, prediction, compared: search.compared, ended })
 }
 
 /// Numbers for the new photos, in the order of their directions, so that one walks around the object once.

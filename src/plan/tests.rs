@@ -380,3 +380,30 @@ fn a_network_read_by_its_numbering_is_the_one_read_by_names() {
         );
     }
 }
+
+#[test]
+fn a_plate_calibrates_its_camera_fully() {
+    for (width, height, upright) in [(1000.0, 800.0, false), (2000.0, 1500.0, true)] {
+        let form = Form::Plane { width, height, columns: 6, rows: 5, upright, diameter: width / 100.0 };
+        let (points, faces) = targets_on(&form).expect("targets");
+        let mut plan = Plan { cameras: vec![camera()], form: Some(form), points, faces, ..Plan::default() };
+        plan.cameras[0].free = Parameter::BROWN.to_vec();
+        plan.wanted.precision = 0.05;
+        let made = make(&plan, &MakeOptions::default(), &mut |_, _| true).expect("a plan");
+        let rolls: Vec<i32> = made.stations.iter().map(|s| s.roll.to_degrees().round() as i32).collect();
+        assert!(made.prediction.reached && made.ended == Ended::Reached, "{rolls:?}: {:?}", made.prediction.lacks);
+        assert!(rolls.contains(&0) && rolls.contains(&90), "{rolls:?}");
+    }
+}
+
+#[test]
+fn a_search_says_why_it_ended() {
+    let mut plan = wall();
+    plan.stations.clear();
+    plan.wanted.precision = 1e-6;
+    let few = make(&plan, &MakeOptions { most: 4 }, &mut |_, _| true).expect("a plan");
+    assert_eq!(few.ended, Ended::MostPhotos { most: 4 });
+    plan.wanted.precision = 0.1;
+    let reached = make(&plan, &MakeOptions::default(), &mut |_, _| true).expect("a plan");
+    assert_eq!((reached.ended, reached.prediction.reached), (Ended::Reached, true));
+}

@@ -6,6 +6,7 @@ use super::names;
 use super::number::{decimals_for, fixed, maybe};
 use super::texts::{Words, words};
 use crate::adjustment::{AdjustedObservation, Adjustment, Given};
+use crate::plausibility::scale;
 use crate::project::{Camera, Point, Project, ReportLanguage, ReportSettings, Role};
 
 /// What every section reads.
@@ -14,8 +15,10 @@ pub struct Context<'a> {
     pub adjustment: &'a Adjustment,
     pub words: &'static dyn Words,
     pub language: ReportLanguage,
-    /// Of lengths in the object.
+    /// Of lengths in the object; says that there is none where nothing gives a scale.
     pub unit: &'a str,
+    /// Whether anything gives a scale.
+    pub scaled: bool,
     /// Decimals of object coordinates: two digits of the smallest mean standard error.
     pub decimals: usize,
     /// Unit of residuals.
@@ -28,13 +31,17 @@ pub struct Context<'a> {
 impl<'a> Context<'a> {
     pub fn new(project: &'a Project, adjustment: &'a Adjustment) -> Self {
         let language = project.report.language.unwrap_or_default();
+        let is_distance = |what: &Given| matches!(what, Given::Distance { .. });
+        let distances = adjustment.given.iter().filter(|given| given.enabled && is_distance(&given.what)).count();
+        let scaled = scale::is_given(project, distances);
         let typical = adjustment.precision.as_ref().map_or(0.001, |p| smallest(&p.rms_sigma));
         Self {
             project,
             adjustment,
             words: words(language),
             language,
-            unit: &project.unit,
+            unit: if scaled { project.unit.as_str() } else { words(language).no_unit() },
+            scaled,
             decimals: decimals_for(typical),
             residual_unit: names::common_unit(adjustment).1,
             factors: names::factors(adjustment),
@@ -66,7 +73,12 @@ impl<'a> Context<'a> {
 
     /// The same with its unit.
     pub fn with_unit(&self, value: f64) -> String {
-        format!("{} {}", self.length(value), self.unit)
+        self.in_unit(&self.length(value))
+    }
+
+    /// A length in words with its unit, if it has one.
+    pub fn in_unit(&self, length: &str) -> String {
+        if self.scaled { format!("{length} {}", self.unit) } else { length.to_owned() }
     }
 
     pub fn maybe_length(&self, value: Option<f64>) -> String {

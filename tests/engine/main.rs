@@ -52,6 +52,7 @@ mod orient {
     mod left_out;
     mod naming;
     mod orientation;
+    mod questions;
     mod seeded;
 }
 

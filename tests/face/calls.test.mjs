@@ -112,6 +112,7 @@ function calls() {
     snapMarks: [[project, named, {}], 20],
     matchUncoded: [[project, named, {}], 2],
     predict: [[project, null, '4', {}], 10],
+    exchangeAxes: [[project, 'xy'], 1],
     orient: [[project], 2],
     adjust: [[project, { max_iterations: 10 }], 4],
     applyAdjustment: [[project, adjustment], 10],

@@ -85,7 +85,7 @@ impl View<'_> {
         let bar = round_below(90.0 / self.scale);
         let long = bar * self.scale;
         svg.path("edge", &[[14.0, bottom - 6.0], [14.0, bottom], [14.0 + long, bottom], [14.0 + long, bottom - 6.0]]);
-        svg.label("axis", [20.0 + long, bottom], Anchor::Start, &format!("{} {}", round(bar), self.context.unit));
+        svg.label("axis", [20.0 + long, bottom], Anchor::Start, &self.context.in_unit(&round(bar)));
         let names = ["X", "Y", "Z"];
         let axes = format!("{} →  {} ↑", names[h], names[v]);
         svg.label("strong", [WIDTH - 14.0, bottom], Anchor::End, &axes);

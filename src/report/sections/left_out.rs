@@ -102,17 +102,23 @@ impl<'a> LeftOut<'a> {
         words.not_used(&parts.join(", "))
     }
 
-    /// The largest by name; empty where none has a size.
-    fn largest(&self, context: &Context) -> Vec<String> {
+    /// What matters most, by name: photos, control points and distances, then the largest measurements.
+    fn named(&self, context: &Context) -> Vec<String> {
+        let is_whole = |item: &&Cow<LeftOutItem>| {
+            let kinds = [LeftOutKind::Photo, LeftOutKind::Control, LeftOutKind::Distance];
+            kinds.contains(&item.kind) && !is_coordinate(item)
+        };
+        let whole = self.items.iter().filter(is_whole);
+        let whole = whole.map(|item| format!("{} {}", kind(context, item.kind), name(context, item)));
         let mut sized: Vec<&LeftOutItem> =
             self.items.iter().map(|item| &**item).filter(|item| item.size_px.is_some()).collect();
         let size = |item: &LeftOutItem| item.size_sigma.or(item.size_px).unwrap_or_default();
         sized.sort_by(|a, b| size(b).total_cmp(&size(a)));
-        let named = sized.iter().take(NAMED).map(|item| {
+        let sized = sized.iter().map(|item| {
             let px = context.words.pixels(&fixed(item.size_px.unwrap_or_default(), 1));
             format!("{} ({px})", name(context, item))
         });
-        named.collect()
+        whole.chain(sized).take(NAMED).collect()
     }
 }
 
@@ -131,17 +137,17 @@ fn name(context: &Context, item: &LeftOutItem) -> String {
     }
 }
 
-/// What a summary says: how much, the largest by name, and control that does not fit.
+/// What a summary says: how much, what matters most by name, and points that may be one.
 pub fn summary(context: &Context, html: &mut Html) {
     let words = context.words;
     let left_out = LeftOut::of(context);
     html.p(&left_out.sentence(context));
-    let largest = left_out.largest(context);
-    if !largest.is_empty() {
-        html.p(&words.left_largest(&listed(largest.iter().map(String::as_str), NAMED)));
+    let named = left_out.named(context);
+    if !named.is_empty() {
+        html.p(&words.left_named(&listed(named.iter().map(String::as_str), NAMED)));
     }
     for advice in &context.adjustment.advice {
-        if let Advice::ControlMisfit { .. } | Advice::ExchangedPoints { .. } | Advice::DoublePoints { .. } = advice {
+        if let Advice::DoublePoints { .. } = advice {
             html.p(&super::network::said(context, advice));
         }
     }

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::adjustment::Advice;
+use crate::adjustment::{Advice, CameraDoubt, Exchange, ImplausibleCamera, OneStation, UnitOf, UnitRatio};
 use crate::report::context::{Context, listed};
 use crate::report::html::{Html, Table};
 use crate::report::names::parameter_name;
-use crate::report::number::{count, fixed};
+use crate::report::number::{compact, count, fixed};
 
 pub fn write(context: &Context, html: &mut Html) {
     let (words, a) = (context.words, context.adjustment);
@@ -97,7 +97,12 @@ pub fn said(context: &Context, advice: &Advice) -> String {
         Advice::Insignificant { camera, parameter, ratio, .. } => {
             words.weak_insignificant(camera, &parameter_name(*parameter), &fixed(*ratio, 1))
         }
-        Advice::Suspected { count: n, .. } => words.weak_suspected(&count(*n)),
+        Advice::Suspected { count: n, observations, given } => {
+            let given = given.iter().map(|(what, _)| context.given_name(what));
+            let names: Vec<String> =
+                given.chain(observations.iter().map(|(photo, point, _)| format!("{point} – {photo}"))).collect();
+            words.weak_suspected(&count(*n), &listed(names.iter().map(String::as_str), 5))
+        }
         Advice::ControlMisfit { point, difference, sigma_ratio } => {
             let axis = &main_axis(difference);
             let size = context.with_unit(difference[0].hypot(difference[1]).hypot(difference[2]));
@@ -105,5 +110,73 @@ pub fn said(context: &Context, advice: &Advice) -> String {
         }
         Advice::ExchangedPoints { points: [a, b] } => words.exchanged_points(a, b),
         Advice::DoublePoints { pairs: all } => words.double_points(&count(all.len()), &pairs(all)),
+        Advice::MirroredControl(mirrored) => {
+            let [given, exchanged] =
+                [mirrored.rms_given, mirrored.rms_exchanged].map(|rms| context.in_unit(&compact(rms)));
+            words.weak_mirrored(&exchange(context, mirrored.exchange), &exchanged, &given)
+        }
+        Advice::UndecidedAxes(undecided) => words.weak_undecided(&count(undecided.points)),
+        Advice::UnitRatio(unit) => unit_ratio(context, unit),
+        Advice::OneStation(OneStation { photos, all: true }) => words.weak_one_station_all(&count(photos.len())),
+        Advice::OneStation(OneStation { photos, .. }) => {
+            words.weak_one_station(&listed(photos.iter().map(String::as_str), 8))
+        }
+        Advice::ImplausibleCamera(ImplausibleCamera { camera, doubt }) => implausible(context, camera, doubt),
+        Advice::NoScale => words.scale_none().to_owned(),
+    }
+}
+
+/// What contradicts the photos, and no test of residuals may show; the summary has it as well.
+pub fn questions(context: &Context) -> Vec<String> {
+    context.adjustment.advice.iter().filter(|a| a.contradicts()).map(|advice| said(context, advice)).collect()
+}
+
+fn exchange(context: &Context, exchange: Exchange) -> String {
+    let words = context.words;
+    match exchange {
+        Exchange::Xy => words.exchanging(&"X", &"Y"),
+        Exchange::Xz => words.exchanging(&"X", &"Z"),
+        Exchange::Yz => words.exchanging(&"Y", &"Z"),
+        Exchange::X => words.negating(&"X"),
+        Exchange::Y => words.negating(&"Y"),
+        Exchange::Z => words.negating(&"Z"),
+    }
+}
+
+fn unit_ratio(context: &Context, unit: &UnitRatio) -> String {
+    let words = context.words;
+    let pairs: Vec<String> = unit.distances.iter().map(|(a, b)| format!("{a} – {b}")).collect();
+    let bars = listed(pairs.iter().map(String::as_str), 5);
+    let (ratio, nearest) = (compact(unit.ratio), compact(unit.nearest));
+    match (unit.of, &unit.camera) {
+        (UnitOf::Distance, _) if !pairs.is_empty() => words.weak_unit_distance(&bars, &ratio, &nearest),
+        (UnitOf::Control, _) if !pairs.is_empty() => words.weak_unit_control(&ratio, &nearest),
+        (UnitOf::Camera, Some(camera)) => words.weak_unit_camera(camera, &ratio, &nearest),
+        _ => words.weak_unit_diameter(&nearest),
+    }
+}
+
+fn implausible(context: &Context, camera: &str, doubt: &CameraDoubt) -> String {
+    let words = context.words;
+    match doubt {
+        CameraDoubt::FieldOfView { angle, value, pixels } => {
+            let (value, angle) = (compact(*value), fixed(angle.to_degrees(), 1));
+            if *pixels {
+                words.weak_view_pixels(&camera, &value, &angle)
+            } else {
+                words.weak_view(&camera, &value, &angle)
+            }
+        }
+        CameraDoubt::ImageSize { photos, size: [width, height], measured: [u, v] } => words.weak_image_size(
+            &camera,
+            &format!("{width} × {height}"),
+            &listed(photos.iter().map(String::as_str), 5),
+            &format!("{} × {}", fixed(*u, 0), fixed(*v, 0)),
+        ),
+        CameraDoubt::Resized { photo, factor } => words.weak_resized(photo, &camera, &compact(*factor)),
+        CameraDoubt::Cropped { photo, offset: [u, v] } => {
+            words.weak_cropped(photo, &camera, &format!("{}, {}", fixed(*u, 0), fixed(*v, 0)))
+        }
+        CameraDoubt::OtherDistance { photo, value } => words.weak_other_distance(photo, &camera, &compact(*value)),
     }
 }

@@ -85,10 +85,7 @@ fn options(context: &Context) -> Vec<(String, String)> {
         ),
         (words.variance_components().to_owned(), yes(a.options.variance_components.is_some())),
         (words.unmodelled_px().to_owned(), fixed(*unmodelled, if *unmodelled > 0.0 { 3 } else { 0 })),
-        (
-            words.target_diameter().to_owned(),
-            target_diameter.map_or("–".to_owned(), |d| format!("{} {}", compact(d), context.unit)),
-        ),
+        (words.target_diameter().to_owned(), target_diameter.map_or("–".to_owned(), |d| context.in_unit(&compact(d)))),
     ]
 }
 

@@ -30,6 +30,9 @@ pub fn write(context: &Context, html: &mut Html) {
         lead = format!("{lead} {}", left_out.sentence(context));
     }
     html.element("p", "lead", &lead);
+    for question in super::network::questions(context) {
+        html.p(&question);
+    }
     accuracy(context, html);
     checked(context, html);
     left_out::summary(context, html);
@@ -56,8 +59,8 @@ pub fn scale(context: &Context) -> String {
     let words = context.words;
     let distances = used_distances(context);
     match distances.len() {
-        0 if context.project.datum.kind == DatumKind::Control => words.scale_control().to_owned(),
-        0 => words.scale_none().to_owned(),
+        _ if !context.scaled => words.scale_none().to_owned(),
+        0 => words.scale_control().to_owned(),
         n => words.scale_distances(&count(n)),
     }
 }
@@ -104,6 +107,10 @@ fn accuracy(context: &Context, html: &mut Html) {
     };
     let k = context.settings().coverage_factor;
     let (factor, percent) = (fixed(k, usize::from(k.fract() != 0.0)), confidence(k));
+    if !context.scaled {
+        // A coordinate that is known to so much of nothing is known to nothing.
+        return;
+    }
     html.open("div", "stated");
     let value = format!("± {}", context.with_unit(k * sigma));
     let sentence = words.known_to(&"\u{1}", &factor, &percent);

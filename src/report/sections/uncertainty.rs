@@ -17,7 +17,11 @@ pub fn write(context: &Context, html: &mut Html) {
     let k = settings.coverage_factor;
     let factor = fixed(k, usize::from(k.fract() != 0.0));
     let expanded = context.with_unit(k * sigma);
-    html.p(&words.gum_statement(&context.with_unit(sigma), &factor, &expanded, &confidence(k)));
+    if context.scaled {
+        html.p(&words.gum_statement(&context.with_unit(sigma), &factor, &expanded, &confidence(k)));
+    } else {
+        html.p(words.scale_none());
+    }
     html.h3(words.gum_included()).list(&included(context));
     html.h3(words.gum_not_included()).list(&not_included(context));
 }
@@ -93,15 +97,15 @@ fn range(context: &Context, sigmas: &[f64]) -> String {
     let (least, most) = (smallest(sigmas), sigmas.iter().copied().fold(0.0, f64::max));
     let decimals = decimals_for(least);
     if fixed(least, decimals) == fixed(most, decimals) {
-        return format!("{} {}", fixed(least, decimals), context.unit);
+        return context.in_unit(&fixed(least, decimals));
     }
-    format!("{}–{} {}", fixed(least, decimals), fixed(most, decimals), context.unit)
+    context.in_unit(&format!("{}–{}", fixed(least, decimals), fixed(most, decimals)))
 }
 
 fn not_included(context: &Context) -> Vec<String> {
     let (words, project) = (context.words, context.project);
     let mut all = Vec::new();
-    if used_distances(context).is_empty() && project.datum.kind != DatumKind::Control {
+    if !context.scaled {
         all.push(words.gum_no_scale().to_owned());
     }
     let held = |sigma: Option<[Option<f64>; 3]>| sigma.unwrap_or_default().iter().any(|s| s.is_none_or(|s| s == 0.0));

@@ -49,7 +49,7 @@ declare! {
     datum_minimal: "The coordinates stand on as few constraints as the network needs; sigmas grow with the distance from them.";
     scale_control: "The scale is that of the control points.";
     scale_distances(n): "{n} measured {n:distance gives|distances give} the scale.";
-    scale_none: "Nothing measured gives the scale: lengths are right relative to each other only.";
+    scale_none: "No scale: give a distance or control points. Lengths are right relative to each other only and have no unit.";
     test_passed(sigma0, percent): "The standard deviation of unit weight is {sigma0} and passes the global test at {percent} %: the observations agree with the accuracy that was assumed of them.";
     test_too_large(sigma0, percent): "The standard deviation of unit weight is {sigma0} and fails the global test at {percent} %: the observations are worse than was assumed of them. All sigmas here are enlarged by it.";
     test_too_small(sigma0, percent): "The standard deviation of unit weight is {sigma0} and fails the global test at {percent} %: the observations are better than was assumed of them. All sigmas here are reduced by it.";
@@ -71,7 +71,7 @@ declare! {
     left_of_photos(n, of): "{n} of {of} photos";
     left_of_points(n, of): "{n} of {of} object points";
     left_of_parameters(n): "{n} camera {n:parameter|parameters}";
-    left_largest(names): "The largest that were not used: {names}.";
+    left_named(names): "Among them: {names}.";
     left_out_short: "not used";
     pixels(n): "{n} px";
     left_out_by: "by";
@@ -177,10 +177,27 @@ declare! {
     weak_sigmas(sigma0): "The residuals are larger than the standard deviations of the image coordinates say (σ₀ {sigma0}).";
     weak_unmodelled(sigma0): "The unmodelled part belongs to other weights: σ₀ is {sigma0}.";
     weak_insignificant(camera, name, ratio): "Camera {camera}: {name} is {ratio} of its standard deviations and not told from 0.";
-    weak_suspected(n): "{n} {n:observation is|observations are} suspected of a gross error.";
+    weak_suspected(n, names): "{n} {n:observation is|observations are} suspected of a gross error: {names}.";
     control_misfit(point, size, sigmas, axis): "Control point {point} is {size} ({sigmas} sigma) from where the photos see it, mainly in {axis}.";
     exchanged_points(a, b): "Control points {a} and {b} seem exchanged.";
     double_points(n, pairs): "{n} {n:pair|pairs} of points are nearer to each other than their standard errors tell apart: {pairs}.";
+    no_unit: "no unit";
+    exchanging(first, second): "exchanging {first} and {second}";
+    negating(axis): "changing the sign of {axis}";
+    weak_mirrored(exchange, exchanged, given): "The given coordinates are mirrored: {exchange} makes them fit to {exchanged} instead of {given}.";
+    weak_undecided(n): "The {n} given points lie in a plane: nothing shows whether their axes are mirrored.";
+    weak_unit_control(ratio, nearest): "The control points are {ratio} times the size that the distances give, nearly {nearest}: a wrong unit?";
+    weak_unit_distance(bars, ratio, nearest): "Distance {bars} is {ratio} times its length in the network, nearly {nearest}: a wrong unit?";
+    weak_unit_camera(camera, ratio, nearest): "Camera {camera}: the given principal distance is {ratio} times that of the photos, nearly {nearest}: a wrong unit?";
+    weak_unit_diameter(nearest): "The network and the diameters of its targets differ by about {nearest}: a wrong unit?";
+    weak_one_station(photos): "Photos {photos} were taken from one place: they add no depth to each other.";
+    weak_one_station_all(n): "All {n} photos were taken from one place: they show neither depth nor principal distance.";
+    weak_view(camera, value, angle): "Camera {camera}: a principal distance of {value} means a field of view of {angle}°.";
+    weak_view_pixels(camera, value, angle): "Camera {camera}: a principal distance of {value} px means a field of view of {angle}°; in millimetres it needs a pixel pitch.";
+    weak_image_size(camera, size, photos, measured): "Camera {camera} has pictures of {size} px, but photos {photos} were measured up to {measured} px.";
+    weak_resized(photo, camera, factor): "Photo {photo} was resized: it is {factor} times the size of camera {camera}'s pictures.";
+    weak_cropped(photo, camera, offset): "Photo {photo} is a part of a picture of camera {camera}, beginning at {offset} px.";
+    weak_other_distance(photo, camera, value): "Photo {photo} was taken at a principal distance of {value}, not that of camera {camera}.";
 
     // Photos
     photo: "photo";

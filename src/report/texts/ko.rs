@@ -46,7 +46,7 @@ translate! { Korean {
     datum_minimal: "좌표계는 망에 필요한 최소 제약으로 정하였으며, 표준오차는 제약에서 멀수록 커집니다.";
     scale_control: "축척은 기준점에서 얻었습니다.";
     scale_distances(n): "축척은 측정한 거리 {n}개에서 얻었습니다.";
-    scale_none: "축척을 주는 측정값이 없으므로 길이는 서로의 비율로만 옳습니다.";
+    scale_none: "축척이 없습니다. 거리나 기준점을 주십시오. 길이는 서로의 비율로만 옳으며 단위가 없습니다.";
     test_passed(sigma0, percent): "사후 단위중량 표준오차는 {sigma0}이며 유의수준 {percent} %의 전체 모형 검정을 통과하였습니다. 관측값이 가정한 정확도와 일치합니다.";
     test_too_large(sigma0, percent): "사후 단위중량 표준오차는 {sigma0}이며 유의수준 {percent} %의 전체 모형 검정을 통과하지 못하였습니다. 관측값이 가정보다 나쁘며, 모든 표준오차는 그만큼 크게 잡았습니다.";
     test_too_small(sigma0, percent): "사후 단위중량 표준오차는 {sigma0}이며 유의수준 {percent} %의 전체 모형 검정을 통과하지 못하였습니다. 관측값이 가정보다 좋으며, 모든 표준오차는 그만큼 작게 잡았습니다.";
@@ -68,7 +68,7 @@ translate! { Korean {
     left_of_photos(n, of): "사진 {of}매 중 {n}매";
     left_of_points(n, of): "대상점 {of}점 중 {n}점";
     left_of_parameters(n): "카메라 변수 {n}개";
-    left_largest(names): "사용하지 않은 것 가운데 가장 큰 것: {names}.";
+    left_named(names): "주요 항목: {names}.";
     left_out_short: "사용하지 않음";
     pixels(n): "{n} px";
     left_out_by: "제외한 단계";
@@ -174,10 +174,27 @@ translate! { Korean {
     weak_sigmas(sigma0): "잔차가 영상좌표의 표준오차보다 큽니다(σ₀ {sigma0}).";
     weak_unmodelled(sigma0): "모형화되지 않은 부분이 다른 가중치의 것입니다(σ₀ {sigma0}).";
     weak_insignificant(camera, name, ratio): "카메라 {camera}: {name} 값은 표준오차의 {ratio}배로 0과 구별되지 않습니다.";
-    weak_suspected(n): "관측값 {n}개가 과대오차로 의심됩니다.";
+    weak_suspected(n, names): "관측값 {n}개가 과대오차로 의심됩니다: {names}.";
     control_misfit(point, size, sigmas, axis): "기준점 {point}의 좌표가 사진에서 구한 위치와 {size}({sigmas} 시그마) 다릅니다. 주로 {axis} 방향입니다.";
     exchanged_points(a, b): "기준점 {a}{a:과|와} {b}의 좌표가 서로 바뀐 것으로 보입니다.";
     double_points(n, pairs): "표준오차로 구분되지 않을 만큼 가까운 점 {n}쌍: {pairs}.";
+    no_unit: "단위 없음";
+    exchanging(first, second): "{first}, {second} 좌표 교환";
+    negating(axis): "{axis} 좌표 부호 변경";
+    weak_mirrored(exchange, exchanged, given): "주어진 좌표가 거울상입니다. {exchange} 시 차이가 {given}에서 {exchanged}{exchanged:으로|로} 줄어듭니다.";
+    weak_undecided(n): "주어진 {n}점이 한 평면에 있어 좌표축이 거울상인지 알 수 없습니다.";
+    weak_unit_control(ratio, nearest): "기준점의 크기가 거리에서 얻은 크기의 {ratio}배로 {nearest}배에 가깝습니다. 단위가 틀렸습니까?";
+    weak_unit_distance(bars, ratio, nearest): "거리 {bars}의 값이 망에서의 길이의 {ratio}배로 {nearest}배에 가깝습니다. 단위가 틀렸습니까?";
+    weak_unit_camera(camera, ratio, nearest): "카메라 {camera}: 주어진 주점거리가 사진에서 얻은 값의 {ratio}배로 {nearest}배에 가깝습니다. 단위가 틀렸습니까?";
+    weak_unit_diameter(nearest): "망의 크기와 타깃 지름이 약 {nearest}배 차이 납니다. 단위가 틀렸습니까?";
+    weak_one_station(photos): "사진 {photos}의 촬영 위치가 같아 서로 깊이를 주지 못합니다.";
+    weak_one_station_all(n): "사진 {n}매를 모두 한 자리에서 찍어 깊이와 주점거리를 결정할 수 없습니다.";
+    weak_view(camera, value, angle): "카메라 {camera}: 주점거리 {value}에 따른 화각이 {angle}°입니다.";
+    weak_view_pixels(camera, value, angle): "카메라 {camera}: 주점거리 {value} px에 따른 화각이 {angle}°입니다. 밀리미터 값이면 화소 크기가 필요합니다.";
+    weak_image_size(camera, size, photos, measured): "카메라 {camera}의 영상 크기는 {size} px이지만 사진 {photos}에는 {measured} px까지 관측값이 있습니다.";
+    weak_resized(photo, camera, factor): "사진 {photo}의 크기가 바뀌었습니다. 카메라 {camera} 영상의 {factor}배입니다.";
+    weak_cropped(photo, camera, offset): "사진 {photo}{photo:은|는} 카메라 {camera} 영상의 일부로, {offset} px에서 시작합니다.";
+    weak_other_distance(photo, camera, value): "사진 {photo}의 주점거리는 {value}{value:으로|로}, 카메라 {camera}의 값과 다릅니다.";
 
     // Photos
     photo: "사진";

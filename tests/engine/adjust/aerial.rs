@@ -12,7 +12,9 @@ const OFFSET: [f64; 3] = [999_779.506_31, 112_260.591, 139.832_1];
 
 fn solve(project: &Project) -> Adjustment {
     let options = AdjustOptions { residuals: ResidualPlace::Corrected, ..AdjustOptions::default() };
-    adjust(project, &options, &mut |_| true).expect("solvable")
+    let adjustment = adjust(project, &options, &mut |_| true).expect("solvable");
+    super::published::nothing_is_asked(&adjustment);
+    adjustment
 }
 
 /// An export with its control replaced by a list, everything in the list's own coordinates.

@@ -2,7 +2,7 @@
 
 use crate::support::data;
 use sightline::adjust::{adjust, apply};
-use sightline::adjustment::{AdjustOptions, Adjustment, ResidualPlace, Termination};
+use sightline::adjustment::{AdjustOptions, Adjustment, Advice, ResidualPlace, Termination};
 use sightline::error::{Defect, Error};
 use sightline::exchange::photomodeler;
 use sightline::project::{Camera, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
@@ -10,7 +10,25 @@ pub const HEIGHT_MM: f64 = 5.43764;
 
 fn solve(project: &Project) -> Adjustment {
     let options = AdjustOptions { residuals: ResidualPlace::Corrected, ..AdjustOptions::default() };
-    adjust(project, &options, &mut |_| true).expect("solvable")
+    let adjustment = adjust(project, &options, &mut |_| true).expect("solvable");
+    nothing_is_asked(&adjustment);
+    adjustment
+}
+
+/// What others have published was given rightly.
+pub fn nothing_is_asked(adjustment: &Adjustment) {
+    let asks = |advice: &&Advice| {
+        matches!(
+            advice,
+            Advice::MirroredControl(_)
+                | Advice::UndecidedAxes(_)
+                | Advice::UnitRatio(_)
+                | Advice::OneStation(_)
+                | Advice::ImplausibleCamera(_)
+        )
+    };
+    let asked: Vec<&Advice> = adjustment.advice.iter().filter(asks).collect();
+    assert!(asked.is_empty(), "{asked:?}");
 }
 
 /// The calibration project with the sheet's four control points fixed, free of what the published runs estimate.

@@ -107,7 +107,9 @@ fn agrees(what: &str, difference: f64, sigma: f64, known: Printed) {
 
 fn solve(project: &Project) -> Adjustment {
     let options = AdjustOptions { residuals: ResidualPlace::Corrected, ..AdjustOptions::default() };
-    adjust(project, &options, &mut |_| true).expect("solvable")
+    let adjustment = adjust(project, &options, &mut |_| true).expect("solvable");
+    super::published::nothing_is_asked(&adjustment);
+    adjustment
 }
 
 const NAMES: [&str; 8] = ["Camera", "px", "py", "K1", "K2", "K3", "P1", "P2"];

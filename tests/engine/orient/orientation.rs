@@ -118,7 +118,7 @@ fn adjusted(project: &Project) -> Adjustment {
     adjustment
 }
 
-fn all_oriented(oriented: &Oriented) -> bool {
+pub fn all_oriented(oriented: &Oriented) -> bool {
     oriented.project.photos.iter().all(|p| p.position.is_some() && p.rotation.is_some())
 }
 
@@ -188,7 +188,7 @@ fn camcal_is_oriented_and_adjusted_from_nothing() {
     }
 }
 
-fn sxb() -> Option<Project> {
+pub fn sxb() -> Option<Project> {
     let mut project = Project { unit: "m".into(), ..Project::default() };
     let mut camera = camera("aerial", 123.9392);
     (camera.width, camera.height, camera.pixel_pitch) = (8858, 12996, Some([53.148 / 8858.0, 77.976 / 12996.0]));

@@ -796,6 +796,39 @@ declare! { desk {
     measurement_disagrees_body: "A wrong name, most often. Look at it, rename or exclude it.";
     behind: "behind";
 
+    // Questions about the input
+    exchanging(first, second): "exchanging {first} and {second}";
+    negating(axis): "changing the sign of {axis}";
+    mirrored(exchange, exchanged, given):
+        "The given coordinates are mirrored: {exchange} makes them fit to {exchanged} instead of {given}";
+    mirrored_body: "With the axes as given, coordinates may be wrong though every test passes.";
+    mirrored_or_body(others):
+        "The photos do not tell this from {others}; each gives the same form. With the axes as given, coordinates may be wrong though every test passes.";
+    undecided_axes: "The given points lie in a plane: are the axes right?";
+    undecided_axes_body(normal):
+        "A mirrored plane fits as well. With these axes the cameras stand on the side ({normal}); if they stood on the other, two axes are exchanged or one has the wrong sign.";
+    unit_of_distance(bars): "Distance {bars}: a wrong unit?";
+    unit_of_control: "Control points: a wrong unit?";
+    unit_of_camera(camera): "Principal distance of camera {camera}: a wrong unit?";
+    unit_of_diameters: "Coordinates and target diameters: different units?";
+    unit_body(ratio, nearest): "It is {ratio} times what the rest gives; the ratio of two units of length is {nearest}.";
+    one_station(photos): "Photos {photos} were taken from one place";
+    one_station_body: "They add no depth to each other. Points need a photo from another place.";
+    one_station_all: "All photos were taken from one place";
+    one_station_all_body: "They show neither depth nor principal distance. Take photos from other places.";
+    field_of_view(camera, value): "Camera {camera}: a principal distance of {value} cannot be right";
+    field_of_view_body: "The field of view would be impossible; the value was not used.";
+    field_of_view_pixels:
+        "It would be in pixels, since the camera has no pixel pitch; the value was not used. Give the pitch, or the value in pixels.";
+    image_size(camera, photos): "Photos {photos} are larger than the pictures of camera {camera}";
+    image_size_body(size):
+        "The camera has {size} px. Take the camera of these photos, or the calibration for their size.";
+    photo_resized(photo, camera): "Photo {photo} was resized against camera {camera}";
+    photo_cropped(photo, camera): "Photo {photo} is cropped against camera {camera}";
+    photo_reframed_body: "It was not oriented. Take the original file, or give the photo a camera of its own.";
+    photo_other_distance(photo, camera): "Photo {photo} has another principal distance than camera {camera}";
+    photo_other_distance_body: "Another zoom or camera. It was not oriented; give the photo a camera of its own.";
+
     // Results
     results: "Results";
     no_result: "There is no result yet";
@@ -1330,6 +1363,7 @@ declare! { errors {
     parameter_undetermined(camera, parameters):
         "camera {camera}: the network does not determine {parameters}: hold it, observe it with a sigma, or add convergent and rolled photos";
     combination(things): "the network does not determine a combination of {things}: hold or observe some of them, or add rays";
+    all_one_station(photos): "all photos were taken from one place ({photos}): they show neither depth nor principal distance; take photos from other places, or give control points";
     kind_photo: "photo";
     kind_point: "point";
     kind_camera: "camera";

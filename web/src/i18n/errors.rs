@@ -87,6 +87,7 @@ fn defect(defect: &Defect) -> String {
         Defect::Combination { points, photos, parameters } => {
             combination(things(&[(some_points(), points), (some_photos(), photos), (some_parameters(), parameters)]))
         }
+        Defect::OneStation { photos } => all_one_station(listed(photos)),
     }
 }
 

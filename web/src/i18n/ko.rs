@@ -772,6 +772,38 @@ translate! { Korean desk {
     measurement_disagrees_body: "대개 점번호가 틀린 경우입니다. 확인하여 이름을 바꾸거나 제외하십시오.";
     behind: "뒤쪽";
 
+    // Questions about the input
+    exchanging(first, second): "{first}, {second} 좌표 교환";
+    negating(axis): "{axis} 좌표 부호 변경";
+    mirrored(exchange, exchanged, given):
+        "주어진 좌표가 거울상입니다: {exchange} 시 차이가 {given}에서 {exchanged}{exchanged:으로|로} 줄어듭니다";
+    mirrored_body: "이 좌표축으로는 모든 검정을 통과해도 좌표가 틀릴 수 있습니다.";
+    mirrored_or_body(others):
+        "다음과는 사진으로 구별되지 않습니다: {others}. 어느 쪽이든 형상은 같습니다. 이 좌표축으로는 모든 검정을 통과해도 좌표가 틀릴 수 있습니다.";
+    undecided_axes: "주어진 점이 한 평면에 있습니다. 좌표축이 맞습니까?";
+    undecided_axes_body(normal):
+        "평면은 거울상도 똑같이 맞습니다. 이 좌표축이면 카메라는 ({normal}) 쪽에 있습니다. 반대쪽에서 찍었다면 두 축이 바뀌었거나 한 축의 부호가 틀렸습니다.";
+    unit_of_distance(bars): "거리 {bars}의 단위가 틀렸습니까?";
+    unit_of_control: "기준점의 단위가 틀렸습니까?";
+    unit_of_camera(camera): "카메라 {camera}의 주점거리 단위가 틀렸습니까?";
+    unit_of_diameters: "좌표와 타깃 지름의 단위가 다릅니까?";
+    unit_body(ratio, nearest): "나머지에서 얻은 값의 {ratio}배이며, 두 길이 단위의 비는 {nearest}입니다.";
+    one_station(photos): "사진 {photos}의 촬영 위치가 같습니다";
+    one_station_body: "서로 깊이를 주지 못합니다. 다른 자리에서 찍은 사진이 필요합니다.";
+    one_station_all: "모든 사진을 한 자리에서 찍었습니다";
+    one_station_all_body: "깊이와 주점거리를 결정할 수 없습니다. 다른 자리에서 사진을 찍으십시오.";
+    field_of_view(camera, value): "카메라 {camera}: 주점거리 {value}{value:은|는} 맞을 수 없습니다";
+    field_of_view_body: "있을 수 없는 화각이 되므로 이 값을 쓰지 않았습니다.";
+    field_of_view_pixels:
+        "화소 크기가 없으므로 픽셀 단위가 됩니다. 이 값을 쓰지 않았습니다. 화소 크기나 픽셀 단위의 값을 주십시오.";
+    image_size(camera, photos): "사진 {photos}{photos:이|가} 카메라 {camera}의 영상보다 큽니다";
+    image_size_body(size): "카메라의 영상 크기는 {size} px입니다. 사진에 맞는 카메라나 검정값을 고르십시오.";
+    photo_resized(photo, camera): "사진 {photo}{photo:은|는} 카메라 {camera}의 영상과 크기가 다릅니다";
+    photo_cropped(photo, camera): "사진 {photo}{photo:은|는} 카메라 {camera}의 영상에서 잘라낸 것입니다";
+    photo_reframed_body: "표정하지 않았습니다. 원본 파일을 쓰거나 이 사진에 별도의 카메라를 주십시오.";
+    photo_other_distance(photo, camera): "사진 {photo}의 주점거리가 카메라 {camera}의 값과 다릅니다";
+    photo_other_distance_body: "줌이나 카메라가 다릅니다. 표정하지 않았으므로 이 사진에 별도의 카메라를 주십시오.";
+
     // Results
     results: "결과";
     no_result: "아직 결과가 없습니다";
@@ -1291,6 +1323,7 @@ translate! { Korean errors {
     parameter_undetermined(camera, parameters):
         "카메라 {camera}: 망이 {parameters}{parameters:을|를} 정하지 못합니다. 고정하거나 표준오차와 함께 관측값으로 주거나, 수렴·회전 촬영 사진을 더하십시오";
     combination(things): "망이 다음의 조합을 정하지 못합니다: {things}. 일부를 고정하거나 관측값으로 주거나 광선을 더하십시오";
+    all_one_station(photos): "모든 사진({photos})을 한 자리에서 찍어 깊이와 주점거리를 결정할 수 없습니다. 다른 자리에서 사진을 찍거나 기준점을 주십시오";
     kind_photo: "사진";
     kind_point: "점";
     kind_camera: "카메라";

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use sightline::Error;
 use sightline::exchange::control_csv;
-use sightline::plan::{Criterion, MakeOptions, Prediction, Suggested};
+use sightline::plan::{Criterion, Ended, MakeOptions, Prediction, Suggested};
 use sightline::project::{Plan, PlanStation, Project};
 use sightline::units;
 use sightline_protocol::{BeginPlan, MakePlan, Open, PlanOf, PredictPlan, SuggestPhoto};
@@ -253,8 +253,17 @@ impl Desk {
             Outcome::Done(made, _) => {
                 self.end_job();
                 self.planning.chosen.set(None);
-                let count = made.stations.len();
+                let (count, ended) = (made.stations.len(), made.ended);
                 self.edit_plan(Change::PlanMade(count), |plan| plan.stations = made.stations);
+                if ended != Ended::Reached {
+                    self.warn(move || match ended {
+                        Ended::Reached => String::new(),
+                        Ended::MostPhotos { most } => words::ended_most(most),
+                        Ended::NoGain { tried } => words::ended_no_gain(tried),
+                        Ended::NoPlace => words::ended_no_place().to_owned(),
+                        Ended::Time => words::ended_time().to_owned(),
+                    });
+                }
             }
             Outcome::Failed(failure) => {
                 self.end_job();

@@ -1,5 +1,7 @@
 //! What the network lacks, as sentences: what to do, why, and the number that says so.
 
+mod questions;
+
 use std::collections::{HashMap, HashSet};
 
 use leptos::prelude::*;
@@ -77,6 +79,46 @@ pub fn Advice() -> impl IntoView {
                 }
             }).collect_view()}
         </ul>
+    }
+}
+
+/// What contradicts the photos, a line each beside sigma0, which may not show it.
+#[component]
+pub fn Contradictions() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let found = Memo::new(move |_| {
+        let mut found = desk.document.with(|d| {
+            let Some(result) = d.current() else { return Vec::new() };
+            let advice = result.adjustment.advice.iter().filter(|advice| advice.contradicts());
+            advice.map(|advice| network_item(advice, &result.adjustment.criteria)).collect::<Vec<_>>()
+        });
+        if desk.document.with(|d| d.current().is_some()) {
+            let noted = desk
+                .notes
+                .with(|all| all.iter().filter(|note| note.contradicts()).filter_map(note_item).collect::<Vec<_>>());
+            found.extend(noted);
+        }
+        let mut said = HashSet::new();
+        found.retain(|item| said.insert(item.title.clone()));
+        found
+    });
+    move || {
+        let items = found.get();
+        let show = move |_| desk.go(Step::Adjust);
+        (!items.is_empty()).then(|| {
+            view! {
+                <ul class="contradictions" role="alert" data-result="contradictions">
+                    {items.into_iter().map(|item| view! {
+                        <li>
+                            <Glyph icon=Icon::Warning/>
+                            <b>{item.title}</b>
+                            <span class="evidence">{item.evidence}</span>
+                            <button class="link" on:click=show>{text::show}</button>
+                        </li>
+                    }).collect_view()}
+                </ul>
+            }
+        })
     }
 }
 
@@ -164,7 +206,11 @@ fn items(desk: Desk) -> Vec<Item> {
         }
         if let Some(result) = d.current() {
             let adjustment = &result.adjustment;
-            let (first, others): (Vec<_>, Vec<_>) = adjustment.advice.iter().partition(|a| of_the_fit(a));
+            // What spoils everything else comes first; the scale is told above.
+            let (spoils, rest): (Vec<_>, Vec<_>) = adjustment.advice.iter().partition(|a| of_the_input(a));
+            let spoils = spoils.into_iter().filter(|a| !matches!(a, sightline::adjustment::Advice::NoScale));
+            items.splice(0..0, spoils.map(|advice| network_item(advice, &adjustment.criteria)));
+            let (first, others): (Vec<_>, Vec<_>) = rest.into_iter().partition(|a| of_the_fit(a));
             items.extend(first.into_iter().map(|advice| network_item(advice, &adjustment.criteria)));
             items.extend(camera_against_photos(&adjustment.advice, &adjustment.criteria));
             let others = others.into_iter().filter(|a| !of_one_photo(a));
@@ -205,6 +251,20 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let all = names.collect::<Vec<_>>();
     let shown = all.iter().take(8).copied().collect::<Vec<_>>().join(", ");
     if all.len() > 8 { format!("{shown}, …") } else { shown }
+}
+
+/// Whether it asks about the input.
+fn of_the_input(advice: &sightline::adjustment::Advice) -> bool {
+    use sightline::adjustment::Advice as A;
+    matches!(
+        advice,
+        A::MirroredControl(_)
+            | A::UndecidedAxes(_)
+            | A::UnitRatio(_)
+            | A::OneStation(_)
+            | A::ImplausibleCamera(_)
+            | A::NoScale
+    )
 }
 
 /// Whether it says what is wrong with the fit, rather than what the network is weak in.
@@ -388,6 +448,15 @@ fn network_item(advice: &sightline::adjustment::Advice, criteria: &sightline::ad
         Advice::ControlMisfit { point, difference, sigma_ratio } => control_misfit(point, difference, *sigma_ratio),
         Advice::ExchangedPoints { points } => exchanged_points(points),
         Advice::DoublePoints { pairs: all } => double_points(all),
+        Advice::MirroredControl(found) => return questions::mirrored(found),
+        Advice::UndecidedAxes(found) => return questions::undecided(found),
+        Advice::UnitRatio(found) => return questions::unit(found),
+        Advice::OneStation(found) => return questions::station(found),
+        Advice::ImplausibleCamera(found) => return questions::camera(found),
+        Advice::NoScale => {
+            let target = Target::Step(Step::Control);
+            (text::lacks_scale().to_owned(), text::lacks_scale_body().to_owned(), String::new(), target)
+        }
     };
     Item { warning: true, title, body, evidence, target }
 }
@@ -512,12 +581,22 @@ fn note_item(note: &Note) -> Option<Item> {
         }
         Note::ExchangedPoints { points } => worded(exchanged_points(points)),
         Note::DoublePoints { pairs } => worded(double_points(pairs)),
+        Note::MirroredControl(found) => questions::mirrored(found),
+        Note::UndecidedAxes(found) => questions::undecided(found),
+        Note::UnitRatio(found) => questions::unit(found),
+        Note::OneStation(found) => questions::station(found),
+        Note::ImplausibleCamera(found) => questions::camera(found),
+        // The document says it.
+        Note::NoScale => return None,
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use sightline::adjustment::{Advice as A, Criteria};
+    use sightline::adjustment::{
+        Advice as A, CameraDoubt, Criteria, Exchange, ImplausibleCamera, MirroredControl, OneStation, UndecidedAxes,
+        UnitOf, UnitRatio,
+    };
 
     use super::*;
 
@@ -561,6 +640,27 @@ mod tests {
             A::ControlMisfit { point: "9".into(), difference: [30.2, 0.1, -0.4], sigma_ratio: 300.0 },
             A::ExchangedPoints { points: ["9".into(), "7".into()] },
             A::DoublePoints { pairs: vec![("5".into(), "u12".into())] },
+            A::MirroredControl(MirroredControl {
+                exchange: Exchange::Xy,
+                alternatives: vec![Exchange::X],
+                rms_given: 0.2,
+                rms_exchanged: 0.001,
+                points: 8,
+            }),
+            A::UndecidedAxes(UndecidedAxes { points: 4, normal: [0.0, 1.0, 0.0] }),
+            A::UnitRatio(UnitRatio {
+                of: UnitOf::Distance,
+                ratio: 1000.4,
+                nearest: 1000.0,
+                distances: vec![pair()],
+                camera: None,
+            }),
+            A::OneStation(OneStation { photos: vec!["a".into(), "b".into()], all: false }),
+            A::ImplausibleCamera(ImplausibleCamera {
+                camera: "k".into(),
+                doubt: CameraDoubt::FieldOfView { angle: 3.1, value: 36.0, pixels: true },
+            }),
+            A::NoScale,
         ];
         for advice in &all {
             match advice {
@@ -579,7 +679,13 @@ mod tests {
                 | A::Suspected { .. }
                 | A::ControlMisfit { .. }
                 | A::ExchangedPoints { .. }
-                | A::DoublePoints { .. } => {}
+                | A::DoublePoints { .. }
+                | A::MirroredControl(_)
+                | A::UndecidedAxes(_)
+                | A::UnitRatio(_)
+                | A::OneStation(_)
+                | A::ImplausibleCamera(_)
+                | A::NoScale => {}
             }
         }
         all

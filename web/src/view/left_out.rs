@@ -15,6 +15,23 @@ fn is_coordinate(item: &LeftOutItem) -> bool {
     item.kind == LeftOutKind::Position || item.kind == LeftOutKind::Control && item.given.is_some()
 }
 
+/// So many are named in the sentence.
+const NAMED: usize = 3;
+
+/// The names of what was observed, where they are few enough for a sentence.
+fn named(items: &[LeftOutItem], kind: LeftOutKind) -> String {
+    let all: Vec<_> = items.iter().filter(|item| item.kind == kind && !is_coordinate(item)).collect();
+    let name = |item: &&LeftOutItem| match (&item.given, &item.point, &item.photo) {
+        (Some(given), ..) => given_name(given),
+        (None, Some(point), Some(photo)) => format!("{point} – {photo}"),
+        (None, point, photo) => point.clone().or_else(|| photo.clone()).unwrap_or_default(),
+    };
+    match all.len() {
+        1..=NAMED => format!(" ({})", all.iter().map(name).collect::<Vec<_>>().join(", ")),
+        _ => String::new(),
+    }
+}
+
 /// How much of what took no part, in one sentence; `None` if everything did.
 fn sentence(items: &[LeftOutItem], project: &Project) -> Option<String> {
     if items.is_empty() {
@@ -23,17 +40,18 @@ fn sentence(items: &[LeftOutItem], project: &Project) -> Option<String> {
     let number = |kind| items.iter().filter(|item| item.kind == kind && !is_coordinate(item)).count();
     let control = project.points.iter().filter(|p| p.role == Role::Control && p.xyz.is_some()).count();
     let distances = project.distances.iter().filter(|d| !d.check).count();
-    let of = |n: usize, all: usize, words: fn(String, String) -> String| {
-        (n > 0).then(|| words(format::count(n), format::count(all)))
+    let of = |kind, all: usize, words: fn(String, String) -> String| {
+        let n = number(kind);
+        (n > 0).then(|| words(format::count(n), format::count(all)) + &named(items, kind))
     };
     let alone = |n: usize, words: fn(String) -> String| (n > 0).then(|| words(format::count(n)));
     let parts = [
-        of(number(LeftOutKind::Observation), project.observations.len(), text::left_of_observations),
-        of(number(LeftOutKind::Control), control, text::left_of_control),
+        of(LeftOutKind::Observation, project.observations.len(), text::left_of_observations),
+        of(LeftOutKind::Control, control, text::left_of_control),
         alone(items.iter().filter(|item| is_coordinate(item)).count(), text::left_of_coordinates),
-        of(number(LeftOutKind::Distance), distances, text::left_of_distances),
-        of(number(LeftOutKind::Photo), project.photos.len(), text::left_of_photos),
-        of(number(LeftOutKind::Point), project.points.len(), text::left_of_points),
+        of(LeftOutKind::Distance, distances, text::left_of_distances),
+        of(LeftOutKind::Photo, project.photos.len(), text::left_of_photos),
+        of(LeftOutKind::Point, project.points.len(), text::left_of_points),
         alone(number(LeftOutKind::Parameter), text::left_of_parameters),
     ];
     Some(text::not_used(parts.into_iter().flatten().collect::<Vec<_>>().join(", ")))

@@ -13,6 +13,7 @@ use leptos::task::spawn_local;
 use sightline::adjustment::Adjustment;
 use sightline::project::{Camera, Project, Role};
 
+use super::advice::Contradictions;
 use super::changes::change_words;
 use super::estimated::estimated;
 use super::icon::{Glyph, Icon};
@@ -130,6 +131,7 @@ fn Current() -> impl IntoView {
             explained.set(Some(statistic));
             shown.set(Shown::Meanings);
         })/>
+        <Contradictions/>
         <NotUsed/>
         <div class="result-views" role="group" aria-label=text::results>
             {views.map(|(one, name)| view! {

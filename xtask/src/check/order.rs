@@ -42,6 +42,7 @@ const ORDERS: [Order; 3] = [
             "equipment",
             "eccentricity",
             "features",
+            "plausibility",
             "adjust",
             "matching",
             "orient",

@@ -171,6 +171,10 @@ declare! { planning {
     lack_undetermined(points): "Without two rays that meet: {points}. Add a photo that sees them.";
     lack_beyond(points): "Less accurate than wanted: {points}.";
     lack_forbidden(stations): "Stands where nobody can: {stations}.";
+    ended_most(most): "What is wanted is not reached with {most} photos, the most that a plan may have.";
+    ended_no_gain(tried): "What is wanted is not reached: {tried} further photos gained nothing. Bring targets with more depth, a longer lens, or more room to stand.";
+    ended_no_place: "What is wanted is not reached: from no other place enough targets are seen.";
+    ended_time: "What is wanted was not reached in the time of the search. Add photos by hand, or go on from this plan.";
     two_rays(points): "Only two rays, where an error stays unseen: {points}.";
     narrow(points): "Rays meet under less than 5°: {points}.";
     correlated(first, second, value): "{first} and {second} are hardly told apart (correlation {value}): roll some photos by 90°, or photograph from more sides.";

@@ -170,6 +170,10 @@ translate! { Korean planning {
     lack_undetermined(points): "만나는 광선이 두 개가 안 되는 점: {points}. 이 점들을 보는 사진을 추가하십시오.";
     lack_beyond(points): "목표보다 부정확한 점: {points}.";
     lack_forbidden(stations): "설 수 없는 곳에 있는 촬영점: {stations}.";
+    ended_most(most): "한 계획의 최대 사진 수인 {most}매로도 목표에 이르지 못하였습니다.";
+    ended_no_gain(tried): "목표에 이르지 못하였습니다. 사진 {tried}매를 더 넣어도 나아지지 않습니다. 깊이가 있는 타깃, 더 긴 렌즈, 또는 더 넓은 촬영 자리가 필요합니다.";
+    ended_no_place: "목표에 이르지 못하였습니다. 타깃이 충분히 보이는 다른 자리가 없습니다.";
+    ended_time: "정해진 계산 시간 안에 목표에 이르지 못하였습니다. 사진을 직접 추가하거나 이 계획에서 이어서 진행하십시오.";
     two_rays(points): "광선이 두 개뿐이라 착오가 드러나지 않는 점: {points}.";
     narrow(points): "광선이 5° 미만으로 만나는 점: {points}.";
     correlated(first, second, value): "{first}, {second}의 구분이 어렵습니다(상관 {value}). 일부 사진을 90° 돌리거나 더 여러 방향에서 찍으십시오.";

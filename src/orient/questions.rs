@@ -1,0 +1,165 @@
+//! What an orientation asks of the input: [`crate::plausibility`] with what the photos say by themselves.
+
+use super::block::{Block, principal_distance_px};
+use super::note::Note;
+use super::{Attempt, give_principal_distances};
+use crate::adjustment::ImplausibleCamera;
+use crate::initial::Pose;
+use crate::initial::robust::quantile;
+use crate::plausibility::axes::{self, Handedness, Pair, Question};
+use crate::plausibility::framing::{self, Framing};
+use crate::plausibility::units;
+use crate::project::{Datum, Interior, Parameter, Project, Role};
+
+/// Given points that tell a mirror image: three always lie in a plane.
+const FEWEST: usize = 4;
+/// Photos that are looked at for another size; more that do not fit have another reason.
+const MOST: usize = 8;
+/// Share of a photo's measurements that may disagree before it is looked at.
+const DISAGREEING: f64 = 0.4;
+
+/// Whether given coordinates or orientations hold photos that show no depth by themselves.
+pub(super) fn is_known(block: &Block) -> bool {
+    block.marks.iter().filter(|m| m.known.is_some() && !m.sights.is_empty()).count() >= 3
+        || block.views.iter().any(|view| view.given)
+}
+
+/// Lengths in another unit: of what is given, with the oriented document's coordinates.
+pub(super) fn units(given: &Project, oriented: &Project) -> Vec<Note> {
+    let mut found = units::of_lengths(oriented);
+    for (before, after) in given.cameras.iter().zip(&oriented.cameras) {
+        if let (Interior::Brown { c: Some(given), .. }, Some(_)) = (before.interior, before.pixel_pitch) {
+            let c = after.interior.get(Parameter::C);
+            found.extend(c.and_then(|found| units::of_camera(&before.id, given, found)));
+        }
+    }
+    found.into_iter().map(Note::UnitRatio).collect()
+}
+
+/// Whether the axes of given coordinates are mirrored.
+///
+/// Where the oriented network, which took them for right, agrees with them and not with their mirror image, nothing is asked, and where they
+/// lie in a plane its form is the photos' own. Else the photos are oriented once more without anything given in the object's system.
+pub(super) fn axes(project: &Project, block: &Block) -> Option<Note> {
+    let measured = project.points.iter().zip(&block.marks);
+    let given = measured.filter(|(p, m)| p.role != Role::Tie && p.xyz.is_some() && m.sights.len() >= 2).count();
+    let own = pairs(project, block);
+    let question = match axes::handedness(&own) {
+        Handedness::AsGiven => None,
+        Handedness::Both { .. } => axes::question(&own, &poses(block)),
+        Handedness::Mirrored { .. } | Handedness::Neither if given >= FEWEST => {
+            let bare = without_given(project);
+            let mut start = Block::new(&bare);
+            let sources = give_principal_distances(&mut start);
+            let block = Attempt::new(&bare, &start, &start.adjustable, &sources, true).block;
+            axes::question(&pairs(project, &block), &poses(&block))
+        }
+        _ => None,
+    };
+    question.map(|question| match question {
+        Question::Mirrored(mirrored) => Note::MirroredControl(mirrored),
+        Question::Undecided(undecided) => Note::UndecidedAxes(undecided),
+    })
+}
+
+fn poses(block: &Block) -> Vec<Pose> {
+    block.views.iter().filter_map(|view| view.pose).collect()
+}
+
+/// The project with tie points alone, in no system.
+fn without_given(project: &Project) -> Project {
+    let mut bare = Project { datum: Datum::default(), ..project.clone() };
+    for point in &mut bare.points {
+        (point.role, point.xyz, point.sigma) = (Role::Tie, None, None);
+    }
+    for photo in &mut bare.photos {
+        (photo.position, photo.rotation, photo.sigma_position) = (None, None, None);
+    }
+    bare
+}
+
+/// Points and observed projection centres with given coordinates, where their rays meet and where their photos stand.
+fn pairs(project: &Project, block: &Block) -> Vec<Pair> {
+    let noise = block.noise_px.unwrap_or(1.0);
+    let rms = |sigma: Option<[Option<f64>; 3]>| {
+        sigma.map_or(0.0, |s| (s.iter().flatten().map(|s| s * s).sum::<f64>() / 3.0).sqrt())
+    };
+    let mut pairs = Vec::new();
+    for (k, point) in project.points.iter().enumerate().filter(|(_, p)| p.role != Role::Tie) {
+        let (Some(given), Ok((found, _))) = (point.xyz, block.intersection(k)) else { continue };
+        // The photos' own uncertainty is about as much as that of the rays.
+        let free_sigma = 2.0 * noise * found.cofactors.diagonal().max().max(0.0).sqrt();
+        pairs.push(Pair { free: found.point, given: given.into(), free_sigma, given_sigma: rms(point.sigma) });
+    }
+    for (photo, view) in project.photos.iter().zip(&block.views).filter(|(_, view)| !view.given) {
+        let observed = photo.sigma_position.filter(|sigma| sigma.iter().all(Option::is_some));
+        if let (Some(pose), Some(given), Some(_)) = (view.pose, photo.position, observed) {
+            let points = view.sights.iter().filter_map(|&s| block.marks[block.sights[s].point].xyz);
+            let depths: Vec<f64> = points.map(|p| (p - pose.centre).norm()).collect();
+            let px = principal_distance_px(&block.cameras[view.camera]).unwrap_or(1.0);
+            let free_sigma = 2.0 * noise * quantile(&depths, 0.5) / px;
+            pairs.push(Pair {
+                free: pose.centre,
+                given: given.into(),
+                free_sigma,
+                given_sigma: rms(photo.sigma_position),
+            });
+        }
+    }
+    pairs
+}
+
+/// Photos that were resized, cropped or taken at another principal distance: their poses are taken back, since with the camera's lens they
+/// are wrong, and so are points that would be left with one ray.
+pub(super) fn misframed(project: &Project, block: &mut Block) -> Vec<ImplausibleCamera> {
+    let mut found: Vec<(usize, Framing)> = Vec::new();
+    let mut looked = 0;
+    for photo in 0..block.views.len() {
+        let view = &block.views[photo];
+        if view.given || looked == MOST {
+            continue;
+        }
+        let sights: Vec<usize> = view.sights.iter().copied().filter(|&s| is_determined_without(block, s)).collect();
+        let agrees = |s: &usize| block.sights[*s].taken && block.misfit_px(*s).is_some();
+        let agreeing = sights.iter().filter(|s| agrees(s)).count();
+        if sights.is_empty() || agreeing as f64 > (1.0 - DISAGREEING) * sights.len() as f64 {
+            continue;
+        }
+        looked += 1;
+        let object = sights.iter().filter_map(|&s| block.marks[block.sights[s].point].xyz).collect();
+        let pixels = sights.iter().map(|&s| block.sights[s].pixel).collect();
+        let camera = block.cameras[view.camera].of_photo(&view.as_photo());
+        let limit_px = sights.iter().map(|&s| block.limit_px(s)).fold(1.0, f64::max);
+        let seen = framing::Seen { object, pixels, camera: &camera, limit_px };
+        found.extend(framing::misframed(&seen).map(|framing| (photo, framing)));
+    }
+    for (photo, _) in &found {
+        block.views[*photo].pose = None;
+        for s in block.views[*photo].sights.clone() {
+            let point = block.sights[s].point;
+            if block.rays(point).0.len() < 2 && !(block.anchored && block.marks[point].known.is_some()) {
+                block.marks[point].xyz = None;
+            }
+        }
+    }
+    if !found.is_empty() {
+        block.review();
+    }
+    let doubt = |(photo, framing): (usize, Framing)| {
+        let camera = &project.cameras[block.views[photo].camera];
+        ImplausibleCamera::of_framing(camera, &project.photos[photo].id, framing)
+    };
+    found.into_iter().map(doubt).collect()
+}
+
+/// Whether other photos determine the point of a measurement, or it is given.
+fn is_determined_without(block: &Block, sight: usize) -> bool {
+    let photo = block.sights[sight].photo;
+    let mark = &block.marks[block.sights[sight].point];
+    let known = block.anchored && mark.known.is_some();
+    let others = mark
+        .sights
+        .iter()
+        .filter(|&&s| block.sights[s].photo != photo && block.sights[s].taken && block.misfit_px(s).is_some());
+    mark.xyz.is_some() && (known || others.count() >= 2)
+}
