@@ -12,7 +12,12 @@ export const dist = process.env.SIGHTLINE_DIST || fileURLToPath(new URL('../dist
 const FLAGS = [
   '--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
   '--enable-unsafe-swiftshader',
+  // A name that browsers take for one of the network: no secure context over plain HTTP, as on a phone in a local network.
+  '--host-resolver-rules=MAP insecure.test 127.0.0.1',
 ];
+
+/** The page's address over plain HTTP, without a secure context: no locks, no private file system, no service worker. */
+export const plainHttp = () => process.env.SIGHTLINE_URL.replace(/127\.0\.0\.1|localhost/, 'insecure.test');
 
 /**
  * A fresh browser on the page: nothing is left of other tests. What the page logs as an error or throws is in `errors`.

@@ -74,7 +74,7 @@ test('HEIC and RAW are opened and measured, and without one no decoder is fetche
     await page.reload();
     await page.waitForSelector('.desk');
     assert.ok(await page.evaluate(() => Boolean(navigator.serviceWorker.controller)), 'the service worker is in charge');
-    await page.evaluate(async () => (await fetch('sightline-codecs_bg.wasm')).arrayBuffer());
+    await page.evaluate(async () => (await fetch(`${sightlineBase}sightline-codecs_bg.wasm`)).arrayBuffer());
     assert.ok(await kept());
     assert.deepEqual(errors, []);
   } finally {

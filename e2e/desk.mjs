@@ -43,6 +43,49 @@ export async function drop(page, paths) {
   });
 }
 
+/** Waits until everything is in the browser's storage. */
+export const written = (page) => page.waitForFunction(() => /^saved \d/.test(document.querySelector('.project span')?.textContent), undefined, { timeout: 60_000 });
+
+/** A project file with nothing but a name. */
+export const named = (name) => scratch(`${name}.json`, JSON.stringify({ format: 'sightline', version: 1, name }));
+
+/** Names of the projects in the list of the start page. */
+export const listed = (page) => page.$$eval('[data-project] .name', (all) => all.map((one) => one.textContent));
+
+/** Waits until the list has exactly these. */
+export const waitForList = (page, wanted) =>
+  page.waitForFunction((list) => JSON.stringify([...document.querySelectorAll('[data-project] .name')].map((one) => one.textContent).sort()) === list, JSON.stringify([...wanted].sort()), { timeout: 30_000 });
+
+/** Presses one of the further buttons of a project in the list. */
+export async function verb(page, name, label) {
+  const row = page.locator(`tr[data-project]:has(.name:text-is("${name}"))`);
+  const button = page.locator(`tr[data-project]:has(.name:text-is("${name}")) + tr.verbs`).getByRole('button', { name: label, exact: true });
+  // The list may be read anew between the two clicks, which closes the row of verbs.
+  for (let tries = 0; ; tries++) {
+    try {
+      if ((await row.locator('.icon-button').getAttribute('aria-expanded', { timeout: 3000 })) !== 'true') await row.locator('.icon-button').click({ timeout: 3000 });
+      return await button.click({ timeout: 3000 });
+    } catch (error) {
+      if (tries === 5) throw error;
+    }
+  }
+}
+
+/** Waits until a window has its project for itself. */
+export const owns = (page, timeout = 30_000) => page.waitForFunction(() => !/reads along/.test(document.querySelector('.project span')?.textContent), undefined, { timeout });
+
+/** Opens a project of the list. */
+export async function goOn(page, name) {
+  await page.locator(`tr[data-project]:has(.name:text-is("${name}")) .do .button`).first().click();
+  await page.waitForFunction((wanted) => document.querySelector('.project-name')?.value === wanted, name, { timeout: 30_000 });
+}
+
+/** Gives the open project another name: a change that is written at once. */
+export async function rename(page, name) {
+  await page.fill('.project-name', name);
+  await page.press('.project-name', 'Enter');
+}
+
 /** Goes to a step of the path. */
 export const go = (page, step) => page.click(`[data-step=${step}]`);
 

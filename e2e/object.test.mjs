@@ -286,7 +286,7 @@ test('twenty thousand points and three hundred photos move at thirty frames a se
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
     const rate = await page.evaluate(async () => {
-      const { open } = await import('./view3d.js');
+      const { open } = await sightlineLoad('view3d.js');
       const host = document.body.appendChild(document.createElement('div'));
       host.className = 'space-host';
       Object.assign(host.style, { position: 'fixed', left: 0, top: 0, width: '900px', height: '560px', zIndex: 9 });

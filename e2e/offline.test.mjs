@@ -1,6 +1,6 @@
 // Without a network: the server stops, the page goes on; a new build comes whole and when it is agreed to; one file does it from a disk.
 import assert from 'node:assert/strict';
-import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { createHash } from 'node:crypto';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
@@ -117,5 +117,107 @@ test('one file does the same from a disk', { timeout: 600_000 }, async () => {
     assert.deepEqual(errors, []);
   } finally {
     await close();
+  }
+});
+
+/** The folder of the build that a page names. */
+const buildOf = (folder) => /([0-9a-f]{16})\/desk_bg\.wasm/.exec(readFileSync(join(folder, 'index.html'), 'utf8'))[1];
+
+test('a page whose build is not on the host any more takes no part of another one, and asks to be loaded anew', { timeout: 300_000 }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), 'sightline-skew-'));
+  cpSync(dist, folder, { recursive: true });
+  const { address, stop } = await host(folder);
+  // Nothing is kept: the first visit, a private window, plain HTTP.
+  const { page, close } = await open({ address, serviceWorkers: 'block', width: 1366, height: 768 });
+  try {
+    await page.waitForSelector('.sample');
+    await page.evaluate(() => new Promise((done) => setTimeout(done, 2000)));
+    // The host gets another build in the middle of the visit.
+    const [old, next] = [buildOf(folder), '0123456789abcdef'];
+    renameSync(join(folder, old), join(folder, next));
+    writeFileSync(join(folder, 'index.html'), readFileSync(join(folder, 'index.html'), 'utf8').replaceAll(old, next));
+    const asked = [];
+    page.on('request', (request) => asked.push(request.url()));
+    await page.click('.sample');
+    await page.waitForSelector('.notice:has-text("another version of Sightline")', { timeout: 60_000 });
+    assert.ok(asked.every((url) => !url.includes(next)), asked.join());
+    await Promise.all([page.waitForEvent('load'), page.getByRole('button', { name: 'Reload', exact: true }).click()]);
+    await sample(page);
+    assert.equal(await page.locator('.notice:has-text("another version")').count(), 0);
+  } finally {
+    await close();
+    await stop();
+    rmSync(folder, { recursive: true, force: true });
+  }
+});
+
+const LACKS = {
+  'no WebAssembly': [{ script: 'delete self.WebAssembly' }, /WebAssembly is missing/],
+  'no SIMD': [{ script: 'WebAssembly.validate = () => false' }, /SIMD/],
+  'no modules': [{ script: 'delete HTMLScriptElement.prototype.noModule' }, /JavaScript modules/],
+  'a module that is not there': [{ route: ['**/desk.js', (route) => route.fulfill({ status: 404, body: 'not here' })] }, /a part of it did not come.*start\.js/],
+  'a module of a wrong type': [{ route: ['**/start.js', async (route) => route.fulfill({ response: await route.fetch(), headers: { 'Content-Type': 'text/plain' } })] }, /a part of it did not come.*start\.js/],
+  'no module of WebAssembly': [{ route: ['**/desk_bg.wasm', (route) => route.fulfill({ status: 404, body: 'not here' })] }, /cannot start/],
+};
+for (const language of ['en', 'ko']) {
+  test(`a page that cannot start says what is missing and which browsers work (${language})`, { timeout: 300_000 }, async () => {
+    for (const [what, [{ script, route }, words]] of Object.entries(LACKS)) {
+      const { page, context, close } = await open({ serviceWorkers: 'block', locale: language === 'ko' ? 'ko-KR' : 'en-US' });
+      try {
+        if (script) await context.addInitScript(script);
+        if (route) await context.route(...route);
+        await page.reload();
+        const trouble = page.locator('#trouble');
+        await trouble.waitFor({ state: 'visible', timeout: 20_000 });
+        const told = await trouble.textContent();
+        if (language === 'en') assert.match(told, words, what);
+        else assert.match(told, /페이지를 시작할 수 없습니다/, what);
+        assert.match(told, /Chrome.*91.*Firefox.*114.*Safari.*16\.4/, what);
+        assert.equal(await page.locator('#static .waiting:visible').count(), 0);
+      } finally {
+        await close();
+      }
+    }
+  });
+}
+
+for (const locale of ['en-US', 'ko-KR']) {
+  test(`what the start page begins with stands before the page's module has come (${locale})`, { timeout: 120_000 }, async () => {
+    const { page, context, close } = await open({ serviceWorkers: 'block', locale });
+    try {
+      let release;
+      const held = new Promise((done) => (release = done));
+      await context.route('**/desk_bg.wasm', async (route) => {
+        await held;
+        await route.continue();
+      });
+      await page.reload({ waitUntil: 'commit' });
+      await page.waitForFunction(() => [...document.querySelectorAll('#static h1')].some((h) => h.offsetParent), undefined, { timeout: 10_000 });
+      const shown = async (where) => page.$$eval(`${where} .invitation h1, ${where} .invitation p:first-of-type`, (all) => all.filter((one) => one.offsetParent).map((one) => one.textContent.trim()));
+      const before = await shown('#static');
+      release();
+      await page.waitForSelector('.sample');
+      assert.equal(await page.locator('#static').count(), 0);
+      assert.deepEqual(before, await shown('.desk'));
+      assert.equal(before.length, 2);
+    } finally {
+      await close();
+    }
+  });
+}
+
+test('a page that cannot be kept says that it loads only with the network', { timeout: 120_000 }, async () => {
+  const folder = mkdtempSync(join(tmpdir(), 'sightline-kept-'));
+  cpSync(dist, folder, { recursive: true });
+  // A file of it does not come, so that no build is whole.
+  rmSync(join(folder, 'icon-512.png'));
+  const { address, stop } = await host(folder);
+  const { page, close } = await open({ address, width: 1366, height: 768 });
+  try {
+    await page.waitForFunction(() => /loads only with the network/.test(document.querySelector('.foot .storage')?.textContent), undefined, { timeout: 30_000 });
+  } finally {
+    await close();
+    await stop();
+    rmSync(folder, { recursive: true, force: true });
   }
 });

@@ -2,8 +2,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { killRenderers, open, openPrivately } from './browser.mjs';
-import { downloads, drop, go, idle, notice, sample, scratch, unzipped } from './desk.mjs';
+import { killRenderers, open, openPrivately, plainHttp } from './browser.mjs';
+import { downloads, drop, go, idle, notice, sample, scratch, unzipped, verb, waitForList } from './desk.mjs';
 
 const written = (page) => page.waitForFunction(() => /^saved \d/.test(document.querySelector('.project span')?.textContent), undefined, { timeout: 60_000 });
 const figure = (page, step) => page.textContent(`[data-step=${step}] .figure`).then((text) => text.trim());
@@ -309,6 +309,138 @@ test('the journal of a long session is condensed, and nothing of it is lost', { 
     await page.reload();
     await goOn(page);
     assert.equal(await page.inputValue('.project-name'), 'The end');
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+/** Changes the bytes of the one journal that is stored, by the page's own means; gives how many frames it has. */
+const harmJournal = (page, harm) =>
+  page.evaluate(async (harm) => {
+    const { unframed } = await import(`${sightlineBase}storage/frames.js`);
+    const harmed = (bytes, [from, to]) => {
+      if (harm === 'bit') bytes[Math.floor((from + to) / 2)] ^= 4;
+      if (harm === 'length') bytes[from + 2] ^= 1;
+      if (harm === 'sector') bytes.fill(0, Math.floor((from + to) / 2), Math.min(to, Math.floor((from + to) / 2) + 64));
+      return bytes;
+    };
+    if (navigator.storage?.getDirectory) {
+      const top = await (await navigator.storage.getDirectory()).getDirectoryHandle('sightline');
+      for await (const folder of (await top.getDirectoryHandle('projects')).values()) {
+        for await (const file of folder.values()) {
+          if (!file.name.startsWith('journal-')) continue;
+          const bytes = new Uint8Array(await (await file.getFile()).arrayBuffer());
+          const { frames } = unframed(bytes);
+          const { at, end } = frames[harm === 'first' ? 0 : 4];
+          if (harm === 'first') bytes.fill(7, at, at + 40);
+          const out = await file.createWritable();
+          await out.write(harm === 'tail' ? bytes.slice(0, frames.at(-1).end - 3) : harmed(bytes, [at, end]));
+          await out.close();
+          return frames.length;
+        }
+      }
+    }
+    const base = await new Promise((done) => (indexedDB.open('sightline').onsuccess = ({ target }) => done(target.result)));
+    const store = base.transaction('frames', 'readwrite').objectStore('frames');
+    const keys = await new Promise((done) => (store.getAllKeys().onsuccess = ({ target }) => done(target.result)));
+    const key = harm === 'first' ? keys[0] : harm === 'tail' ? keys.at(-1) : keys[4];
+    const bytes = await new Promise((done) => (store.get(key).onsuccess = ({ target }) => done(target.result)));
+    if (harm === 'first') bytes.fill(7, 0, 40);
+    const written = harm === 'tail' ? bytes.slice(0, bytes.length - 3) : harmed(bytes, [0, bytes.length]);
+    await new Promise((done) => (store.put(written, key).onsuccess = done));
+    base.close();
+    return keys.length;
+  }, harm);
+
+for (const [kind, address] of [['files', () => undefined], ['database', plainHttp]]) {
+  test(`a damaged journal (${kind}) is mended or told, what can be read of it is open, and the damaged one can be downloaded`, { timeout: 600_000 }, async () => {
+    const { page, errors, close } = await open({ width: 1366, height: 768, address: address() });
+    try {
+      for (const [harm, told] of [['bit', /repaired, and nothing is lost/], ['length', /repaired, and nothing is lost/], ['sector', /was damaged/], ['first', /was damaged/], ['tail', null]]) {
+        // Large enough that later names are told as what changed of the first.
+        const points = Array.from({ length: 60 }, (_, k) => ({ id: `p${k}`, role: 'control', xyz: [k, k, k], sigma: [0.1, 0.1, 0.1] }));
+        await drop(page, [scratch('harmed.json', JSON.stringify({ format: 'sightline', version: 1, name: 'Edit 0', unit: 'mm', points }))]);
+        await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Edit 0');
+        await go(page, 'control');
+        for (let edit = 1; edit <= 11; edit++) {
+          // A step of the history as well.
+          if (edit % 4 === 0) {
+            await page.fill('[name=unit]', edit % 8 ? 'm' : 'mm');
+            await page.press('[name=unit]', 'Enter');
+          }
+          await rename(page, `Edit ${edit}`);
+          await written(page);
+        }
+        await page.click('.mark');
+        await page.reload();
+        await page.waitForSelector('[data-project]');
+        const frames = await harmJournal(page, harm);
+        assert.ok(frames >= 12, `${frames} frames`);
+        await page.reload();
+        await page.waitForSelector('[data-project]');
+        await goOn(page);
+        const name = await page.inputValue('.project-name');
+        if (told) assert.match(await page.textContent('.notices'), told, harm);
+        else assert.equal(await page.locator('.notice.warning').count(), 0, harm);
+        if (['bit', 'length'].includes(harm)) {
+          assert.equal(name, 'Edit 11', harm);
+          // What could be undone still can.
+          await page.waitForFunction(() => document.querySelector('.tools .icon-button')?.disabled === false);
+        }
+        if (harm === 'tail') assert.equal(name, 'Edit 10');
+        console.log(`${kind}, ${harm}: ${name} of Edit 11`);
+        // It is stored anew, and goes on.
+        await rename(page, `Saved ${harm}`);
+        await written(page);
+        await page.reload();
+        await page.waitForSelector('[data-project]');
+        await goOn(page);
+        assert.equal(await page.inputValue('.project-name'), `Saved ${harm}`);
+        assert.equal(await page.locator('.notice.warning').count(), 0);
+        await page.click('.mark');
+        await page.waitForSelector('[data-project]');
+        await page.waitForTimeout(300);
+        if (told) {
+          const files = await downloads(page, 1, () => verb(page, `Saved ${harm}`, 'Download damaged file'));
+          assert.ok(Object.values(files)[0].length > 500);
+        }
+        await verb(page, `Saved ${harm}`, 'Delete');
+        await waitForList(page, []);
+      }
+      assert.deepEqual(errors, []);
+    } finally {
+      await close();
+    }
+  });
+}
+
+test('one button deletes everything that the page keeps, and not while another window has a project', { timeout: 300_000 }, async () => {
+  const { page, context, url, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await drop(page, [scratch('one.json', named('One'))]);
+    await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'One');
+    await written(page);
+    const second = await context.newPage();
+    await second.goto(url);
+    await second.waitForSelector('[data-project]');
+    const wipe = async (window) => {
+      await window.click('.wipe');
+      await window.locator('.asking').getByRole('button', { name: 'Delete everything' }).click();
+    };
+    await wipe(second);
+    await second.waitForSelector('.notice:has-text("open in another window")');
+    await page.reload();
+    await page.waitForSelector('[data-project]');
+    await second.close();
+    await page.evaluate(() => localStorage.setItem('sightline.theme', 'dark'));
+    await page.click('.wipe');
+    await Promise.all([page.waitForEvent('load'), page.locator('.asking').getByRole('button', { name: 'Delete everything' }).click()]);
+    await page.waitForSelector('.sample');
+    await page.waitForTimeout(500);
+    assert.equal(await page.locator('[data-project]').count(), 0);
+    assert.doesNotMatch(await page.textContent('.notices'), /cleared/);
+    assert.equal(await page.evaluate(() => localStorage.getItem('sightline.theme')), null);
     assert.deepEqual(errors, []);
   } finally {
     await close();

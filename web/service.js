@@ -8,19 +8,31 @@ const digest = async (response) => hex(await crypto.subtle.digest('SHA-256', awa
 
 const wanted = (name) => FILES[name] ?? LATER[name];
 
+/** A file's name without the folder of its build. */
+const last = (address) => String(address).split('/').pop();
+
+/** What earlier builds have of the files of a name: their requests with the caches that they are in. */
+async function kept(name) {
+  const found = [];
+  for (const key of (await caches.keys()).filter((key) => key.startsWith('sightline '))) {
+    const cache = await caches.open(key);
+    for (const request of await cache.keys()) if (last(request.url) === last(new URL(name, scope))) found.push([cache, request]);
+  }
+  return found;
+}
+
 /** Files that few need, of those who have needed them: an earlier build has them. */
 async function asked() {
-  const builds = (await caches.keys()).filter((key) => key.startsWith('sightline '));
-  const kept = await Promise.all(builds.map(async (key) => (await (await caches.open(key)).keys()).map(({ url }) => url)));
-  return Object.keys(LATER).filter((name) => kept.flat().includes(new URL(name, scope).href));
+  const wants = await Promise.all(Object.keys(LATER).map(async (name) => ((await kept(name)).length > 0 ? [name] : [])));
+  return wants.flat();
 }
 
 /** A file of this build: from an earlier one where it is the same, else from the host; anything else ends the installation. */
 async function fetched(name) {
   const address = new URL(name, scope);
-  for (const key of await caches.keys()) {
-    const kept = key.startsWith('sightline ') && (await (await caches.open(key)).match(address));
-    if (kept && (await digest(kept.clone())) === wanted(name)) return kept;
+  for (const [cache, request] of await kept(name)) {
+    const same = await cache.match(request);
+    if (same && (await digest(same.clone())) === wanted(name)) return same;
   }
   const response = await fetch(address, { cache: 'no-store' });
   if (!response.ok || (await digest(response.clone())) !== wanted(name)) throw new Error(`${name} is not of this build`);
@@ -52,8 +64,8 @@ addEventListener('fetch', (event) => {
   if (!wanted(name)) return;
   const answer = async () => {
     const cache = await caches.open(BUILD);
-    const kept = await cache.match(new URL(name, scope));
-    if (kept || !(name in LATER)) return kept ?? fetch(event.request);
+    const own = await cache.match(new URL(name, scope));
+    if (own || !(name in LATER)) return own ?? fetch(event.request);
     const response = await fetched(name);
     await cache.put(new URL(name, scope), response.clone());
     return response;

@@ -1,20 +1,42 @@
 // Keeps projects in the browser's own storage, crash-safe: a worker of its own, so that no edit waits for a disk.
 //
-// A project is a journal of frames, each with its length and checksum, whose first frame is a whole snapshot; a kill at any moment leaves
-// a prefix of whole frames, which is the state before or after an edit. What is in a frame: parts (texts by number, later ones as what
-// changed of an earlier one) and a note, which only the page understands. A journal that has grown is condensed: the page says what is
-// still needed, and a new journal with that takes the place of the old one. Photos are kept once, by what is in them.
+// A project is a journal of frames (`storage/frames.js`), whose first frame is a whole snapshot; a kill at any moment leaves a prefix of
+// whole frames, which is the state before or after an edit. What is in a frame: parts (texts by number, later ones as what changed of an
+// earlier one) and a note, which only the page understands. A journal that has grown is condensed: the page says what is still needed, and a
+// new journal with that takes the place of the old one. Photos are kept once, by what is in them.
 //
-// Where the origin has a private file system its files are used, else IndexedDB, else nothing, and the page is told.
+// Where the origin has a private file system its files are used (`storage/files.js`), else IndexedDB (`storage/database.js`), else nothing,
+// and the page is told. Over plain HTTP there is only IndexedDB.
+//
+// Invariants. Each function below keeps them, and every one is there because its absence lost a project.
+//
+// 1. A project is there if it has a journal. Its card (name, time, figures, the photos that it needs) is of the list alone: a project whose
+//    card is missing or cannot be read is listed and opened all the same, and a card without a journal is no project. A card is written for
+//    a journal that is there, and makes none.
+// 2. A journal has one writer at a time: the worker that holds the project. What holds it is a Web Lock; where there are none (plain HTTP), a
+//    record in the database that names the writer's life (`storage/life.js`), so that a writer that has died holds nothing. With IndexedDB
+//    each frame is added, never put in the place of another, in a transaction that looks first whether the record still names this worker:
+//    a writer that was frozen, or was thought dead, writes nothing any more. With files the open file itself excludes others.
+// 3. Whoever opens a project that is held only reads along, is told so, and can take it over. Its writer is asked first and writes all that it
+//    still has; one that does not answer is passed over, and what its page could not write becomes a project of its own. A writer of files looks
+//    after each frame whether a newer journal has been begun, and whoever has begun one looks after that for frames in the old one.
+// 4. Renaming, deleting and purging need the hold, too: what is open in another window is not deleted there. A deleted project stays as it is,
+//    out of the list; an append takes the deletion back. It is purged by nobody but the worker that deleted it, or after a day.
+// 5. A photo is let go when no card names it, all cards are read at the same time as it goes, and one that cannot be read keeps all photos.
+// 6. A journal is cut at its end only where its last frame is not whole: that was being written. Damage before that is mended where it is one
+//    bit. Else the page is told, takes the newest state that can be read, and begins a new journal; the damaged one is put aside as it was.
 //
 // A browser that clears its storage under an open page leaves the files that are open then, and in Chromium whatever is stored meanwhile
 // is taken away with them when the last of those is let go. Only the end of the worker lets go of them: the page ends it and starts a new
 // one, which waits until those of all windows have gone.
+import { database } from './storage/database.js';
+import { fileSystem } from './storage/files.js';
+import { framed } from './storage/frames.js';
+import { buryTheDead, live, newLife } from './storage/life.js';
+import { fault, pause } from './storage/common.js';
 
 /** A part is written whole again after so many that only say what changed, or when those outgrow it: reading it stays short. */
 const CHAIN = 64;
-/** Bytes read or written of a photo at a time. */
-const PIECE = 1 << 20;
 /** What must stay free when a photo is copied: room for the journal. */
 const RESERVE = 32 << 20;
 /** Versions of the journal that are read here. */
@@ -23,318 +45,15 @@ const VERSION = 1;
 const OPEN_FILES = 'sightline files';
 /** How long the workers of other windows are waited for after storage was cleared, in milliseconds. */
 const PATIENCE = 5000;
+/** How long the writer of a project is waited for when another window takes it over, in milliseconds: it may have much to write. */
+const YIELDING = 4000;
 /** Between a lock that is let go and the files that were beside it, in milliseconds. */
 const SETTLING = 250;
+/** After so long a deleted project is purged by whoever comes, in milliseconds. */
+const DAY = 86_400_000;
 
-const TABLE = Int32Array.from({ length: 256 }, (_, n) => {
-  for (let k = 0; k < 8; k++) n = n & 1 ? 0xedb88320 ^ (n >>> 1) : n >>> 1;
-  return n;
-});
-
-function checksum(bytes) {
-  let c = ~0;
-  for (let i = 0; i < bytes.length; i++) c = TABLE[(c ^ bytes[i]) & 255] ^ (c >>> 8);
-  return ~c >>> 0;
-}
-
-/** Items as a frame: length, checksum, JSON. */
-function framed(items) {
-  const body = new TextEncoder().encode(JSON.stringify(items));
-  const bytes = new Uint8Array(8 + body.length);
-  const head = new DataView(bytes.buffer);
-  head.setUint32(0, body.length);
-  head.setUint32(4, checksum(body));
-  bytes.set(body, 8);
-  return bytes;
-}
-
-/** The items of whole frames, and where they end: what follows was being written when everything stopped. */
-function unframed(bytes) {
-  const head = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const items = [];
-  let at = 0;
-  while (at + 8 <= bytes.length) {
-    const end = at + 8 + head.getUint32(at);
-    if (end > bytes.length) break;
-    const body = bytes.subarray(at + 8, end);
-    if (checksum(body) !== head.getUint32(at + 4)) break;
-    for (const item of JSON.parse(new TextDecoder().decode(body))) items.push(item);
-    at = end;
-  }
-  return { items, end: at };
-}
-
-const fault = (name, message) => Object.assign(new Error(message), { name });
-const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
-const absent = (error) => error.name === 'NotFoundError';
-
-/** Tries again while another holder of a file goes away: that of a killed page is there for a moment. */
-async function patiently(work) {
-  for (let attempt = 0; ; attempt++) {
-    try {
-      return await work();
-    } catch (error) {
-      if (error.name !== 'NoModificationAllowedError' || attempt === 60) throw error;
-      await pause(50);
-    }
-  }
-}
-
-/** A file's bytes in pieces, through one buffer where its stream allows that: others lie there until the collector comes. */
-async function* pieces(blob) {
-  let reader;
-  try {
-    reader = blob.stream().getReader({ mode: 'byob' });
-  } catch {
-    for (let at = 0; at < blob.size; at += PIECE) yield new Uint8Array(await blob.slice(at, at + PIECE).arrayBuffer());
-    return;
-  }
-  for (let buffer = new Uint8Array(PIECE); ; ) {
-    const { value, done } = await reader.read(buffer);
-    if (done) return;
-    yield value;
-    buffer = new Uint8Array(value.buffer);
-  }
-}
-
-/** The origin's private file system: projects/ID/journal-N and card-0 or card-1, photos/KEY, small/KEY, equipment-0 or -1. */
-async function fileSystem() {
-  const top = await (await navigator.storage.getDirectory()).getDirectoryHandle('sightline', { create: true });
-  const [projects, photos, small] = await Promise.all(['projects', 'photos', 'small'].map((name) => top.getDirectoryHandle(name, { create: true })));
-  const open = async (folder, name) => patiently(async () => (await folder.getFileHandle(name, { create: true })).createSyncAccessHandle());
-  // Files that can be read but not written at once are of no use: found out before anything depends on it.
-  (await open(top, 'probe')).close();
-
-  const whole = (handle, bytes, at = 0) => {
-    while (bytes.length > 0) {
-      const written = handle.write(bytes, { at });
-      if (written === 0) throw fault('QuotaExceededError', 'no room');
-      at += written;
-      bytes = bytes.subarray(written);
-    }
-  };
-  const write = async (folder, name, bytes) => {
-    const handle = await open(folder, name);
-    try {
-      handle.truncate(0);
-      whole(handle, bytes);
-      handle.flush();
-    } finally {
-      handle.close();
-    }
-  };
-  const names = async (folder) => {
-    const all = [];
-    for await (const name of folder.keys()) all.push(name);
-    return all;
-  };
-  const file = async (folder, name) => {
-    try {
-      return await (await folder.getFileHandle(name)).getFile();
-    } catch (error) {
-      if (absent(error)) return null;
-      throw error;
-    }
-  };
-  const bytes = async (folder, name) => {
-    const found = await file(folder, name);
-    return found ? new Uint8Array(await found.arrayBuffer()) : new Uint8Array();
-  };
-  const generations = async (folder) => (await names(folder)).filter((name) => name.startsWith('journal-')).map((name) => Number(name.slice(8))).sort((a, b) => b - a);
-  const drop = (folder, name) => folder.removeEntry(name, { recursive: true }).catch(() => {});
-
-  return {
-    kind: 'files',
-    projects: () => names(projects),
-    async size(id) {
-      const folder = await projects.getDirectoryHandle(id);
-      const sizes = (await names(folder)).map(async (name) => (await file(folder, name))?.size ?? 0);
-      return (await Promise.all(sizes)).reduce((sum, size) => sum + size, 0);
-    },
-    /** The newest journal whose snapshot is whole. */
-    async journal(id) {
-      const folder = await projects.getDirectoryHandle(id);
-      for (const generation of await generations(folder)) {
-        const content = await bytes(folder, `journal-${generation}`);
-        const { items, end } = unframed(content);
-        if (end > 0) return { generation, items, end, size: end };
-      }
-      throw fault('NotFoundError', 'no journal');
-    },
-    /** What was appended since a journal was read to its end. */
-    async since(id, generation, end) {
-      const found = await file(await projects.getDirectoryHandle(id), `journal-${generation}`);
-      return unframed(new Uint8Array(await found.slice(end).arrayBuffer())).items;
-    },
-    /** Whether a journal is there still: a browser that makes room takes it away under a page that is open. */
-    async has(id, generation) {
-      return (await (await projects.getDirectoryHandle(id)).getFileHandle(`journal-${generation}`)) !== null;
-    },
-    async writer(id, generation, end) {
-      const handle = await open(await projects.getDirectoryHandle(id), `journal-${generation}`);
-      handle.truncate(end);
-      return {
-        append(frame) {
-          try {
-            whole(handle, frame, end);
-            handle.flush();
-            end += frame.length;
-          } catch (error) {
-            handle.truncate(end);
-            throw error;
-          }
-        },
-        close: () => handle.close(),
-        size: () => end,
-      };
-    },
-    /** A new journal that begins with a snapshot, and where it ends; those before it go when it is whole. */
-    async begin(id, generation, frame) {
-      const folder = await projects.getDirectoryHandle(id, { create: true });
-      await write(folder, `journal-${generation}`, frame);
-      for (const old of await generations(folder)) if (old < generation) await drop(folder, `journal-${old}`);
-      return frame.length;
-    },
-    async card(id) {
-      const folder = await projects.getDirectoryHandle(id);
-      const both = await Promise.all(['card-0', 'card-1'].map((name) => bytes(folder, name)));
-      const cards = both.flatMap((content) => unframed(content).items).sort((a, b) => b.turn - a.turn);
-      return cards[0];
-    },
-    /** In turns: one of the two is always whole. */
-    async setCard(id, card) {
-      const folder = await projects.getDirectoryHandle(id, { create: true });
-      const turn = ((await this.card(id))?.turn ?? 0) + 1;
-      await write(folder, `card-${turn % 2}`, framed([{ ...card, turn }]));
-    },
-    remove: (id) => drop(projects, id),
-    photo: (key) => file(photos, key),
-    small: (key) => file(small, key),
-    photos: () => names(photos),
-    async putPhoto(key, blob) {
-      const handle = await open(photos, key);
-      try {
-        handle.truncate(0);
-        let at = 0;
-        for await (const piece of pieces(blob)) {
-          whole(handle, piece, at);
-          at += piece.length;
-        }
-        handle.flush();
-      } catch (error) {
-        handle.truncate(0);
-        throw error;
-      } finally {
-        handle.close();
-      }
-    },
-    putSmall: async (key, blob) => write(small, key, new Uint8Array(await blob.arrayBuffer())),
-    removePhoto: (key) => Promise.all([drop(photos, key), drop(small, key)]),
-    async equipment() {
-      const both = await Promise.all(['equipment-0', 'equipment-1'].map((name) => bytes(top, name)));
-      return both.flatMap((content) => unframed(content).items).sort((a, b) => b.turn - a.turn)[0];
-    },
-    /** In turns, as cards. */
-    async setEquipment(words) {
-      const turn = ((await this.equipment())?.turn ?? 0) + 1;
-      await write(top, `equipment-${turn % 2}`, framed([{ turn, words }]));
-    },
-  };
-}
-
-/** IndexedDB: the same journal, a frame a record. */
-async function database() {
-  if (!self.indexedDB) throw fault('NotSupportedError', 'no IndexedDB');
-  const settled = (request) =>
-    new Promise((done, failed) => {
-      request.onsuccess = () => done(request.result);
-      request.onerror = () => failed(request.error);
-    });
-  const opening = indexedDB.open('sightline', 1);
-  opening.onupgradeneeded = () => {
-    for (const name of ['frames', 'cards', 'photos', 'small']) opening.result.createObjectStore(name);
-  };
-  const base = await settled(opening);
-  // Another visit's version of it must not wait for this one.
-  base.onversionchange = () => base.close();
-  const run = (stores, work) =>
-    new Promise((done, failed) => {
-      const transaction = base.transaction(stores, 'readwrite', { durability: 'strict' });
-      let result;
-      transaction.oncomplete = () => done(result);
-      transaction.onabort = transaction.onerror = () => failed(transaction.error ?? fault('AbortError', 'aborted'));
-      Promise.resolve(work(...[stores].flat().map((name) => transaction.objectStore(name)))).then((value) => (result = value), failed);
-    });
-  const range = (id, generation) => (generation === undefined ? IDBKeyRange.bound([id], [id, []]) : IDBKeyRange.bound([id, generation], [id, generation, []]));
-  return {
-    kind: 'database',
-    // Projects have a text for a key; what is of all of them has a list.
-    projects: async () => (await run('cards', (cards) => settled(cards.getAllKeys()))).filter((key) => typeof key === 'string'),
-    size: (id) => run('frames', async (frames) => (await settled(frames.getAll(range(id)))).reduce((sum, frame) => sum + frame.length, 0)),
-    async journal(id) {
-      const keys = await run('frames', (frames) => settled(frames.getAllKeys(range(id))));
-      if (keys.length === 0) throw fault('NotFoundError', 'no journal');
-      const generation = Math.max(...keys.map((key) => key[1]));
-      const frames = await run('frames', (store) => settled(store.getAll(range(id, generation))));
-      const items = [];
-      let whole = 0;
-      let size = 0;
-      for (const frame of frames) {
-        const read = unframed(frame);
-        if (read.end === 0) break;
-        for (const item of read.items) items.push(item);
-        size += frame.length;
-        whole++;
-      }
-      return { generation, items, end: whole, size };
-    },
-    async since(id, generation, end) {
-      const later = IDBKeyRange.bound([id, generation, end], [id, generation, []]);
-      return (await run('frames', (frames) => settled(frames.getAll(later)))).flatMap((frame) => unframed(frame).items);
-    },
-    has: async (id, generation) => (await run('frames', (frames) => settled(frames.getKey([id, generation, 0])))) !== undefined,
-    async writer(id, generation, end, size) {
-      return {
-        async append(frame) {
-          await run('frames', (frames) => settled(frames.put(frame, [id, generation, end])));
-          end++;
-          size += frame.length;
-        },
-        close() {},
-        size: () => size,
-      };
-    },
-    begin: (id, generation, frame) =>
-      run('frames', async (frames) => {
-        await settled(frames.delete(range(id)));
-        await settled(frames.put(frame, [id, generation, 0]));
-        return 1;
-      }),
-    card: (id) => run('cards', (cards) => settled(cards.get(id))),
-    setCard: (id, card) => run('cards', (cards) => settled(cards.put(card, id))),
-    remove: (id) =>
-      run(['frames', 'cards'], async (frames, cards) => {
-        await settled(frames.delete(range(id)));
-        await settled(cards.delete(id));
-      }),
-    photo: async (key) => (await run('photos', (photos) => settled(photos.get(key)))) ?? null,
-    small: async (key) => (await run('small', (small) => settled(small.get(key)))) ?? null,
-    photos: () => run('photos', (photos) => settled(photos.getAllKeys())),
-    putPhoto: async (key, blob) => {
-      // Read first: a transaction does not wait for a file, and a blob that names one would not outlive it.
-      const content = new Blob([await blob.arrayBuffer()], { type: blob.type });
-      await run('photos', (photos) => settled(photos.put(content, key)));
-    },
-    putSmall: (key, blob) => run('small', (small) => settled(small.put(blob, key))),
-    removePhoto: (key) =>
-      run(['photos', 'small'], async (photos, small) => {
-        await settled(photos.delete(key));
-        await settled(small.delete(key));
-      }),
-    equipment: () => run('cards', (cards) => settled(cards.get(['equipment']))),
-    setEquipment: (words) => run('cards', (cards) => settled(cards.put({ words }, ['equipment']))),
-  };
-}
+/** Names this worker as a writer, and as the one that deleted a project. */
+const life = newLife();
 
 let backend;
 /** Whether the page began anew here after its storage was cleared. */
@@ -345,12 +64,14 @@ let entered = null;
 let project = null;
 /** Sends the page what it did not ask for. */
 let tell = () => {};
+/** Tells the page by what name it will find out that this worker has ended. */
+let tellLife = () => {};
 const windows = self.BroadcastChannel ? new BroadcastChannel('sightline') : null;
 
 async function reach() {
   for (const candidate of [fileSystem, database]) {
     try {
-      backend = await candidate();
+      backend = await candidate(life);
       break;
     } catch {
       // The next one, or none.
@@ -376,28 +97,39 @@ async function othersGone() {
   }
 }
 
-/** `after`: where storage was cleared under the page, whether this window "noticed" or was "told" by the one that waits for all others. */
+/**
+ * `after`: where storage was cleared under the page, whether this window "noticed" or was "told" by the one that waits for all others.
+ * `fresh` is whether there was nothing of this page in the storage, not even what every visit leaves.
+ */
 async function start({ after }) {
   if (after === 'noticed') await othersGone();
   if (after === 'told') await enter();
   anew = Boolean(after);
+  // Whoever waits for the end of this worker needs its name, which is of no use before it is held.
+  tellLife(life, await live(life));
   await reach();
   if (after === 'noticed') windows?.postMessage({ word: 'anew' });
-  if (!backend) return { kind: 'none' };
-  // Deleted in an earlier visit, when it could still be undone.
-  for (const id of await backend.projects()) if ((await cardOf(id))?.deleted) await purge({ id });
-  return { kind: backend.kind };
+  if (!backend) return { kind: 'none', fresh: false };
+  buryTheDead().catch(() => {});
+  for (const id of await backend.projects()) await purge({ id }).catch(() => {});
+  return { kind: backend.kind, fresh: backend.fresh };
 }
 
 const cardOf = (id) => backend.card(id).catch(() => undefined);
 
-/** Holds a project for this window, or finds that another has it. */
-async function hold(id, steal) {
-  if (backend.kind === 'files') await enter();
+/** Whether a project is there (invariant 1). One that was killed while its first snapshot was written is none, and has no card yet. */
+async function isThere(id) {
+  if (!(await backend.hasJournal(id))) return false;
+  if (await cardOf(id)) return true;
+  return backend.journal(id).then(() => true, (error) => error.name !== 'NotFoundError');
+}
+
+/** A Web Lock of a project; nothing where another window has it. */
+function lock(id, steal) {
   if (!navigator.locks) return Promise.resolve(() => {});
   return new Promise((done, failed) => {
-    const held = (lock) => {
-      if (!lock) return done(null);
+    const held = (granted) => {
+      if (!granted) return done(null);
       return new Promise((release) => done(release));
     };
     navigator.locks.request(`sightline ${id}`, steal ? { steal } : { ifAvailable: true }, held).catch((error) => {
@@ -406,6 +138,32 @@ async function hold(id, steal) {
       failed(error);
     });
   });
+}
+
+/** Holds a project for this window (invariant 2); gives what lets go of it, or nothing where another window has it. */
+async function hold(id, steal = false) {
+  if (backend.kind === 'files') await enter();
+  const unlock = await lock(id, steal);
+  if (!unlock) return null;
+  if (backend.claim && !(await backend.claim(id, steal || Boolean(navigator.locks)))) {
+    unlock();
+    return null;
+  }
+  return () => {
+    backend.disclaim?.(id).catch(() => {});
+    unlock();
+  };
+}
+
+/** The same for a moment; fails where another window has the project. */
+async function holding(id, work) {
+  const release = await hold(id);
+  if (!release) throw fault('OpenElsewhereError', 'another window has this project open');
+  try {
+    return await work();
+  } finally {
+    release();
+  }
 }
 
 /** Another window goes on with the project; this one reads along. */
@@ -423,13 +181,15 @@ windows?.addEventListener('message', ({ data }) => {
   if (data.word === 'anew') return (queue = queue.then(reach));
   if (!project || data.id !== project.id) return;
   if (data.word === 'changed' && !project.writer) tell('changed');
-  if (data.word === 'yield' && project.writer) {
-    queue = queue.then(() => {
-      if (project?.id === data.id && project.writer) yieldProject();
-      windows.postMessage({ id: data.id, word: 'yielded' });
-    });
-  }
+  // The page has the last word: it writes what it still has, and lets go.
+  if (data.word === 'yield' && project.writer) tell('wanted');
 });
+
+/** Lets another window go on with the project that is open. */
+async function letGo({ id }) {
+  if (project?.id === id && project.writer) yieldProject();
+  windows?.postMessage({ id, word: 'yielded' });
+}
 
 async function close() {
   if (!project) return;
@@ -440,7 +200,8 @@ async function close() {
 
 /** Parts and the last of each kind, out of a journal's items. */
 function gathered(items) {
-  const [{ version } = {}] = items;
+  // A journal whose beginning is damaged does not say its version: what is not understood of it is not read.
+  const version = items.find((item) => item.version !== undefined)?.version ?? VERSION;
   if (version !== VERSION) throw fault('VersionError', String(version));
   const parts = new Map();
   const last = new Map();
@@ -467,22 +228,69 @@ function text(parts, id) {
   return chain.reduceRight((words, { from, to, words: put }) => words.slice(0, from) + put + words.slice(to), part.words);
 }
 
+/**
+ * Opens a project; another window's is only read along. `damage` says what was wrong with its journal: whether all of it was `mended`, and
+ * whether there is a `gap` that frames follow; then the page takes what it can read and begins a new journal.
+ */
 async function open({ id }, _, taken) {
   await close();
   const release = taken ?? (await hold(id).catch(() => null));
-  let journal, contents, writer;
+  let journal, contents;
+  let writer = null;
+  let damage = null;
   try {
     journal = await backend.journal(id);
+    if (journal.damaged && release) await backend.putAside(id, journal.generation);
+    if (journal.gap !== null) {
+      damage = { mended: false, gap: true };
+      journal.items = journal.frames.flatMap(({ items }) => items);
+    } else if (journal.damaged) {
+      damage = { mended: !journal.tail, gap: false };
+      if (release) journal = await writtenAnew(id, journal);
+    }
+    if (release && journal.gap === null) {
+      writer = await backend.writer(id, journal.generation, journal.end, journal.size).catch(async (error) => {
+        if (!taken || error.name !== 'NoModificationAllowedError') throw error;
+        journal = await passedOver(id, journal);
+        return backend.writer(id, journal.generation, journal.end, journal.size);
+      });
+    }
     contents = gathered(journal.items);
-    writer = release ? await backend.writer(id, journal.generation, journal.end, journal.size) : null;
   } catch (error) {
     release?.();
     throw error;
   }
   const { parts, last, notes } = contents;
-  project = { id, generation: journal.generation, parts, writer, release, last: new Map() };
-  for (const [kind, part] of last) project.last.set(kind, { id: part.id, words: text(parts, part.id), chain: CHAIN });
-  return { reply: { notes, following: !writer, nextPart: Math.max(0, ...parts.keys()) + 1 } };
+  project = { id, generation: journal.generation, newest: journal.newest, parts, writer, release, last: new Map() };
+  // Only what is whole is a base of what comes next.
+  if (journal.gap === null) for (const [kind, part] of last) project.last.set(kind, { id: part.id, words: text(parts, part.id), chain: CHAIN });
+  return { reply: { notes, following: !release, nextPart: Math.max(0, ...parts.keys()) + 1, damage } };
+}
+
+/**
+ * A new journal in the place of one whose file another window does not let go of. What that window writes into the old one before the new one
+ * is there is taken over; what it writes later it finds out to be written in vain.
+ */
+async function passedOver(id, { generation, newest, items, end, ...rest }) {
+  for (let [later, next] = [[], newest + 1]; ; next++) {
+    const all = [...items, ...later];
+    const frame = framed(all);
+    const whole = await backend.begin(id, next, frame);
+    const now = await backend.since(id, generation, end).catch(() => later);
+    if (now.length === later.length) return { ...rest, generation: next, newest: next, items: all, end: whole, size: frame.length };
+    later = now;
+  }
+}
+
+/** A journal that was mended in reading, written as it was; where there is no room for that it is mended again the next time. */
+async function writtenAnew(id, journal) {
+  const [generation, frame] = [journal.newest + 1, framed(journal.items)];
+  try {
+    const end = await backend.begin(id, generation, frame);
+    return { ...journal, generation, newest: generation, end, size: frame.length };
+  } catch {
+    return journal;
+  }
 }
 
 /** Goes on with a project that another window has: that one is asked first, and not asked any more when it does not answer. */
@@ -494,7 +302,7 @@ async function take({ id }) {
       clearTimeout(waiting);
       done();
     };
-    const waiting = setTimeout(finish, 2000);
+    const waiting = setTimeout(finish, YIELDING);
     windows?.addEventListener('message', answered);
     windows?.postMessage({ id, word: 'yield' });
   });
@@ -525,41 +333,45 @@ function partOf(id, kind, words, last) {
   return { part: { id, kind, words } };
 }
 
-/** What changed, at once and whole. The card is of the list of projects; it may be ahead of the journal, never behind a photo. */
+/** What changed, at once and whole. A card is never behind a photo: those come after it. Whoever writes has not deleted (invariant 4). */
 async function append({ id, note, parts, card, snapshot }, texts) {
   if (snapshot && project?.id !== id) {
     await close();
     // A worker that was ended lets go of its locks a moment later.
-    let release = await hold(id, false);
-    for (const until = Date.now() + PATIENCE; anew && !release && Date.now() < until; release = await hold(id, false)) await pause(50);
-    if (!release) throw fault('InvalidStateError', 'held');
-    project = { id, generation: 0, parts: new Map(), writer: null, release, last: new Map() };
+    let release = await hold(id);
+    for (const until = Date.now() + PATIENCE; anew && !release && Date.now() < until; release = await hold(id)) await pause(50);
+    if (!release) throw fault('OpenElsewhereError', 'held');
+    project = { id, generation: 0, newest: 0, parts: new Map(), writer: null, release, last: new Map() };
   }
   if (project?.id !== id) throw fault('InvalidStateError', 'not open');
-  if (!project.writer && !snapshot) throw fault('InvalidStateError', 'following');
-  if (!snapshot && !(await backend.has(id, project.generation).catch(() => false))) {
-    // What is written to a file that was taken away is nowhere: the page has everything, and begins anew with another worker. Closing
-    // such a file would wait for ever in Chromium.
-    throw fault('GoneError', 'cleared');
-  }
+  if (snapshot ? !project.release : !project.writer) throw fault('TakenError', 'following');
   const before = new Map(project.last);
+  const setCard = async () => backend.setCard(id, { ...(await cardOf(id)), ...card, deleted: undefined, by: undefined });
   try {
+    if (snapshot) project.last.clear();
     const items = parts.map(([number, kind], i) => partOf(number, kind, joined(texts[i]), project.last));
     items.push({ note });
-    await backend.setCard(id, { ...(await cardOf(id)), ...card });
     if (snapshot) {
       const frame = framed([{ version: VERSION }, ...items]);
-      const end = await backend.begin(id, 1, frame);
-      project.generation = 1;
-      project.writer = await backend.writer(id, 1, end, frame.length);
+      const generation = project.newest + 1;
+      project.writer?.close();
+      project.writer = null;
+      const end = await backend.begin(id, generation, frame);
+      project.generation = project.newest = generation;
+      project.writer = await backend.writer(id, generation, end, frame.length);
+      await setCard();
       // Told as stored when it can be read again: another clearing may have come between.
       if (anew && (await backend.journal(id)).size !== frame.length) throw fault('GoneError', 'cleared');
     } else {
+      await setCard();
       await project.writer.append(framed(items));
     }
   } catch (error) {
     // What was not written is no base of what comes next; it is sent again.
     project.last = before;
+    if (error.name === 'NotFoundError') throw fault('GoneError', 'cleared');
+    // It is another window's now.
+    if (error.name === 'TakenError' && project.writer) yieldProject();
     throw error;
   }
   windows?.postMessage({ id, word: 'changed' });
@@ -577,7 +389,9 @@ let surveyed = null;
 /** What the journal of the open project has: its notes, and of each part its number, its kind and how many characters it takes. */
 async function survey({ id }) {
   if (project?.id !== id || !project.writer) throw fault('InvalidStateError', 'not open');
-  const { generation, items, end } = await backend.journal(id);
+  const { generation, items, end, damaged } = await backend.journal(id);
+  // Read whole when it is opened again, and told then.
+  if (damaged) throw fault('DamagedError', 'the journal is damaged');
   const { parts, last, notes } = gathered(items);
   surveyed = { id, generation, end, parts, last };
   const sizes = [...parts.values()].map((part) => [part.id, part.kind, part.words.length]);
@@ -618,7 +432,7 @@ async function condense({ id, note, ids }) {
     project.writer = null;
     try {
       const whole = await backend.begin(id, generation + 1, frame);
-      project.generation = generation + 1;
+      project.generation = project.newest = generation + 1;
       project.writer = await backend.writer(id, generation + 1, whole, frame.length);
     } catch (error) {
       // The old one is whole still.
@@ -676,62 +490,110 @@ async function photos({ keys }) {
   return { reply: {}, extras };
 }
 
+/** Every project that is there (invariant 1): its card as a text, or none; whether it is deleted; how many damaged journals were put aside. */
 async function list() {
   const all = [];
-  const extras = [];
   for (const id of await backend.projects()) {
+    if (!(await isThere(id).catch(() => true))) continue;
     const card = await cardOf(id);
-    if (!card || card.deleted) continue;
     const own = await backend.size(id).catch(() => 0);
-    const bytes = own + [...new Set(card.keys)].reduce((sum, key) => sum + sizeOfKey(key), 0);
-    all.push({ id, bytes, card });
+    const keys = Array.isArray(card?.keys) ? card.keys : [];
+    const bytes = own + [...new Set(keys)].reduce((sum, key) => sum + sizeOfKey(key), 0);
+    const aside = await backend.asides(id).catch(() => 0);
+    all.push({ id, bytes, card: card ? JSON.stringify(card) : null, deleted: Boolean(card?.deleted), aside, cover: keys[0], changed: card?.changed ?? Number.MAX_VALUE });
   }
-  all.sort((a, b) => b.card.changed - a.card.changed);
-  for (const { card } of all) extras.push(card.keys[0] ? await backend.small(card.keys[0]) : null);
-  return { reply: all.map(({ id, bytes, card: { keys, ...card } }) => ({ id, bytes, ...card })), extras };
+  all.sort((a, b) => b.changed - a.changed);
+  const extras = [];
+  for (const { cover } of all) extras.push(cover ? await backend.small(cover).catch(() => null) : null);
+  return { reply: all.map(({ cover, changed, ...one }) => one), extras };
 }
+
+/** The last part of a kind that can be read, out of a project that is not opened for that. */
+async function peek({ id, kind }) {
+  const { frames } = await backend.journal(id);
+  const { parts } = gathered(frames.flatMap(({ items }) => items));
+  for (const part of [...parts.values()].reverse()) {
+    try {
+      if (part.kind === kind) return { reply: {}, extras: [text(parts, part.id)] };
+    } catch {
+      // What it is told from is lost: one before it may be whole.
+    }
+  }
+  throw fault('DamagedError', `no ${kind} can be read`);
+}
+
+/** The damaged journals of a project, as they were. */
+const aside = async ({ id }) => ({ reply: {}, extras: await backend.aside(id) });
 
 /** Gives a project that is not open another name. */
 async function rename({ id, name }) {
-  if (project?.id === id) throw fault('InvalidStateError', 'open');
-  const release = await hold(id);
-  if (!release) throw fault('InvalidStateError', 'held');
-  try {
-    const { generation, end, size } = await backend.journal(id);
+  if (project?.id === id) throw fault('OpenElsewhereError', 'open');
+  await holding(id, async () => {
+    const { generation, end, size, damaged } = await backend.journal(id);
+    // To append would cut off what follows the damage.
+    if (damaged) throw fault('DamagedError', 'the journal is damaged');
     const writer = await backend.writer(id, generation, end, size);
-    await writer.append(framed([{ note: JSON.stringify({ name }) }]));
-    writer.close();
+    try {
+      await writer.append(framed([{ note: JSON.stringify({ name }) }]));
+    } finally {
+      writer.close();
+    }
     await backend.setCard(id, { ...(await cardOf(id)), name });
-  } finally {
-    release();
-  }
+  });
 }
 
 async function duplicate({ id, copy, name, changed }) {
-  const { items } = await backend.journal(id);
-  await backend.setCard(copy, { ...(await cardOf(id)), name, changed });
-  await backend.begin(copy, 1, framed([...items, { note: JSON.stringify({ name }) }]));
+  const { items, gap } = await backend.journal(id);
+  if (gap !== null) throw fault('DamagedError', 'the journal is damaged');
+  await holding(copy, async () => {
+    await backend.begin(copy, 1, framed([...items, { note: JSON.stringify({ name }) }]));
+    await backend.setCard(copy, { ...(await cardOf(id)), name, changed, deleted: undefined, by: undefined });
+  });
 }
 
-/** Takes a project out of the list; it is gone when that cannot be undone any more. */
+/** Takes a project out of the list, or puts it back where it is there still; what is open in another window stays. */
 async function remove({ id, deleted }) {
-  if (project?.id === id) await close();
-  await backend.setCard(id, { ...(await cardOf(id)), deleted });
+  const set = async () => backend.setCard(id, { ...(await cardOf(id)), deleted: deleted ?? undefined, by: deleted ? life : undefined });
+  if (!(await backend.hasJournal(id).catch(() => false))) throw fault('NotFoundError', 'no journal');
+  if (project?.id === id && project.writer) {
+    return set().catch((error) => {
+      if (error.name !== 'TakenError') throw error;
+      // Another window took it over, which is found out only now.
+      if (project?.id === id && project.writer) yieldProject();
+      throw fault('OpenElsewhereError', error.message);
+    });
+  }
+  return holding(id, set);
 }
 
-/** Lets a deleted project go, with the photos that no other has. */
+/** Lets a deleted project go, with the photos that no other has (invariants 4 and 5); and a folder in which no project was begun. */
 async function purge({ id }) {
-  const card = await cardOf(id);
-  if (!card?.deleted) return;
-  await backend.remove(id);
-  const used = new Set();
-  for (const other of await backend.projects()) {
-    const { keys } = (await cardOf(other)) ?? {};
-    // A card that cannot be read might name any photo.
-    if (!keys) return;
-    keys.forEach((key) => used.add(key));
+  const due = (card) => card?.deleted && (card.by === life || Date.now() - card.deleted > DAY);
+  const empty = async () => !(await isThere(id)) && (await backend.asides(id)) === 0;
+  if (project?.id === id || !(due(await cardOf(id)) || (await empty()))) return;
+  await holding(id, async () => {
+    const card = await cardOf(id);
+    if (!due(card) && !(await empty())) return;
+    await backend.remove(id);
+    await backend.collect(card?.keys ?? []);
+  });
+}
+
+/** Everything that is kept goes: all projects, photos and the equipment. Not while another window has one of the projects. */
+async function wipe() {
+  const held = [];
+  try {
+    for (const id of await backend.projects()) {
+      if (project?.id === id && project.writer) continue;
+      const release = await hold(id);
+      if (!release) throw fault('OpenElsewhereError', 'another window has a project open');
+      held.push(release);
+    }
+    await close();
+    await backend.wipe();
+  } finally {
+    for (const release of held) release();
   }
-  for (const key of card.keys ?? []) if (!used.has(key)) await backend.removePhoto(key);
 }
 
 /** Cameras and scale bars, which are of no project: the text that the page wrote last, or none. */
@@ -742,14 +604,18 @@ async function setEquipment({ words }) {
   windows?.postMessage({ word: 'equipment' });
 }
 
-const CALLS = { equipment, setEquipment, start, open, take, append, survey, surveyed: surveyedTexts, leave, check, condense, parts, keep, photos, list, rename, duplicate, remove, purge, close };
+const CALLS = {
+  equipment, setEquipment, start, open, take, yield: letGo, append, survey, surveyed: surveyedTexts, leave, check, condense, parts, keep, photos, list, peek, aside, rename,
+  duplicate, remove, purge, close, wipe,
+};
 /** Copying photos lasts, and so does condensing: edits do not wait for them. */
-const ALONGSIDE = new Set(['keep', 'photos', 'list', 'survey', 'surveyed', 'leave', 'condense']);
+const ALONGSIDE = new Set(['keep', 'photos', 'list', 'peek', 'aside', 'survey', 'surveyed', 'leave', 'condense']);
 let queue = Promise.resolve();
 
 /** Answers calls of a page that sends and hears by way of a port. */
 function serve(port) {
   tell = (word) => port.postMessage({ told: word });
+  tellLife = (held, by) => by && port.postMessage({ held, by });
   port.onmessage = ({ data: { call, name, text: words, extras } }) => {
     const work = async () => {
       try {

@@ -1,17 +1,14 @@
 // A worker of the page: it runs the engine, whose compiled module the page posts to it.
+import { live } from "./storage/life.js";
+
 const crashed = (reason) => postMessage({ crashed: String(reason) });
 addEventListener("unhandledrejection", (event) => crashed(event.reason));
 
-/** Holds a lock as long as this worker lives: the page gets it when it is gone, however that came. */
-const hold = (name) =>
-  new Promise((done) => {
-    const held = () => {
-      postMessage({ held: name });
-      done();
-      return new Promise(() => {});
-    };
-    navigator.locks ? navigator.locks.request(name, held).catch(done) : done();
-  });
+/** Holds a name as long as this worker lives: the page hears when it is gone, however that came. */
+const hold = async (name) => {
+  const by = await live(name);
+  if (by) postMessage({ held: name, by });
+};
 
 /** The decoders of HEIC and RAW: fetched when the first such file comes. */
 let codecs;

@@ -115,6 +115,7 @@ reasons! {
     // The project file
     NameWithFolders => "a photo's file name holds no folders";
     Entries { entries: usize, limit: usize } => "the archive has {entries} entries; a project file has up to {limit}";
+    SameNames => "entries of the archive have the same name, and which of them is meant does not follow: it is no project file";
     SharedBytes => "entries of the archive share their bytes: it is no project file";
     EntryName => "the name of an entry of the archive is damaged";
     EntrySize => "this part of the project file is damaged: it has not the size it claims";

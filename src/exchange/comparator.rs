@@ -32,6 +32,9 @@ const PITCH_MM: f64 = 0.01;
 /// Terms of the odd polynomial: r³, r⁵, r⁷, as K1, K2, K3.
 const TERMS: usize = 3;
 
+/// Largest number of a description: as that of readings, and the seventh power of a radius stays a number.
+const LARGEST: f64 = 1e9;
+
 /// What the lines with keywords say.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Description {
@@ -121,6 +124,11 @@ pub fn reduce(description: &Description, readings: &[Reading]) -> Result<Reduced
     }
     if description.setup.fiducials.is_empty() {
         return empty(Lack::FiducialMarks);
+    }
+    let numbers =
+        description.distortion.iter().flatten().chain(&description.c).chain(description.plate.iter().flatten());
+    if numbers.into_iter().any(|value| value.abs() > LARGEST) {
+        return Err(Error::Invalid { reason: Reason::NotFinite, at: Place::default() });
     }
     let distortion = fitted(&description.distortion)?;
     let camera = camera(description, distortion.as_ref().map(|d| &d.polynomial));

@@ -137,7 +137,12 @@ pub fn read_from(mut source: impl Read + Seek) -> Result<(Package, BTreeMap<Stri
         let content = unpack(&mut source, length, limits::DOCUMENT)?;
         return Ok((Package { project: super::document(&content)?, ..Package::default() }, BTreeMap::new()));
     }
+    let counted = entries(&mut source, length).map_err(unreadable)?;
     let mut archive = ZipArchive::new(source).map_err(|error| damaged(&error))?;
+    // Of several entries of one name the directory in memory has the last.
+    if counted.is_some_and(|counted| counted > archive.len()) {
+        return Err(invalid(Reason::SameNames));
+    }
     if archive.len() > limits::ENTRIES {
         return Err(invalid(Reason::Entries { entries: archive.len(), limit: limits::ENTRIES }));
     }
@@ -210,6 +215,20 @@ const PIECE: usize = 1 << 20;
 fn is_json(start: &[u8]) -> bool {
     let mark = |byte: &u8| matches!(byte, 0 | 0xef | 0xbb | 0xbf | 0xff | 0xfe) || byte.is_ascii_whitespace();
     start.iter().find(|byte| !mark(byte)) == Some(&b'{')
+}
+
+/// How many entries an archive says that it has, at its end; none where that is not said there (from 65,535 on), or not found.
+fn entries(source: &mut (impl Read + Seek), length: u64) -> std::io::Result<Option<usize>> {
+    /// Of the record at the end, without its comment, which has up to 65,535 bytes.
+    const RECORD: usize = 22;
+    let tail = length.min(RECORD as u64 + 0xffff);
+    source.seek(SeekFrom::Start(length - tail))?;
+    let mut bytes = vec![0; tail as usize];
+    source.read_exact(&mut bytes)?;
+    source.rewind()?;
+    let record = bytes.windows(RECORD).rev().find(|window| window.starts_with(b"PK\x05\x06"));
+    let count = record.map(|record| usize::from(u16::from_le_bytes([record[10], record[11]])));
+    Ok(count.filter(|count| *count < 0xffff))
 }
 
 /// Whether an entry is part of a project.

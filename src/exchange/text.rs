@@ -209,8 +209,8 @@ pub fn armed(field: &str) -> &str {
     }
 }
 
-/// What formulas begin with.
-const FORMULA: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
+/// What formulas begin with; spreadsheets in East Asian settings take the full-width forms, too.
+const FORMULA: [char; 10] = ['=', '+', '-', '@', '\t', '\r', '＝', '＋', '－', '＠'];
 
 /// A finite number with a decimal point.
 pub fn number(text: &str) -> Option<f64> {
@@ -304,6 +304,10 @@ mod tests {
             ("+x", "'+x"),
             ("-A1", "'-A1"),
             ("@SUM(A1)", "'@SUM(A1)"),
+            ("＝1+1", "'＝1+1"),
+            ("＋x", "'＋x"),
+            ("－x", "'－x"),
+            ("＠x", "'＠x"),
             ("\tx", "'\tx"),
             ("'=1", "''=1"),
             ("-5", "-5"),

@@ -69,6 +69,9 @@ pub struct Observed {
     pub inner_orientations: Vec<InnerOrientation>,
 }
 
+/// Largest reading and place of a mark: beyond any plate in any unit, while the sums of squares of a fit stay numbers.
+const LARGEST: f64 = 1e9;
+
 /// Readings of any number of photos of one camera as observations.
 ///
 /// # Errors
@@ -81,6 +84,17 @@ pub fn observations(camera: &Camera, setup: &Setup, readings: &[Reading]) -> Res
     }
     if !setup.sigma.is_finite() || setup.sigma <= 0.0 {
         return Err(Error::Invalid { reason: Reason::ReadingSigma, at: Place::field("sigma") });
+    }
+    let far = |values: [f64; 2]| values.iter().any(|value| !value.is_finite() || value.abs() > LARGEST);
+    if let Some(reading) = readings.iter().find(|r| far([r.x, r.y])) {
+        let at = Place { point: Some(reading.mark.clone()), ..Place::photo(&reading.photo) };
+        return Err(Error::Invalid { reason: Reason::NotFinite, at });
+    }
+    if let Some((mark, _)) = setup.fiducials.iter().find(|(_, place)| far(**place)) {
+        return Err(Error::Invalid {
+            reason: Reason::NotFinite,
+            at: Place { point: Some(mark.clone()), ..Place::default() },
+        });
     }
     let up = if setup.upwards == Upwards::Yes { 1.0 } else { -1.0 };
     let machine = |r: &Reading| [r.x, up * r.y];

@@ -66,7 +66,7 @@ impl Products {
     /// The decoders of HEIC and RAW photos of a page that stands without them.
     pub fn build_decoders(&self) -> Outcome {
         modules(self.profile, &["sightline-codecs"])?;
-        changed(&self.dist, &[("sightline_codecs", page::CODECS)])
+        changed(&page::build_folder(&self.dist)?, &[("sightline_codecs", page::CODECS)])
     }
 
     /// A project of the TypeScript compiler with the program that uses pkg/ as `sightline`; the file's path.
@@ -147,7 +147,9 @@ fn assemble_dist(profile: Profile, folder: &Path, decoders: Decoders) -> Outcome
         }
     }
     page::assemble(&root(), folder)?;
+    page::seal(folder)?;
     offline::seal(folder)?;
+    let folder = &page::build_folder(folder)?;
     for cut in [parts::PAGE, parts::WORKER] {
         report("dist", &folder.join(format!("{}_bg.wasm", cut.module)));
         for part in cut.later(folder)? {

@@ -27,14 +27,14 @@ pub fn seal(dist: &Path) -> Outcome {
     let digests: BTreeMap<_, _> = files.iter().map(|(name, bytes)| (name, hex(bytes))).collect();
     let build = hex(serde_json::to_string(&digests).map_err(|error| error.to_string())?.as_bytes());
     let (later, files): (BTreeMap<_, _>, BTreeMap<_, _>) =
-        digests.into_iter().partition(|(name, _)| name.starts_with(LATER));
+        digests.into_iter().partition(|(name, _)| name.rsplit('/').next().unwrap_or_default().starts_with(LATER));
     let text = |digests| serde_json::to_string_pretty(&digests).map_err(|error| error.to_string());
     let lists =
         format!("const FILES = {};\nconst LATER = {};\nconst DIGEST = '{build}';\n", text(files)?, text(later)?);
     write(&dist.join(SERVICE), format!("{lists}{script}").as_bytes())
 }
 
-fn list(folder: &Path, prefix: &str, into: &mut BTreeMap<String, Vec<u8>>) -> Outcome {
+pub fn list(folder: &Path, prefix: &str, into: &mut BTreeMap<String, Vec<u8>>) -> Outcome {
     for entry in fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))? {
         let path = entry.map_err(|error| format!("{}: {error}", folder.display()))?.path();
         let name = format!("{prefix}{}", path.file_name().unwrap_or_default().to_string_lossy());
@@ -47,7 +47,7 @@ fn list(folder: &Path, prefix: &str, into: &mut BTreeMap<String, Vec<u8>>) -> Ou
     Ok(())
 }
 
-fn hex(bytes: &[u8]) -> String {
+pub fn hex(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
@@ -91,7 +91,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("sightline-seal-{}", std::process::id()));
         fs::create_dir_all(folder.join("deep")).expect("a folder");
         for (name, content) in
-            [("index.html", "<p>"), ("deep/a.js", "1"), ("sightline-codecs.js", "2"), (SERVICE, "work();")]
+            [("index.html", "<p>"), ("deep/a.js", "1"), ("deep/sightline-codecs.js", "2"), (SERVICE, "work();")]
         {
             write(&folder.join(name), content.as_bytes()).expect("a file");
         }

@@ -1,11 +1,13 @@
 //! The page out of index.html: the assets it names in Trunk's form (`<link data-trunk rel=… href=…>`) are copied and linked.
 
+use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use crate::Outcome;
+use sha2::{Digest, Sha256};
+
 use crate::build::write;
-use crate::parts;
+use crate::{Outcome, offline, parts};
 
 /// Name of the page's own module in dist/.
 pub const MODULE: &str = "desk";
@@ -16,11 +18,54 @@ pub const VIEW3D: &str = "view3d.js";
 /// Name of the decoders' module in dist/, which workers fetch when they need it.
 pub const CODECS: &str = "sightline-codecs";
 
+/// The page's own HTML in dist/.
+const PAGE: &str = "index.html";
+/// What stands in the page for the folder of its build, until that has a name.
+const BUILD: &str = "@build/";
+/// What lies beside the page and not in the folder of its build: browsers and systems know it by its name, or it has to come where the rest of
+/// the build does not.
+const OUTSIDE: [&str; 4] = [PAGE, "service.js", "check.js", "manifest.webmanifest"];
+
 /// Copies what index.html names into `dist` and writes the page there.
 pub fn assemble(root: &Path, dist: &Path) -> Outcome {
-    let source = read(&root.join("index.html"))?;
+    let source = read(&root.join(PAGE))?;
     let page = resolve(&source, &mut |asset| place(root, dist, asset))?;
-    write(&dist.join("index.html"), page.as_bytes())
+    write(&dist.join(PAGE), page.as_bytes())
+}
+
+fn is_outside(name: &str) -> bool {
+    OUTSIDE.contains(&name) || name.starts_with("icon")
+}
+
+/// Puts the files of a build into a folder that is named by what is in all of them. They refer to each other by names beside their own, so that a
+/// page never takes a part of another build for one of its own: that lies elsewhere.
+pub fn seal(dist: &Path) -> Outcome {
+    let mut files = BTreeMap::new();
+    offline::list(dist, "", &mut files)?;
+    files.retain(|name, _| !is_outside(name.split('/').next().unwrap_or_default()));
+    let mut all = Sha256::new();
+    for (name, bytes) in &files {
+        all.update(format!("{name} {}\n", offline::hex(bytes)));
+    }
+    let digest = all.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect::<String>();
+    let folder = dist.join(&digest);
+    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    for entry in fs::read_dir(dist).map_err(|error| format!("{}: {error}", dist.display()))? {
+        let path = entry.map_err(|error| format!("{}: {error}", dist.display()))?.path();
+        let name = path.file_name().unwrap_or_default();
+        if path != folder && !is_outside(&name.to_string_lossy()) {
+            fs::rename(&path, folder.join(name)).map_err(|error| format!("{}: {error}", path.display()))?;
+        }
+    }
+    let page = read(&dist.join(PAGE))?;
+    write(&dist.join(PAGE), page.replace(BUILD, &format!("{digest}/")).as_bytes())
+}
+
+/// The folder of the build that a page in `dist` is of.
+pub fn build_folder(dist: &Path) -> Outcome<PathBuf> {
+    let page = read(&dist.join(PAGE))?;
+    let name = page.split_once(&format!("/{MODULE}_bg.wasm")).and_then(|(before, _)| before.rsplit('"').next());
+    Ok(dist.join(name.ok_or_else(|| format!("{PAGE} does not name the page's module"))?))
 }
 
 /// An asset of the page: a tag with `data-trunk`.
@@ -56,8 +101,8 @@ fn resolve(source: &str, link: &mut dyn FnMut(&Asset) -> Outcome<String>) -> Out
                 kind: attribute(tag, "data-type"),
             })?;
             if script {
-                let name = href.rsplit('/').next().unwrap_or_default();
-                page.push_str(&tag.replace(" data-trunk", "").replace(&href, name));
+                let name = placed(href.rsplit('/').next().unwrap_or_default());
+                page.push_str(&tag.replace(" data-trunk", "").replace(&href, &name));
             } else {
                 page.push_str(&replacement);
             }
@@ -70,6 +115,11 @@ fn resolve(source: &str, link: &mut dyn FnMut(&Asset) -> Outcome<String>) -> Out
     Ok(page)
 }
 
+/// The address of a file from the page.
+fn placed(name: &str) -> String {
+    if is_outside(name) { name.to_owned() } else { format!("{BUILD}{name}") }
+}
+
 /// Copies an asset and gives the tag that the page has in its place.
 fn place(root: &Path, dist: &Path, asset: &Asset) -> Outcome<String> {
     let source = root.join(&asset.href);
@@ -79,21 +129,21 @@ fn place(root: &Path, dist: &Path, asset: &Asset) -> Outcome<String> {
         // Fetched by the page when it stands.
         "rust" if asset.kind.as_deref() == Some("worker") => Ok(String::new()),
         "rust" => Ok(format!(
-            "<link rel=\"modulepreload\" href=\"{MODULE}.js\">{}\
-             <link rel=\"preload\" href=\"{MODULE}_bg.wasm\" as=\"fetch\" type=\"application/wasm\" crossorigin>",
+            "<link rel=\"modulepreload\" href=\"{BUILD}{MODULE}.js\">{}\
+             <link rel=\"preload\" href=\"{BUILD}{MODULE}_bg.wasm\" as=\"fetch\" type=\"application/wasm\" crossorigin>",
             if dist.join(parts::PAGE.glue).exists() {
-                format!("<link rel=\"modulepreload\" href=\"{}\">", parts::PAGE.glue)
+                format!("<link rel=\"modulepreload\" href=\"{}\">", placed(parts::PAGE.glue))
             } else {
                 String::new()
             }
         )),
         "css" => {
             copy(&source, &folder.join(name))?;
-            Ok(format!("<link rel=\"stylesheet\" href=\"{name}\">"))
+            Ok(format!("<link rel=\"stylesheet\" href=\"{}\">", placed(name)))
         }
         "icon" | "manifest" => {
             copy(&source, &folder.join(name))?;
-            Ok(format!("<link rel=\"{}\" href=\"{name}\">", asset.rel))
+            Ok(format!("<link rel=\"{}\" href=\"{}\">", asset.rel, placed(name)))
         }
         "inline" => {
             let text = read(&source)?;
@@ -154,8 +204,36 @@ mod tests {
             Ok(format!("[{}]", asset.rel))
         })
         .expect("a page");
-        assert_eq!(page, "<head><link rel=\"a\" href=\"b\">[css]<script src='w.js'></script>[copy-dir]</head>");
+        assert_eq!(page, "<head><link rel=\"a\" href=\"b\">[css]<script src='@build/w.js'></script>[copy-dir]</head>");
         assert_eq!(seen, ["css web/x.css None", "copy-file web/w.js None", "copy-dir web/i/ Some(\"i\")"]);
+    }
+
+    #[test]
+    fn files_of_different_builds_lie_in_different_folders() {
+        let dist = std::env::temp_dir().join(format!("sightline-build-{}", std::process::id()));
+        let folder = |content: &str| {
+            crate::build::empty(&dist).expect("a folder");
+            fs::create_dir_all(dist.join("storage")).expect("a folder");
+            for (name, content) in [
+                ("index.html", "<link href=\"@build/desk_bg.wasm\"><script src=\"check.js\"></script>"),
+                ("check.js", "0"),
+                ("service.js", "1"),
+                ("icon-180.png", "2"),
+                ("desk_bg.wasm", content),
+                ("storage/life.js", "3"),
+            ] {
+                write(&dist.join(name), content.as_bytes()).expect("a file");
+            }
+            seal(&dist).expect("sealed");
+            let folder = build_folder(&dist).expect("a folder");
+            assert_eq!(fs::read_to_string(folder.join("desk_bg.wasm")).as_deref().ok(), Some(content));
+            assert!(folder.join("storage/life.js").exists() && dist.join("check.js").exists());
+            assert!(!dist.join("desk_bg.wasm").exists() && !folder.join("service.js").exists());
+            folder.file_name().expect("a name").to_owned()
+        };
+        let (first, second, again) = (folder("a"), folder("b"), folder("a"));
+        fs::remove_dir_all(&dist).expect("removed");
+        assert!(first != second && first == again);
     }
 
     #[test]

@@ -83,7 +83,7 @@ fn respond(stream: TcpStream, folder: &Path, decoders: Option<&OnceLock<()>>) ->
     let asked = (words.next() == Some("GET")).then(|| words.next()).flatten();
     let mut stream = stream;
     if let (Some(decoders), Some(address)) = (decoders, asked)
-        && address.trim_start_matches('/').starts_with(CODECS)
+        && address.rsplit('/').next().unwrap_or_default().starts_with(CODECS)
     {
         decoders.wait();
     }

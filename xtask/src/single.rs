@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 use crate::Outcome;
 use crate::build::write;
-use crate::page::{CODECS, MODULE, VIEW3D, WORKER};
+use crate::page::{self, CODECS, MODULE, VIEW3D, WORKER};
 use crate::parts::{self, Parts};
 
 /// Name of the file in dist/.
@@ -39,19 +39,20 @@ self.sightlineLoad = (name) => import((sightlineFiles[name] ??= address(parts[na
 
 /// Writes the file out of an assembled dist/.
 pub fn write_to(dist: &Path) -> Outcome {
-    let text = |name: &str| fs::read_to_string(dist.join(name)).map_err(|error| format!("{name}: {error}"));
+    let build = &page::build_folder(dist)?;
+    let text = |name: &str| fs::read_to_string(build.join(name)).map_err(|error| format!("{name}: {error}"));
     let coded = |name: &str| {
-        let bytes = fs::read(dist.join(name)).map_err(|error| format!("{name}: {error}"))?;
+        let bytes = fs::read(build.join(name)).map_err(|error| format!("{name}: {error}"))?;
         Ok::<_, String>(BASE64_STANDARD.encode(bytes))
     };
     // While the page is worked on, its modules are whole.
     let glue_of = |module: &Parts| {
         let glue = text(&format!("{}.js", module.module))?;
-        if dist.join(module.glue).exists() { with_parts(module, &glue, &text(module.glue)?) } else { inlined(&glue) }
+        if build.join(module.glue).exists() { with_parts(module, &glue, &text(module.glue)?) } else { inlined(&glue) }
     };
-    let page = text("index.html")?;
+    let page = fs::read_to_string(dist.join("index.html")).map_err(|error| format!("index.html: {error}"))?;
     let worker = {
-        let start = text("worker.js")?;
+        let start = bundled(build, "worker.js", &mut Vec::new())?;
         let import = format!("(await import(\"./{WORKER}.js\")).default");
         if !start.contains(&import) {
             return Err(format!("worker.js does not start by {import}"));
@@ -72,10 +73,11 @@ pub fn write_to(dist: &Path) -> Outcome {
         let own = |name: String| {
             Ok(format!("'{name}': () => Uint8Array.from(atob('{}'), (c) => c.charCodeAt(0)),\n", coded(&name)?))
         };
-        let own = parts::WORKER.later(dist)?.into_iter().map(own).collect::<Outcome<Vec<String>>>()?.concat();
+        let own = parts::WORKER.later(build)?.into_iter().map(own).collect::<Outcome<Vec<String>>>()?.concat();
         format!("self.sightlineBytes = {{\n{own}}};\n{decoders}\n{}\n{start}", glue_of(&parts::WORKER)?)
     };
-    let style = styles(&page)?.iter().map(|name| text(name)).collect::<Outcome<Vec<_>>>()?.concat();
+    let style = styles(&page)?.into_iter().map(|name| text(name.rsplit('/').next().unwrap_or_default()));
+    let style = style.collect::<Outcome<Vec<_>>>()?.concat();
     let desk = glue_of(&parts::PAGE)?;
     let script = format!("{OPENING}{desk}\nawait __wbg_init({{ module_or_path: bytes('desk') }});\n");
     if script.contains("</script") || style.contains("</style") {
@@ -92,16 +94,16 @@ pub fn write_to(dist: &Path) -> Outcome {
         let bytes = coded(&name)?;
         Ok(format!("<script type=\"text/plain\" data-part id=\"{name}\">{bytes}</script>\n"))
     };
-    let later = parts::PAGE.later(dist)?.into_iter().map(part).collect::<Outcome<Vec<String>>>()?.concat();
+    let later = parts::PAGE.later(build)?.into_iter().map(part).collect::<Outcome<Vec<String>>>()?.concat();
     let html = [
         "<!doctype html>\n<html lang=\"en\" data-theme=\"light\">\n<head>\n<meta charset=\"utf-8\">\n".into(),
         format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n"),
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Sightline</title>\n".into(),
-        format!("<link rel=\"icon\" href=\"data:image/svg+xml;base64,{}\">\n", coded("icon.svg")?),
+        format!("<link rel=\"icon\" href=\"data:image/svg+xml;base64,{}\">\n", coded("../icon.svg")?),
         format!("<style>{style}</style>\n</head>\n<body>\n"),
         "<noscript>Sightline needs JavaScript and WebAssembly.</noscript>\n".into(),
         data("worker", BASE64_STANDARD.encode(worker)),
-        data("storage", coded("storage.js")?),
+        data("storage", BASE64_STANDARD.encode(bundled(build, "storage.js", &mut Vec::new())?)),
         data("view3d", coded(VIEW3D)?),
         data("engine", coded(&format!("{WORKER}_bg.wasm"))?),
         data("desk", coded(&format!("{MODULE}_bg.wasm"))?),
@@ -151,6 +153,28 @@ fn with_parts(module: &Parts, glue: &str, parts: &str) -> Outcome<String> {
     Ok(format!("const sightlineParts = (() => {{\n{parts}\nreturn {{ {exported} }};\n}})();\n{named}{desk}"))
 }
 
+/// A script of ours with what it imports before it, each file once.
+fn bundled(dist: &Path, name: &str, seen: &mut Vec<String>) -> Outcome<String> {
+    let script = fs::read_to_string(dist.join(name)).map_err(|error| format!("{name}: {error}"))?;
+    let folder = name.rsplit_once('/').map(|(folder, _)| format!("{folder}/")).unwrap_or_default();
+    let (mut before, mut own) = (String::new(), String::new());
+    for line in script.lines() {
+        let imported = line.strip_prefix("import {").and_then(|rest| rest.split_once(" from ")).map(|(_, file)| file);
+        match imported {
+            Some(file) => {
+                let file = file.trim_end_matches(';').trim_matches(['"', '\'']);
+                let file = format!("{folder}{}", file.strip_prefix("./").ok_or_else(|| format!("{name}: {line}"))?);
+                if !seen.contains(&file) {
+                    before += &bundled(dist, &file, seen)?;
+                    seen.push(file);
+                }
+            }
+            None => own += &format!("{}\n", line.strip_prefix("export ").unwrap_or(line)),
+        }
+    }
+    Ok(before + &own)
+}
+
 /// The glue of a module as plain statements: what it exports stays under its own name.
 fn inlined(glue: &str) -> Outcome<String> {
     if glue.lines().any(|line| line.starts_with("import ")) {
@@ -172,6 +196,22 @@ mod tests {
             "export function work() {}\nconst a = import.meta.url;\nexport { initSync, __wbg_init as default };\n";
         assert_eq!(inlined(glue).as_deref(), Ok("function work() {}\nconst a = location.href;"));
         assert!(inlined("import x from './x.js';").is_err());
+    }
+
+    #[test]
+    fn what_a_script_imports_stands_before_it_once() {
+        let folder = std::env::temp_dir().join(format!("sightline-bundled-{}", std::process::id()));
+        fs::create_dir_all(folder.join("deep")).expect("a folder");
+        for (name, content) in [
+            ("a.js", "import { b } from './deep/b.js';\nimport { c } from './deep/c.js';\nwork(b, c);\n"),
+            ("deep/b.js", "import { c } from './c.js';\nexport const b = c;\n"),
+            ("deep/c.js", "export const c = 1;\n"),
+        ] {
+            write(&folder.join(name), content.as_bytes()).expect("a file");
+        }
+        let all = bundled(&folder, "a.js", &mut Vec::new());
+        fs::remove_dir_all(&folder).expect("removed");
+        assert_eq!(all.as_deref(), Ok("const c = 1;\nconst b = c;\nwork(b, c);\n"));
     }
 
     #[test]

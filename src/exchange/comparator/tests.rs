@@ -103,3 +103,37 @@ fn faults_name_file_line_and_field() {
     let few = DESCRIPTION.replace("distortion 30 12\ndistortion 40 17\n", "");
     assert_eq!(fault(&format!("{few}{READINGS}")).code(), "invalid");
 }
+
+#[test]
+fn numbers_beyond_all_measure_are_refused_and_no_infinity_comes_out() {
+    let wanted = import(&files(&[("camera.txt", DESCRIPTION), ("readings.csv", READINGS)])).unwrap();
+    let numbers = |text: &str| text.split([' ', ',', ';', '\n']).filter(|f| text::number(f).is_some()).count();
+    let mut seen = 0;
+    for (which, source) in [DESCRIPTION, READINGS].into_iter().enumerate() {
+        for place in 0..numbers(source) {
+            for huge in ["1e308", "-1e308", "1e160", "1e12"] {
+                let mut count = 0;
+                let replaced: String = source
+                    .split_inclusive([' ', ',', ';', '\n'])
+                    .map(|piece| {
+                        let field = piece.trim_end_matches([' ', ',', ';', '\n']);
+                        if text::number(field).is_none() {
+                            return piece.to_owned();
+                        }
+                        count += 1;
+                        if count == place + 1 { piece.replace(field, huge) } else { piece.to_owned() }
+                    })
+                    .collect();
+                let texts = if which == 0 { [&replaced, READINGS] } else { [DESCRIPTION, &replaced] };
+                let Ok(reduced) = import(&files(&[("camera.txt", texts[0]), ("readings.csv", texts[1])])) else {
+                    seen += 1;
+                    continue;
+                };
+                // As JSON what is no finite number is null.
+                let nulls = |reduced: &Reduced| serde_json::to_string(reduced).unwrap().matches("null").count();
+                assert!(nulls(&reduced) <= nulls(&wanted) + 1, "{huge} at {place} of {which}: {reduced:?}");
+            }
+        }
+    }
+    assert!(seen > 100, "{seen}");
+}

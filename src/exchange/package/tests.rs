@@ -119,6 +119,26 @@ fn foreign_archives_and_bombs_are_refused() {
 }
 
 #[test]
+fn an_archive_with_two_entries_of_one_name_is_refused() {
+    let document = json(&package().project).unwrap();
+    // Written under names of the same length, and renamed in the bytes.
+    for (first, second) in [("project.json", "projecu.json"), ("targets.json", "targett.json")] {
+        let targets: &[u8] = b"{}";
+        let mut bytes = match first {
+            "project.json" => archive(&[(first, &document), (second, &document)]),
+            _ => archive(&[("project.json", &document), (first, targets), (second, targets)]),
+        };
+        assert!(read(&bytes).is_ok(), "{first}");
+        for at in 0..bytes.len() - second.len() {
+            if bytes[at..].starts_with(second.as_bytes()) {
+                bytes[at..at + first.len()].copy_from_slice(first.as_bytes());
+            }
+        }
+        assert!(read(&bytes).unwrap_err().to_string().contains("same name"), "{first}");
+    }
+}
+
+#[test]
 fn a_damaged_part_costs_that_part() {
     let all = Package { adjustment: Some(Adjustment::default()), ..package() };
     let bytes = write(&all).unwrap();

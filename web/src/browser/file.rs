@@ -142,6 +142,11 @@ pub fn download_around(name: &str, kind: &str, pieces: &[Bytes], between: &[Blob
     download_blob(name, &blob)
 }
 
+/// The same of what the browser keeps.
+pub fn download_kept_file(name: &str, file: &Blob) -> Result<(), String> {
+    download_blob(name, &file.inner)
+}
+
 /// The same of what JavaScript made.
 pub fn download_blob(name: &str, blob: &web_sys::Blob) -> Result<(), String> {
     let save = || -> Result<(), JsValue> {

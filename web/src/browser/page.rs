@@ -30,9 +30,9 @@ fn window() -> Option<Window> {
 /// many bytes.
 pub fn worker_count(pixels: f64, taken: f64) -> usize {
     let Some(navigator) = window().map(|w| w.navigator()) else { return 1 };
-    // Browsers that do not say are taken for a plain laptop.
+    // Browsers that do not say (over plain HTTP none does) may be those of a phone.
     let gigabytes = js_sys::Reflect::get(&navigator, &"deviceMemory".into()).ok().and_then(|m| m.as_f64());
-    workers_for(navigator.hardware_concurrency(), gigabytes.unwrap_or(4.0), pixels, taken)
+    workers_for(navigator.hardware_concurrency(), gigabytes.unwrap_or(2.0), pixels, taken)
 }
 
 /// What a worker takes before it has done anything.
@@ -88,6 +88,22 @@ pub fn set_preference(name: &str, value: &str) {
     }
 }
 
+/// Forgets all preferences, and the copies of the page for times without a network.
+pub async fn forget_everything() {
+    if let Some(Ok(Some(storage))) = window().map(|w| w.local_storage()) {
+        let all = 0..storage.length().unwrap_or(0);
+        let names = all.filter_map(|i| storage.key(i).ok().flatten()).filter(|name| name.starts_with("sightline."));
+        for name in names.collect::<Vec<_>>() {
+            let _ = storage.remove_item(&name);
+        }
+    }
+    let forget = js_sys::Reflect::get(&js_sys::global(), &"sightlineForget".into()).unwrap_or_default();
+    let forgotten = forget.dyn_into::<js_sys::Function>().ok().and_then(|f| f.call0(&JsValue::UNDEFINED).ok());
+    if let Some(forgotten) = forgotten.and_then(|promise| promise.dyn_into::<js_sys::Promise>().ok()) {
+        let _ = JsFuture::from(forgotten).await;
+    }
+}
+
 /// The address after '#'.
 pub fn hash() -> String {
     let hash = window().and_then(|w| w.location().hash().ok()).unwrap_or_default();
@@ -127,10 +143,63 @@ pub async fn pause(milliseconds: i32) {
     let _ = JsFuture::from(waited).await;
 }
 
-/// Puts text on the clipboard.
-pub fn copy(text: &str) {
+/// Puts text on the clipboard; calls `on_failure` where the browser does not let it.
+pub fn copy(text: String, on_failure: impl FnOnce() + 'static) {
+    wasm_bindgen_futures::spawn_local(async move {
+        if written_to_clipboard(&text).await.is_none() && copied_as_selection(&text) != Some(true) {
+            on_failure();
+        }
+    });
+}
+
+/// Over plain HTTP there is no such clipboard.
+async fn written_to_clipboard(text: &str) -> Option<()> {
+    let field = |object: &JsValue, name: &str| js_sys::Reflect::get(object, &name.into()).ok();
+    let clipboard = field(&window()?.navigator(), "clipboard")?;
+    let write = field(&clipboard, "writeText")?.dyn_into::<js_sys::Function>().ok()?;
+    let written: js_sys::Promise = write.call1(&clipboard, &text.into()).ok()?.dyn_into().ok()?;
+    JsFuture::from(written).await.ok().map(drop)
+}
+
+/// The way before there was one: what is selected is copied by a command, within the click that asked for it.
+fn copied_as_selection(text: &str) -> Option<bool> {
+    let document = window()?.document()?;
+    let before = document.active_element();
+    let field: web_sys::HtmlTextAreaElement = document.create_element("textarea").ok()?.dyn_into().ok()?;
+    field.set_value(text);
+    document.body()?.append_child(&field).ok()?;
+    field.select();
+    let command = js_sys::Reflect::get(&document, &"execCommand".into()).ok()?.dyn_into::<js_sys::Function>().ok()?;
+    let copied = command.call1(&document, &"copy".into()).ok().and_then(|done| done.as_bool());
+    field.remove();
+    if let Some(before) = before.and_then(|element| element.dyn_into::<HtmlElement>().ok()) {
+        let _ = before.focus();
+    }
+    copied
+}
+
+/// Whether the host has another build of the page by now: one that does not name the folder in which the files of this one lie.
+pub async fn host_has_another_build() -> bool {
+    let asked = async {
+        let base = js_sys::Reflect::get(&js_sys::global(), &"sightlineBase".into()).ok()?.as_string()?;
+        let folder = base.trim_end_matches('/').rsplit('/').next()?.to_owned();
+        let options = js_sys::Object::new();
+        js_sys::Reflect::set(&options, &"cache".into(), &"no-store".into()).ok()?;
+        let fetch =
+            js_sys::Reflect::get(&js_sys::global(), &"fetch".into()).ok()?.dyn_into::<js_sys::Function>().ok()?;
+        let fetched =
+            fetch.call2(&js_sys::global(), &"./".into(), &options).ok()?.dyn_into::<js_sys::Promise>().ok()?;
+        let response: web_sys::Response = JsFuture::from(fetched).await.ok()?.dyn_into().ok()?;
+        let page = JsFuture::from(response.text().ok()?).await.ok()?.as_string()?;
+        Some(response.ok() && page.contains("desk_bg.wasm") && !page.contains(&format!("{folder}/")))
+    };
+    asked.await.unwrap_or(false)
+}
+
+/// Loads the page anew.
+pub fn reload() {
     if let Some(window) = window() {
-        let _ = window.navigator().clipboard().write_text(text);
+        let _ = window.location().reload();
     }
 }
 
@@ -217,6 +286,8 @@ pub fn listen_to_network(on_change: impl Fn() + 'static) {
 pub enum Told {
     /// A new build is here, and waits to be agreed to.
     Update,
+    /// The page works only with the network: the browser or the host has no place for it.
+    Network,
     /// The installed page was opened with files.
     Files(Vec<super::file::NamedFile>),
 }
@@ -231,6 +302,7 @@ pub fn listen_to_start(on_told: impl Fn(Told) + 'static) {
             let field = |name: &str| js_sys::Reflect::get(&next, &name.into()).unwrap_or_default();
             match field("word").as_string().as_deref() {
                 Some("update") => on_told(Told::Update),
+                Some("network") => on_told(Told::Network),
                 Some("files") => on_told(Told::Files(super::file::of_array(&field("detail")))),
                 _ => {}
             }

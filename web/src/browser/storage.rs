@@ -14,7 +14,7 @@ use web_sys::{ErrorEvent, MessageEvent};
 
 use super::file::Blob;
 use super::picture::Picture;
-use super::worker::{Bytes, describe, error_words, field, set, start_script};
+use super::worker::{Bytes, describe, error_words, field, set, start_script, when_ended};
 
 /// What goes along with a call or its answer.
 pub enum Extra {
@@ -52,9 +52,10 @@ pub struct Storage {
     ended: Rc<Cell<bool>>,
 }
 
-/// The name of the fault of calls that nobody answers.
+/// The name of the fault of calls that nobody answers, and what is told when the worker has ended by itself.
 pub const LOST: &str = "Lost";
 const ENDED: &str = "the worker was ended";
+const ENDED_ITSELF: &str = "the storage worker has ended";
 
 /// Answers all that wait.
 fn give_up(waiting: &RefCell<HashMap<u32, Function>>, words: &str) {
@@ -67,15 +68,27 @@ fn give_up(waiting: &RefCell<HashMap<u32, Function>>, words: &str) {
 }
 
 impl Storage {
-    /// Starts it; `on_told` gets what it says without having been asked.
-    pub fn start(on_told: impl Fn(String) + 'static) -> Result<Self, String> {
+    /// Starts it; `on_told` gets what it says without having been asked, and [`LOST`] when it has ended by itself.
+    pub fn start(on_told: impl Fn(&str) + 'static) -> Result<Self, String> {
         let worker = start_script("storage.js").map_err(|e| describe(&e))?;
         let waiting = Waiting::default();
-        let answers = waiting.clone();
+        let ended = Rc::new(Cell::new(false));
+        let on_told = Rc::new(on_told);
+        let (answers, ended_before) = (waiting.clone(), ended.clone());
         let on_message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
             let data = event.data();
             if let Some(told) = field(&data, "told").as_string() {
-                return on_told(told);
+                return on_told(&told);
+            }
+            let (tell, unanswered, ended) = (on_told.clone(), answers.clone(), ended_before.clone());
+            let when = when_ended(&data, move || {
+                if !ended.replace(true) {
+                    give_up(&unanswered, ENDED_ITSELF);
+                    tell(LOST);
+                }
+            });
+            if when {
+                return;
             }
             let call = field(&data, "call").as_f64().unwrap_or_default() as u32;
             let resolve = answers.borrow_mut().remove(&call);
@@ -92,7 +105,7 @@ impl Storage {
         // It lives as long as the page, nearly always.
         on_message.forget();
         on_error.forget();
-        Ok(Self { worker, waiting, calls: Rc::default(), ended: Rc::default() })
+        Ok(Self { worker, waiting, calls: Rc::default(), ended })
     }
 
     /// Ends it, with all that it holds: who waits for it, or calls it later, is told that it is lost.

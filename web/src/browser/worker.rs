@@ -50,13 +50,13 @@ impl Worker {
         let still_wanted = wanted.clone();
         let on_message = Closure::new(move |event: MessageEvent| {
             let data = event.data();
-            if let Some(life) = field(&data, "held").as_string() {
-                let (listener, wanted) = (for_its_end.clone(), still_wanted.clone());
-                when_free(&life, move || {
-                    if wanted.get() {
-                        (listener.borrow_mut())(Message::Crashed("it ended without a word".into()));
-                    }
-                });
+            let (ended, wanted) = (for_its_end.clone(), still_wanted.clone());
+            let when = when_ended(&data, move || {
+                if wanted.get() {
+                    (ended.borrow_mut())(Message::Crashed("it ended without a word".into()));
+                }
+            });
+            if when {
                 return;
             }
             (listener.borrow_mut())(read_message(&data));
@@ -73,7 +73,7 @@ impl Worker {
                     let start = Object::new();
                     set(&start, "module", &module);
                     set(&start, "codecs", &located(CODECS).into());
-                    set(&start, "life", &format!("sightline worker {}", super::page::unique_name()).into());
+                    set(&start, "life", &format!("sightline life {}", super::page::unique_name()).into());
                     worker.post_message(&start)
                 }
                 Err(error) => {
@@ -109,16 +109,30 @@ impl Worker {
     }
 }
 
-/// Calls `work` when a lock that another holds is free: its holder has ended.
-fn when_free(lock: &str, work: impl FnOnce() + 'static) {
-    let locks = field(&field(&js_sys::global(), "navigator"), "locks");
-    let Ok(request) = field(&locks, "request").dyn_into::<js_sys::Function>() else { return };
-    let _ = request.call2(&locks, &lock.into(), &Closure::once_into_js(work));
+/// Calls `work` when the worker that says by `told` what name it holds (`web/storage/life.js`) has ended; false where it says no such thing. The
+/// name is that of a database, which cannot be deleted before, or of a lock, which cannot be had.
+pub(super) fn when_ended(told: &JsValue, work: impl FnOnce() + 'static) -> bool {
+    let Some(life) = field(told, "held").as_string() else { return false };
+    let work = Closure::once_into_js(work);
+    let method = |object: &JsValue, name: &str| field(object, name).dyn_into::<js_sys::Function>().ok();
+    if field(told, "by").as_string().as_deref() == Some("lock") {
+        let locks = field(&field(&js_sys::global(), "navigator"), "locks");
+        let _ = method(&locks, "request").map(|request| request.call2(&locks, &life.into(), &work));
+        return true;
+    }
+    let base = field(&js_sys::global(), "indexedDB");
+    if let Some(Ok(deleting)) = method(&base, "deleteDatabase").map(|delete| delete.call1(&base, &life.into())) {
+        // An error is no end of the worker: the browser has cleared its storage.
+        set(deleting.unchecked_ref(), "onsuccess", &work);
+    }
+    true
 }
 
-/// Where a file of the page lies: beside it, or inside it where all is one file, which leaves addresses in `sightlineFiles`.
+/// Where a file of the page lies: with the others of its build, which `web/start.js` leaves in `sightlineBase`, or inside the page where all is
+/// one file, which leaves addresses in `sightlineFiles`.
 fn located(name: &str) -> String {
-    inside(name).unwrap_or_else(|| name.to_owned())
+    let base = || field(&js_sys::global(), "sightlineBase").as_string().unwrap_or_default();
+    inside(name).unwrap_or_else(|| format!("{}{name}", base()))
 }
 
 fn inside(name: &str) -> Option<String> {
@@ -134,7 +148,7 @@ pub(super) fn start_script(name: &str) -> Result<web_sys::Worker, JsValue> {
     }
     let options = WorkerOptions::new();
     options.set_type(WorkerType::Module);
-    web_sys::Worker::new_with_options(name, &options)
+    web_sys::Worker::new_with_options(&located(name), &options)
 }
 
 /// The engine's module in dist/, beside its glue of the same name.

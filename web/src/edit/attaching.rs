@@ -62,6 +62,11 @@ fn is_measured(document: &Document, photo: &str) -> bool {
     document.detections.contains_key(photo) || document.project.observations.iter().any(|o| o.photo == photo)
 }
 
+/// Whether [`record`] would have something to note: a project that it changes is stored again.
+pub fn is_unrecorded(project: &Project, photo: &str) -> bool {
+    project.photos.iter().any(|known| known.id == photo && known.sha256.is_empty())
+}
+
 /// Records the contents of a photo's file; whether it is new.
 pub fn record(project: &mut Project, photo: &str, sha256: &str) -> bool {
     let found = project.photos.iter_mut().find(|known| known.id == photo && known.sha256.is_empty());

@@ -192,9 +192,9 @@ pub fn measured_apart(project: &Project, id: &str) -> Vec<PhotoColours> {
     project.report.colours.iter().filter(|colours| of_camera(&colours.photo)).cloned().collect()
 }
 
-/// Notes which colour the centres of a photo were measured in: the channel's, where the photo has colours to choose from.
-pub fn measured_in(project: &mut Project, photo: &str, channel: Channel, detection: &Detection) {
-    let colour = match (&detection.measured, channel) {
+/// The colour that a photo was measured in, where a lens has parameters of its own for that.
+fn colour_of(channel: Channel, detection: &Detection) -> Option<LensColour> {
+    match (&detection.measured, channel) {
         (Some(measured), _) => match measured.colour {
             Some(Colour::Red) => Some(LensColour::Red),
             Some(Colour::Blue) => Some(LensColour::Blue),
@@ -203,7 +203,18 @@ pub fn measured_in(project: &mut Project, photo: &str, channel: Channel, detecti
         (None, Channel::Red) => Some(LensColour::Red),
         (None, Channel::Blue) => Some(LensColour::Blue),
         (None, Channel::Grey | Channel::Green) => None,
-    };
+    }
+}
+
+/// Whether [`measured_in`] would change nothing.
+pub fn is_measured_in(project: &Project, photo: &str, channel: Channel, detection: &Detection) -> bool {
+    let colour = colour_of(channel, detection);
+    project.photos.iter().filter(|p| p.id == photo).all(|p| p.colour == colour)
+}
+
+/// Notes which colour the centres of a photo were measured in: the channel's, where the photo has colours to choose from.
+pub fn measured_in(project: &mut Project, photo: &str, channel: Channel, detection: &Detection) {
+    let colour = colour_of(channel, detection);
     if let Some(photo) = project.photos.iter_mut().find(|p| p.id == photo) {
         photo.colour = colour;
     }

@@ -82,10 +82,16 @@ pub fn take_family(document: &mut Document, family: Family) {
     }
 }
 
+/// The targets of a photo that may be named by their codes: no other says anything of the family or of names, and to go through all targets of
+/// all photos with each photo that is done would make detection grow with the square of their number.
+fn with_rings(photo: &str, targets: &[Target]) -> PhotoTargets {
+    let may = |t: &&Target| t.code.is_some() || t.code_family.is_some() || !t.code_candidates.is_empty();
+    PhotoTargets { photo: photo.to_owned(), targets: targets.iter().filter(may).cloned().collect() }
+}
+
 /// What the rings of these detections are codes of, by themselves.
 pub fn rings(detections: &BTreeMap<String, Arc<Detection>>) -> Rings {
-    let of = |(id, d): (&String, &Arc<Detection>)| PhotoTargets { photo: id.clone(), targets: d.targets.clone() };
-    let all = detections.iter().map(of).collect::<Vec<_>>();
+    let all = detections.iter().map(|(id, d)| with_rings(id, &d.targets)).collect::<Vec<_>>();
     let coded = name_coded(&all, None);
     rings_of(&all, coded.family, coded.families)
 }
@@ -101,10 +107,11 @@ fn rings_of(all: &[PhotoTargets], family: Option<Family>, families: Vec<Family>)
 
 /// Takes one detection; the family that is known then.
 fn take_one(document: &mut Document, photo: &str, mut detection: Detection, family: Option<Family>) -> Option<Family> {
-    let mut all = by_photo(document);
-    all.retain(|targets| targets.photo != photo);
+    let others = document.detections.iter().filter(|(id, _)| *id != photo);
+    let mut all = others.map(|(id, d)| with_rings(id, &d.targets)).collect::<Vec<_>>();
+    all.retain(|photo| !photo.targets.is_empty());
+    all.push(with_rings(photo, &detection.targets));
     let new = [PhotoTargets { photo: photo.to_owned(), targets: detection.targets.clone() }];
-    all.extend_from_slice(&new);
     let coded = name_coded(&all, family);
     if let Some(family) = coded.family {
         detection.targets.iter_mut().for_each(|target| target.settle_code(family));
@@ -125,7 +132,6 @@ fn take_one(document: &mut Document, photo: &str, mut detection: Detection, fami
     doubtful.extend(coded.doubtful.into_iter().filter(|d| d.photo == photo || d.reason == Doubt::CodeFamily));
     document.doubtful = Arc::new(doubtful);
     document.rings = rings_of(&all, coded.family, coded.families);
-    let project = document.project_mut();
     let marks = before.iter().map(|o| Mark {
         photo: photo.to_owned(),
         point: o.point.clone(),
@@ -146,9 +152,13 @@ fn take_one(document: &mut Document, photo: &str, mut detection: Detection, fami
             observation.enabled = earlier.enabled;
         }
     }
-    project.observations = others;
-    project.observations.append(&mut now);
-    tidy(project);
+    // Where no name comes or goes the project stays what it is, and is not stored again.
+    if !now.is_empty() || others.len() != document.project.observations.len() {
+        let project = document.project_mut();
+        project.observations = others;
+        project.observations.append(&mut now);
+        tidy(project);
+    }
     document.detections_mut().insert(photo.to_owned(), Arc::new(detection));
     coded.family
 }

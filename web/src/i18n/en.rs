@@ -351,7 +351,8 @@ declare! { desk {
     save: "Save";
     save_all: "Save with photos";
     save_hint: "Save the project file without the photos";
-    save_all_hint: "Save the project file with the photos in it, as the camera wrote them: with the place where they were taken if they have it";
+    save_all_hint: "Save the project file with the photos in it, as the camera wrote them: with the place where they were taken (GPS) if they have it";
+    photos_carry_places: "The photos in the file are as the camera wrote them, with the place where they were taken (GPS) if they have it.";
     save_with_photos: "Save the project file with the photos in it";
     saving: "Saving";
     cannot_save(detail): "The file could not be saved: {detail}";
@@ -414,7 +415,23 @@ declare! { desk {
     take_over: "Take over";
     reads_along: "This window only reads along: take the project over to change it.";
     other_is_kept(name): "{name} is kept on this computer; the start page has it.";
-    held_elsewhere: "The project is open in another window: rename it there.";
+    held_elsewhere: "The project is open in another window. Do this there, or close that window first.";
+    kept_as_copy(name, copy): "Another window took {name} over before the last changes here were stored. They are kept as a project of its own, {copy}.";
+    storage_ended: "the storage of this browser does not start again";
+    list_unreadable(detail): "The list of projects could not be read ({detail}). The projects are still stored: reload the page, or close its other windows.";
+    unreadable_project: "Project that cannot be read";
+    journal_mended: "One bit of this stored project had changed. It was repaired, and nothing is lost. The damaged file can be downloaded from the start page.";
+    journal_damaged(n): "This stored project was damaged. The newest state that can be read is open; {n} newer {n:state|states} and the undo history are lost. The damaged file can be downloaded from the start page.";
+    journal_end_damaged: "The end of this stored project was damaged: the last change is lost. The damaged file can be downloaded from the start page.";
+    journal_to_be_opened: "This stored project is damaged. Open it first: what can be read of it is then stored anew.";
+    download_damaged: "Download damaged file";
+    wipe: "Delete everything stored by this page…";
+    wipe_question: "Delete all projects with their photos, the equipment, the preferences and the offline copy of this page from this browser? This cannot be undone.";
+    wipe_now: "Delete everything";
+    gone_for_good: "This project is no longer stored in this browser.";
+    deleted_projects: "Deleted projects";
+    deleted_for_a_day: "kept for a day";
+    put_back: "Put back";
     keeps_nothing: "This browser keeps nothing here. Save the project before you close the page.";
     storage_full: "The storage of this computer is full: the last changes are in this page only. Save the project as a file, or delete projects you no longer need.";
     not_kept(detail): "The last changes could not be stored and are in this page only ({detail}). Save the project as a file.";
@@ -433,6 +450,11 @@ declare! { desk {
     part_did_not_come: "This part of the page could not be loaded. Check the network connection.";
     try_again: "Try again";
     no_network: "No network. Everything on this page works without it.";
+    no_network_nor_copy: "No network. What is open works; the page cannot be loaded again before the network is back.";
+    needs_network: "the page loads only with the network";
+    another_build: "The host has another version of Sightline by now, and the rest of this version does not come any more. Reload the page; projects stay as they are.";
+    reload_page: "Reload";
+    not_on_clipboard: "The browser did not let the page copy to the clipboard. Select the cells and copy them with the keyboard, or export the table.";
     update_ready: "A new version of Sightline is here. Projects stay as they are.";
     take_update: "Reload with it";
 

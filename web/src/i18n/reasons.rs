@@ -211,6 +211,9 @@ pub fn reason(reason: &Reason) -> String {
             return format!("압축 파일의 항목이 {entries}개입니다. 프로젝트 파일은 {limit}개까지입니다");
         }
         R::NoProjectInside => "프로젝트 파일이 아닙니다. 압축 안에 project.json이 없습니다",
+        R::SameNames => {
+            "압축 파일에 이름이 같은 항목이 여럿이어서 어느 것인지 알 수 없습니다. 프로젝트 파일이 아닙니다"
+        }
         R::SharedBytes => "압축 파일의 항목들이 같은 바이트를 나눠 씁니다. 프로젝트 파일이 아닙니다",
         R::EntryName => "압축에 든 항목 하나의 이름이 손상되었습니다",
         R::EntrySize => "프로젝트 파일의 이 부분이 손상되었습니다. 적힌 크기와 다릅니다",

@@ -1,5 +1,5 @@
-//! Storage that the browser cleared under the open page: another worker takes the place of the one that has files of it open, and what
-//! is here is written again.
+//! Another worker in the place of the one that kept the project: where the browser cleared its storage under the open page, for the worker
+//! has files of it open, and everything is written again; and where the worker has ended by itself, then what it had not written is.
 
 use std::rc::Rc;
 
@@ -7,10 +7,10 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use serde::de::IgnoredAny;
 
-use super::keeping::{Kept, Of, Started, Starting};
+use super::keeping::{Kept, Of, Opened, Started, Starting};
 use super::{Desk, Until};
 use crate::browser::page;
-use crate::browser::storage::{Fault, Storage};
+use crate::browser::storage::{Fault, LOST, Storage};
 use crate::i18n::text;
 
 /// When it is looked whether what was stored again is there still, in milliseconds one after the other.
@@ -21,23 +21,12 @@ const AGAIN_MS: i32 = 5000;
 impl Desk {
     /// Writes everything again, photos from where they came. `after` as in [`Starting`].
     pub(super) async fn keep_anew(self, after: &'static str) {
-        let begun = self.keeper.try_update_value(|keeper| !std::mem::replace(&mut keeper.anew, true));
-        if begun != Some(true) {
+        let follows = self.follows();
+        if !self.end_storage().await {
             return;
         }
-        let follows = self.follows();
-        if let Some(storage) = self.keeper.try_update_value(|keeper| keeper.storage.take()).flatten() {
-            storage.end();
-        }
-        if !follows {
-            self.kept.set(Kept::Writing);
-        }
-        // What was under way with the worker that is gone ends first.
-        while self.keeper.with_value(|keeper| keeper.copying || keeper.sending) {
-            page::pause(20).await;
-        }
         let storage = loop {
-            match self.started_anew(after).await {
+            match self.started_anew(Some(after)).await {
                 Ok(Some(storage)) => break storage,
                 Ok(None) => {
                     self.keeper.update_value(|keeper| keeper.anew = false);
@@ -73,11 +62,91 @@ impl Desk {
         }
     }
 
+    /// Ends the worker, and what was under way with it; false where that is being done already.
+    async fn end_storage(self) -> bool {
+        let begun = self.keeper.try_update_value(|keeper| !std::mem::replace(&mut keeper.anew, true));
+        if begun != Some(true) {
+            return false;
+        }
+        if let Some(storage) = self.keeper.try_update_value(|keeper| keeper.storage.take()).flatten() {
+            storage.end();
+        }
+        if !self.follows() {
+            self.kept.set(Kept::Writing);
+        }
+        while self.keeper.with_value(|keeper| keeper.copying || keeper.sending) {
+            page::pause(20).await;
+        }
+        true
+    }
+
+    /// The worker has ended by itself (out of memory, for instance): another goes on where it stopped.
+    pub(super) async fn replace_storage(self) {
+        if !self.end_storage().await {
+            return;
+        }
+        let storage = loop {
+            let fault = match self.started_anew(None).await {
+                Ok(Some(storage)) => match self.adopted(&storage).await {
+                    Ok(()) => break storage,
+                    Err(fault) => {
+                        storage.end();
+                        fault
+                    }
+                },
+                Ok(None) => Fault { name: LOST.into(), detail: text::storage_ended().into() },
+                Err(fault) => fault,
+            };
+            self.tell_unkept(fault.name, fault.detail);
+            page::pause(AGAIN_MS).await;
+        };
+        self.keeper.update_value(|keeper| {
+            keeper.storage = Some(storage);
+            keeper.anew = false;
+        });
+        self.read_shelf();
+        if self.follows() {
+            return self.yielded();
+        }
+        self.kept.set(Kept::At(page::clock()));
+        self.keep_now();
+    }
+
+    /// Has another worker open the project that is open here. What the one before wrote without saying so is not written again.
+    async fn adopted(self, storage: &Storage) -> Result<(), Fault> {
+        let Some(id) = self.open_id() else { return Ok(()) };
+        let opened = match storage.call::<Opened>("open", &Of { id: &id }, Vec::new()).await {
+            Ok((opened, _)) => Some(opened),
+            // Nothing of it was written yet.
+            Err(Fault { name, .. }) if name == "NotFoundError" => None,
+            Err(fault) => return Err(fault),
+        };
+        if opened.as_ref().is_some_and(|opened| opened.following) {
+            self.kept.set(Kept::Following);
+        }
+        self.keeper.update_value(|keeper| {
+            let whole = opened.filter(|opened| !opened.has_gap());
+            match (&whole, keeper.backlog.front()) {
+                (Some(opened), Some(first)) if first.is_last_of(opened) => {
+                    keeper.backlog.pop_front();
+                }
+                (None, Some(first)) if first.snapshot => {}
+                (None, _) => {
+                    keeper.book = Rc::default();
+                    keeper.backlog.clear();
+                    keeper.stored.clear();
+                }
+                _ => {}
+            }
+        });
+        Ok(())
+    }
+
     /// A worker in the place of the one that was ended; nothing where it can keep nothing.
-    async fn started_anew(self, after: &'static str) -> Result<Option<Storage>, Fault> {
+    async fn started_anew(self, after: Option<&'static str>) -> Result<Option<Storage>, Fault> {
         let Ok(storage) = self.storage_worker() else { return Ok(None) };
-        match storage.call::<Started>("start", &Starting { after: Some(after) }, Vec::new()).await {
-            Ok((Started { kind }, _)) => Ok((kind != "none").then_some(storage)),
+        match storage.call::<Started>("start", &Starting { after }, Vec::new()).await {
+            Ok((Started { kind, .. }, _)) => Ok((kind != "none").then_some(storage)),
             Err(fault) => {
                 storage.end();
                 Err(fault)

@@ -75,8 +75,12 @@ impl Desk {
             _ => None,
         };
         self.change_on(|document| {
-            cameras::measured_in(document.project_mut(), photo, channel, &detection);
-            attaching::record(document.project_mut(), photo, &sha256);
+            if !cameras::is_measured_in(&document.project, photo, channel, &detection) {
+                cameras::measured_in(document.project_mut(), photo, channel, &detection);
+            }
+            if attaching::is_unrecorded(&document.project, photo) {
+                attaching::record(document.project_mut(), photo, &sha256);
+            }
             targets::take_detection(document, photo, detection, family);
         });
     }

@@ -50,6 +50,7 @@ impl Desk {
         spawn_local(async move {
             if work.await.is_err() {
                 self.say(true, Until::NextWork, || text::part_did_not_come().to_owned());
+                self.look_for_another_build();
             }
         });
     }

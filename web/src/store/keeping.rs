@@ -8,10 +8,10 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
-use sightline_protocol::to_text;
+use sightline_protocol::{from_text, to_text};
 
 use super::document::{Document, Entry, History};
-use super::kept::{Book, KeptFile, Part, State, replay};
+use super::kept::{Book, KeptFile, Note, Part, State, replay};
 use super::{Desk, PhotoFile, Selection, Step, Until};
 use crate::browser::file::{Blob, NamedFile};
 use crate::browser::page;
@@ -59,6 +59,8 @@ pub struct Keeper {
     pub(super) anew: bool,
     /// Notes written, ever.
     pub(super) written: usize,
+    /// Whether there was nothing of this page in the storage when it came, until that is told.
+    pub(super) fresh: bool,
     /// Whether the journal is to be condensed soon; its size after the last time.
     pub(super) condensing: bool,
     pub(super) condensed: f64,
@@ -97,7 +99,7 @@ pub enum CardOutcome {
 #[derive(Serialize)]
 pub(super) struct Append {
     id: String,
-    snapshot: bool,
+    pub(super) snapshot: bool,
     note: String,
     parts: Vec<(u64, String)>,
     card: KeptCard,
@@ -113,12 +115,36 @@ struct KeptCard {
     keys: Vec<String>,
 }
 
+/// What the worker says of a project that it opened.
 #[derive(Deserialize)]
-struct Opened {
-    notes: Vec<String>,
-    following: bool,
+pub(super) struct Opened {
+    pub(super) notes: Vec<String>,
+    pub(super) following: bool,
     #[serde(rename = "nextPart")]
-    next_part: u64,
+    pub(super) next_part: u64,
+    pub(super) damage: Option<Damage>,
+}
+
+/// What was wrong with a journal.
+#[derive(Clone, Copy, Deserialize)]
+pub(super) struct Damage {
+    /// Nothing is lost.
+    pub(super) mended: bool,
+    /// Whether notes follow what is lost.
+    pub(super) gap: bool,
+}
+
+impl Opened {
+    pub(super) fn has_gap(&self) -> bool {
+        self.damage.is_some_and(|damage| damage.gap)
+    }
+}
+
+impl Append {
+    /// Whether a journal ends with this: then it was written, though nobody heard of it.
+    pub(super) fn is_last_of(&self, opened: &Opened) -> bool {
+        opened.notes.last() == Some(&self.note) && self.parts.iter().all(|(number, _)| *number < opened.next_part)
+    }
 }
 
 #[derive(Deserialize)]
@@ -143,6 +169,7 @@ pub(super) struct Starting {
 #[derive(Deserialize)]
 pub(super) struct Started {
     pub kind: String,
+    pub fresh: bool,
 }
 
 /// Of a call with nothing to say.
@@ -187,8 +214,11 @@ impl Desk {
         match self.storage_worker() {
             Ok(storage) => spawn_local(async move {
                 match storage.call::<Started>("start", &Starting { after: None }, Vec::new()).await {
-                    Ok((Started { kind }, _)) if kind != "none" => {
-                        self.keeper.update_value(|keeper| keeper.storage = Some(storage));
+                    Ok((Started { kind, fresh }, _)) if kind != "none" => {
+                        self.keeper.update_value(|keeper| {
+                            keeper.storage = Some(storage);
+                            keeper.fresh = fresh;
+                        });
                         self.kept.set(Kept::At(String::new()));
                         self.keep_now();
                         self.read_shelf();
@@ -208,23 +238,58 @@ impl Desk {
     }
 
     pub(super) fn storage_worker(self) -> Result<Storage, String> {
-        Storage::start(move |told| self.hear_from_storage(&told))
+        Storage::start(move |told| self.hear_from_storage(told))
     }
 
     fn hear_from_storage(self, told: &str) {
         match told {
             "equipment" => return self.read_equipment(),
             "cleared" => return spawn_local(self.keep_anew("told")),
+            LOST => return spawn_local(self.replace_storage()),
             _ => {}
         }
         let Some(id) = self.open_id() else { return };
         match told {
-            "yielded" => self.kept.set(Kept::Following),
-            "changed" if self.follows() => spawn_local(async move {
+            "yielded" => self.yielded(),
+            "wanted" => spawn_local(self.let_go(id)),
+            // What is not written is not replaced by what another window wrote: its answer comes first.
+            "changed" if self.follows() && !self.unwritten() => spawn_local(async move {
                 self.read_again(&id).await;
             }),
             _ => {}
         }
+    }
+
+    /// Lets another window go on with the project, when all that was done here is written.
+    async fn let_go(self, id: String) {
+        let Some(storage) = self.storage() else { return };
+        self.flushed().await;
+        if self.open_id().as_ref() != Some(&id) || self.follows() {
+            return;
+        }
+        self.kept.set(Kept::Following);
+        // A worker that ends meanwhile lets go, too.
+        let _ = storage.call::<IgnoredAny>("yield", &Of { id: &id }, Vec::new()).await;
+    }
+
+    /// Another window has the project now. What could not be written before that is kept as a project of its own.
+    pub(super) fn yielded(self) {
+        self.kept.set(Kept::Following);
+        if self.keeper.with_value(|keeper| keeper.sending || keeper.backlog.is_empty()) {
+            return;
+        }
+        let name = self.document.with_untracked(|d| d.project.name.clone());
+        let copy = text::copy_of(&name);
+        self.keeper.update_value(|keeper| {
+            keeper.id = None;
+            keeper.book = Rc::default();
+            keeper.backlog.clear();
+            keeper.stored.clear();
+        });
+        self.kept.set(Kept::Writing);
+        self.document.update(|document| super::saving::rename(document, copy.clone()));
+        self.say(true, Until::NextWork, move || text::kept_as_copy(&name, &copy));
+        self.keep_now();
     }
 
     /// The project that is open, where the storage has it.
@@ -265,10 +330,10 @@ impl Desk {
             return;
         }
         let files = self.files.with_untracked(|files| {
-            let of = |id: &String| document.project.photos.iter().any(|photo| photo.id == *id);
+            let photos = document.project.photos.iter().map(|photo| photo.id.as_str()).collect::<HashSet<_>>();
             files
                 .iter()
-                .filter(|(id, _)| of(id))
+                .filter(|(id, _)| photos.contains(id.as_str()))
                 .map(|(id, file)| (id.clone(), file.kept()))
                 .collect::<BTreeMap<_, _>>()
         });
@@ -326,8 +391,13 @@ impl Desk {
             }
             self.keeper.update_value(|keeper| keeper.sending = false);
             match outcome {
+                Ok(()) if self.follows() => {
+                    if let Some(id) = self.open_id() {
+                        self.read_again(&id).await;
+                    }
+                }
                 // Another window took the project over while this was on its way.
-                _ if self.follows() => self.keeper.update_value(|keeper| keeper.backlog.clear()),
+                Err(Fault { name, .. }) if name == "TakenError" || self.follows() => self.yielded(),
                 Ok(()) => {
                     self.kept.set(Kept::At(page::clock()));
                     self.measure_space();
@@ -335,7 +405,7 @@ impl Desk {
                 }
                 Err(Fault { name, .. }) if name == "GoneError" => self.keep_anew("noticed").await,
                 // Another worker takes this one's place, and everything is written again.
-                Err(Fault { name, .. }) if name == LOST && self.keeper.with_value(|keeper| keeper.anew) => {}
+                Err(Fault { name, .. }) if name == LOST => self.replace_storage().await,
                 Err(Fault { name, detail }) => self.tell_unkept(name, detail),
             }
         });
@@ -352,7 +422,7 @@ impl Desk {
     }
 
     /// Waits until everything is written; false where something could not be.
-    async fn flushed(self) -> bool {
+    pub(super) async fn flushed(self) -> bool {
         while self.keeper.with_value(|keeper| keeper.sending) {
             page::pause(20).await;
         }
@@ -439,16 +509,8 @@ impl Desk {
     }
 
     async fn restore(self, storage: &Storage, id: &str, opened: Opened) -> Result<(), Fault> {
-        let mut replayed = replay(&opened.notes).map_err(data_fault)?;
-        let state = replayed.present.clone().ok_or_else(|| data_fault("no state".into()))?;
-        let changes = |stack: &[(super::document::Change, State)]| stack.iter().map(|(c, _)| c.clone()).collect();
-        let history = History::stored(changes(&replayed.past), changes(&replayed.future));
-        let book = Rc::new(RefCell::new(Book::of(&replayed, &history, opened.next_part)));
-        let mut document = read_document(storage, &book, &state).await?;
-        let files = read_files(storage, &book, replayed.files).await?;
-        if let Some(name) = replayed.name.take() {
-            super::saving::rename(&mut document, name);
-        }
+        let Reading { document, history, book, stored, files, lost } =
+            if opened.has_gap() { rescued(storage, &opened).await? } else { Reading::whole(storage, &opened).await? };
         let (mut here, mut without_picture) = (BTreeMap::new(), Vec::new());
         for (photo, file) in files {
             match file {
@@ -465,9 +527,6 @@ impl Desk {
         }
         let same = self.open_id().as_deref() == Some(id);
         let first = document.project.photos.first().map(|photo| photo.id.clone());
-        let entries = history.past.iter().chain(&history.future).map(|entry| entry.serial);
-        let states = replayed.past.into_iter().chain(replayed.future).map(|(_, state)| state);
-        let stored = entries.zip(states).collect();
         self.keeper.update_value(|keeper| {
             keeper.id = Some(id.to_owned());
             keeper.condensed = 0.0;
@@ -487,6 +546,13 @@ impl Desk {
         }
         self.document.set(document);
         self.read_history();
+        if let Some(damage) = opened.damage {
+            self.say(true, Until::NextWork, move || match damage {
+                Damage { mended: true, .. } => text::journal_mended().to_owned(),
+                Damage { gap: true, .. } => text::journal_damaged(lost),
+                _ => text::journal_end_damaged().to_owned(),
+            });
+        }
         if !without_picture.is_empty() {
             self.take(without_picture);
         }
@@ -599,6 +665,68 @@ async fn read_document(storage: &Storage, book: &RefCell<Book>, state: &State) -
 }
 
 type ReadFile = (KeptFile, Option<Blob>, Option<Picture>);
+
+/// A project as it was read.
+struct Reading {
+    document: Document,
+    history: History,
+    book: Rc<RefCell<Book>>,
+    /// States of the history that are still in the storage, by their serials.
+    stored: HashMap<u64, State>,
+    files: BTreeMap<String, ReadFile>,
+    /// Newer states that could not be read.
+    lost: usize,
+}
+
+impl Reading {
+    /// Out of a whole journal.
+    async fn whole(storage: &Storage, opened: &Opened) -> Result<Self, Fault> {
+        let mut replayed = replay(&opened.notes).map_err(data_fault)?;
+        let state = replayed.present.clone().ok_or_else(|| data_fault("no state".into()))?;
+        let changes = |stack: &[(super::document::Change, State)]| stack.iter().map(|(c, _)| c.clone()).collect();
+        let history = History::stored(changes(&replayed.past), changes(&replayed.future));
+        let book = Rc::new(RefCell::new(Book::of(&replayed, &history, opened.next_part)));
+        let mut document = read_document(storage, &book, &state).await?;
+        let files = read_files(storage, &book, replayed.files).await?;
+        if let Some(name) = replayed.name.take() {
+            super::saving::rename(&mut document, name);
+        }
+        let entries = history.past.iter().chain(&history.future).map(|entry| entry.serial);
+        let states = replayed.past.into_iter().chain(replayed.future).map(|(_, state)| state);
+        let stored = entries.zip(states).collect();
+        Ok(Self { document, history, book, stored, files, lost: 0 })
+    }
+}
+
+/// Out of a journal in which something is lost: the newest state of which every part can be read, in a book that has nothing written yet. What
+/// could be undone was counted from what is lost, and is not taken.
+async fn rescued(storage: &Storage, opened: &Opened) -> Result<Reading, Fault> {
+    let notes = opened.notes.iter().map(|note| from_text::<Note>(note)).collect::<Result<Vec<_>, _>>();
+    let notes = notes.map_err(data_fault)?;
+    let numbers = notes.iter().rev().filter_map(|note| note.files);
+    let mut files = BTreeMap::new();
+    for number in numbers {
+        if let Ok(read) = read_files(storage, &RefCell::default(), Some(number)).await {
+            files = read;
+            break;
+        }
+    }
+    let mut lost = 0;
+    for state in notes.iter().rev().filter_map(|note| note.present.as_ref()) {
+        if let Ok(document) = read_document(storage, &RefCell::default(), state).await {
+            return Ok(Reading {
+                document,
+                history: History::default(),
+                book: Rc::default(),
+                stored: HashMap::new(),
+                files,
+                lost,
+            });
+        }
+        lost += 1;
+    }
+    Err(data_fault("no state can be read".into()))
+}
 
 async fn read_files(
     storage: &Storage,

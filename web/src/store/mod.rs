@@ -40,6 +40,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use leptos::prelude::*;
+use leptos::task::spawn_local;
 use sightline::Error;
 use sightline::adjustment::Iteration;
 use sightline::detection::{Codes, DetectOptions};
@@ -374,9 +375,15 @@ pub struct Desk {
     pub persistent: RwSignal<bool>,
     /// The projects on this computer, once they are read.
     pub shelf: RwSignal<Option<Vec<Shelved>>, LocalStorage>,
+    /// Those that were deleted and can be got back.
+    pub bin: RwSignal<Vec<Shelved>, LocalStorage>,
     /// Whether a new build of the page waits to be agreed to.
     pub update: RwSignal<bool>,
     pub offline: RwSignal<bool>,
+    /// Whether the page is not kept for times without a network.
+    pub needs_network: RwSignal<bool>,
+    /// Whether the host has another build by now, so that the rest of this one does not come.
+    pub outdated: RwSignal<bool>,
     /// The project that was deleted last, while it can be got back: its key and its name.
     pub deleted: RwSignal<Option<(String, String)>>,
     pub job: RwSignal<Option<Job>, LocalStorage>,
@@ -443,8 +450,11 @@ impl Desk {
             space: RwSignal::default(),
             persistent: RwSignal::default(),
             shelf: RwSignal::new_local(None),
+            bin: RwSignal::new_local(Vec::new()),
             update: RwSignal::default(),
             offline: RwSignal::new(page::is_offline()),
+            needs_network: RwSignal::default(),
+            outdated: RwSignal::default(),
             deleted: RwSignal::default(),
             job: RwSignal::new_local(None),
             lasting: RwSignal::new_local(Vec::new()),
@@ -606,6 +616,21 @@ impl Desk {
 
     pub fn warn_crash(self, detail: String) {
         self.say(true, Until::NextWork, move || text::worker_lost(&detail));
+        self.look_for_another_build();
+    }
+
+    /// A file of the page did not come: where the host has another build by now, the page has to be loaded anew.
+    pub fn look_for_another_build(self) {
+        spawn_local(async move {
+            if page::host_has_another_build().await {
+                self.outdated.set(true);
+            }
+        });
+    }
+
+    /// Puts text on the clipboard.
+    pub fn copy_text(self, text: String) {
+        page::copy(text, move || self.warn_here(|| text::not_on_clipboard().to_owned()));
     }
 
     /// Takes the action slot for long work.

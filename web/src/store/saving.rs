@@ -67,6 +67,9 @@ impl Desk {
                     match file::download_around(&name, "application/zip", &bytes, &photos) {
                         Ok(()) => {
                             self.saved.set(Some((page::clock(), document.clone())));
+                            if !photos.is_empty() {
+                                self.tell(|| text::photos_carry_places().to_owned());
+                            }
                             then();
                         }
                         Err(detail) => self.say(true, Until::NextWork, move || text::cannot_save(&detail)),

@@ -4,17 +4,20 @@ use std::rc::Rc;
 
 use leptos::prelude::*;
 use leptos::task::spawn_local;
-use serde::de::{DeserializeOwned, IgnoredAny};
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
+use sightline::project::Project;
+use sightline_protocol::from_text;
 
-use super::keeping::{Card, Of, Plain};
-use super::{Desk, Until};
+use super::keeping::{Card, CardOutcome, Of, Plain};
+use super::{Asking, Desk, Step, Until};
+use crate::browser::file::download_kept_file;
 use crate::browser::page;
 use crate::browser::picture::Picture;
-use crate::browser::storage::Extra;
-use crate::i18n::text;
+use crate::browser::storage::{Extra, Fault, LOST, Storage};
+use crate::i18n::{Text, text};
 
-/// How long a deleted project can be got back.
+/// How long a deleted project can be got back where it was deleted; after that it goes.
 const REGRET_MS: i32 = 30_000;
 
 /// A project in the list.
@@ -24,14 +27,26 @@ pub struct Shelved {
     pub bytes: f64,
     pub card: Card,
     pub small: Option<Picture>,
+    /// Whether nothing of its journal can be read.
+    pub unreadable: bool,
+    /// Whether a damaged journal of it can be downloaded.
+    pub damaged: bool,
 }
 
 #[derive(Deserialize)]
 struct Listed {
     id: String,
     bytes: f64,
-    #[serde(flatten)]
-    card: Card,
+    /// A text: one that cannot be read hides no other.
+    card: Option<String>,
+    deleted: bool,
+    aside: usize,
+}
+
+#[derive(Serialize)]
+struct Peeking<'a> {
+    id: &'a str,
+    kind: &'a str,
 }
 
 #[derive(Serialize)]
@@ -60,21 +75,50 @@ impl Desk {
         let Some(storage) = self.storage() else { return };
         self.measure_space();
         spawn_local(async move {
-            let Ok((listed, smalls)) = storage.call::<Vec<Listed>>("list", &Plain {}, Vec::new()).await else { return };
-            let mut all = Vec::new();
-            for (Listed { id, bytes, card }, small) in listed.into_iter().zip(smalls) {
+            let (listed, smalls) = match storage.call::<Vec<Listed>>("list", &Plain {}, Vec::new()).await {
+                Ok(all) => all,
+                // It is read again by the worker that takes this one's place.
+                Err(Fault { name, .. }) if name == LOST => return,
+                Err(Fault { name, detail }) => {
+                    let detail = format!("{name}: {detail}");
+                    return self.say(true, Until::NextWork, move || text::list_unreadable(&detail));
+                }
+            };
+            let (mut all, mut deleted) = (Vec::new(), Vec::new());
+            for (one, small) in listed.into_iter().zip(smalls) {
                 let small = match small.blob() {
                     Some(blob) => Picture::from_blob(&blob).await.ok(),
                     None => None,
                 };
-                all.push(Shelved { id, bytes, card, small });
+                let read = one.card.as_deref().and_then(|card| from_text::<Card>(card).ok());
+                let (card, unreadable) = match read {
+                    Some(card) => (card, false),
+                    None => card_of_journal(&storage, &one.id).await.map_or((no_card(), true), |card| (card, false)),
+                };
+                let Listed { id, bytes, aside, .. } = one;
+                let damaged = unreadable || aside > 0;
+                let list = if one.deleted { &mut deleted } else { &mut all };
+                list.push(Shelved { id, bytes, card, small, unreadable, damaged });
             }
             let known = page::preference("projects").and_then(|n| n.parse::<usize>().ok()).unwrap_or(0);
-            if all.is_empty() && known > 0 {
+            // Not an empty list, which deleting leaves too: a storage in which not even the last visit has left anything.
+            if self.keeper.try_update_value(|keeper| std::mem::take(&mut keeper.fresh)) == Some(true) && known > 0 {
                 self.say(true, Until::NextWork, move || text::storage_cleared(known));
             }
             page::set_preference("projects", &all.len().to_string());
+            self.bin.set(deleted);
             self.shelf.set(Some(all));
+        });
+    }
+
+    /// Says why something could not be done with a project of the list.
+    fn say_refused(self, fault: Fault) {
+        self.say(true, Until::NextWork, move || match fault.name.as_str() {
+            "OpenElsewhereError" => text::held_elsewhere().to_owned(),
+            "DamagedError" => text::journal_to_be_opened().to_owned(),
+            "NotFoundError" => text::gone_for_good().to_owned(),
+            "QuotaExceededError" => text::storage_full().to_owned(),
+            _ => text::kept_unreadable(format!("{}: {}", fault.name, fault.detail)),
         });
     }
 
@@ -90,8 +134,8 @@ impl Desk {
         let (id, name) = (id.to_owned(), name.to_owned());
         let Some(storage) = self.storage() else { return };
         spawn_local(async move {
-            if call::<IgnoredAny>(&storage, "rename", &Renaming { id: &id, name: &name }).await.is_err() {
-                self.say(true, Until::NextWork, || text::held_elsewhere().to_owned());
+            if let Err(fault) = call(&storage, "rename", &Renaming { id: &id, name: &name }).await {
+                self.say_refused(fault);
             }
             self.read_shelf();
         });
@@ -102,8 +146,8 @@ impl Desk {
         let Some(storage) = self.storage() else { return };
         spawn_local(async move {
             let copying = Copying { id: &id, copy: page::unique_name(), name, changed: page::now() };
-            if let Err(detail) = call::<IgnoredAny>(&storage, "duplicate", &copying).await {
-                self.say(true, Until::NextWork, move || text::kept_unreadable(&detail));
+            if let Err(fault) = call(&storage, "duplicate", &copying).await {
+                self.say_refused(fault);
             }
             self.read_shelf();
         });
@@ -117,20 +161,26 @@ impl Desk {
         self.open_kept_then(id.to_owned(), step.to_owned(), |desk| desk.save(true));
     }
 
-    /// Takes a project out of the list; for a while it can be got back.
+    /// Takes a project out of the list; for a while it can be got back. What is open in another window stays.
     pub fn delete_kept(self, id: &str, name: &str) {
-        if self.open_id().as_deref() == Some(id) {
-            self.put_away();
-        }
         let (id, name) = (Rc::<str>::from(id), name.to_owned());
         let Some(storage) = self.storage() else { return };
         spawn_local(async move {
-            let deleting = Deleting { id: &id, deleted: Some(page::now()) };
-            if let Err(detail) = call::<IgnoredAny>(&storage, "remove", &deleting).await {
-                self.say(true, Until::NextWork, move || text::kept_unreadable(&detail));
-            } else {
-                self.deleted.set(Some((id.to_string(), name)));
-                page::after(REGRET_MS, move || self.purge(id));
+            let open = self.open_id().as_deref() == Some(&*id);
+            if open {
+                // What was done last belongs to it, should it be got back.
+                self.flushed().await;
+            }
+            match call(&storage, "remove", &Deleting { id: &id, deleted: Some(page::now()) }).await {
+                Ok(()) => {
+                    if open && self.open_id().as_deref() == Some(&*id) {
+                        self.put_away();
+                        let _ = call(&storage, "close", &Plain {}).await;
+                    }
+                    self.deleted.set(Some((id.to_string(), name)));
+                    page::after(REGRET_MS, move || self.purge(id));
+                }
+                Err(fault) => self.say_refused(fault),
             }
             self.read_shelf();
         });
@@ -143,8 +193,8 @@ impl Desk {
         }
         let Some(storage) = self.storage() else { return };
         spawn_local(async move {
-            let _ = call::<IgnoredAny>(&storage, "purge", &Of { id: &id }).await;
-            self.measure_space();
+            let _ = call(&storage, "purge", &Of { id: &id }).await;
+            self.read_shelf();
             self.copy_again();
         });
     }
@@ -152,22 +202,87 @@ impl Desk {
     /// Puts the project that was deleted last back into the list.
     pub fn restore_deleted(self) {
         let Some((id, _)) = self.deleted.get_untracked() else { return };
-        self.deleted.set(None);
+        self.restore_kept(&id);
+    }
+
+    /// Puts a deleted project back into the list.
+    pub fn restore_kept(self, id: &str) {
+        let id = id.to_owned();
+        self.deleted.update(|deleted| {
+            deleted.take_if(|(deleted, _)| *deleted == id);
+        });
         let Some(storage) = self.storage() else { return };
         spawn_local(async move {
-            let _ = call::<IgnoredAny>(&storage, "remove", &Deleting { id: &id, deleted: None }).await;
+            if let Err(fault) = call(&storage, "remove", &Deleting { id: &id, deleted: None }).await {
+                self.say_refused(fault);
+            }
             self.read_shelf();
+        });
+    }
+
+    /// Asks, and then deletes everything that this page keeps in the browser: projects, equipment, preferences, and itself.
+    pub fn wipe(self) {
+        let wipe = move || {
+            spawn_local(async move {
+                if let Some(storage) = self.storage() {
+                    self.flushed().await;
+                    if let Err(fault) = call(&storage, "wipe", &Plain {}).await {
+                        return self.say_refused(fault);
+                    }
+                    self.keeper.update_value(|keeper| keeper.storage = None);
+                    storage.end();
+                }
+                page::forget_everything().await;
+                // Nothing is left that could be lost by leaving.
+                self.put_away();
+                page::reload();
+            });
+        };
+        let choices = vec![(text::wipe_now as Text, Rc::new(wipe) as Rc<dyn Fn()>)];
+        self.asking.set(Some(Asking { text: Rc::new(|| text::wipe_question().to_owned()), choices }));
+    }
+
+    /// Hands over the damaged journals of a project, as they were.
+    pub fn download_damaged(self, id: &str, name: &str) {
+        let (id, name) = (id.to_owned(), name.to_owned());
+        let Some(storage) = self.storage() else { return };
+        spawn_local(async move {
+            match storage.call::<IgnoredAny>("aside", &Of { id: &id }, Vec::new()).await {
+                Ok((_, journals)) => {
+                    for (i, journal) in journals.into_iter().filter_map(Extra::blob).enumerate() {
+                        let name = if name.is_empty() { "sightline" } else { &name };
+                        let name = format!("{name} {}.journal", i + 1);
+                        if let Err(detail) = download_kept_file(&name, &journal) {
+                            self.say(true, Until::NextWork, move || text::kept_unreadable(&detail));
+                        }
+                    }
+                }
+                Err(fault) => self.say_refused(fault),
+            }
         });
     }
 }
 
-async fn call<A: DeserializeOwned>(
-    storage: &crate::browser::storage::Storage,
-    name: &str,
-    arguments: &impl Serialize,
-) -> Result<A, String> {
-    match storage.call::<A>(name, arguments, Vec::<Extra>::new()).await {
-        Ok((answer, _)) => Ok(answer),
-        Err(fault) => Err(format!("{}: {}", fault.name, fault.detail)),
+/// What the list shows of a project without a card that can be read: what its journal says.
+async fn card_of_journal(storage: &Storage, id: &str) -> Option<Card> {
+    let peeking = Peeking { id, kind: "project" };
+    let (_, texts) = storage.call::<IgnoredAny>("peek", &peeking, Vec::new()).await.ok()?;
+    let project = from_text::<Project>(&texts.into_iter().next()?.text()?).ok()?;
+    Some(Card { name: project.name, photos: project.photos.len(), points: project.points.len(), ..no_card() })
+}
+
+fn no_card() -> Card {
+    Card {
+        name: String::new(),
+        changed: 0.0,
+        photos: 0,
+        points: 0,
+        outcome: CardOutcome::None,
+        sigma0: None,
+        step: Step::Photos.name().to_owned(),
     }
+}
+
+async fn call(storage: &Storage, name: &str, arguments: &impl Serialize) -> Result<(), Fault> {
+    storage.call::<IgnoredAny>(name, arguments, Vec::<Extra>::new()).await.map(|_| ())
 }

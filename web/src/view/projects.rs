@@ -22,6 +22,7 @@ pub fn Projects() -> impl IntoView {
     let (menu, renaming) = (RwSignal::new(None), RwSignal::new(None));
     let shelf = move || desk.shelf.get().filter(|all| !all.is_empty());
     view! {
+        <div class="shelves">
         {move || shelf().map(|all| view! {
             <section class="shelf" aria-label=text::recent_projects>
                 <h2>{text::recent_projects} <span>{format::count(all.len())}</span> <small>{text::on_this_computer}</small></h2>
@@ -42,6 +43,37 @@ pub fn Projects() -> impl IntoView {
                 </table>
             </section>
         })}
+        <Bin/>
+        </div>
+    }
+}
+
+/// Projects that were deleted and are there still.
+#[component]
+fn Bin() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    // The one that was deleted just now has a notice of its own.
+    let rest = move || {
+        let last = desk.deleted.get().map(|(id, _)| id);
+        desk.bin.get().into_iter().filter(|one| Some(&one.id) != last.as_ref()).collect::<Vec<_>>()
+    };
+    move || {
+        let all = rest();
+        (!all.is_empty()).then(|| view! {
+            <section class="shelf bin" aria-label=text::deleted_projects>
+                <h2>{text::deleted_projects} <span>{format::count(all.len())}</span> <small>{text::deleted_for_a_day}</small></h2>
+                <ul>{all.into_iter().map(|Shelved { id, card, .. }| {
+                    let name = if card.name.is_empty() { text::without_name().to_owned() } else { card.name };
+                    let key = id.clone();
+                    view! {
+                        <li data-deleted=key>
+                            <b>{name}</b>
+                            <button class="button small" on:click=move |_| desk.restore_kept(&id)>{text::put_back}</button>
+                        </li>
+                    }
+                }).collect_view()}</ul>
+            </section>
+        })
     }
 }
 
@@ -53,7 +85,7 @@ fn ProjectRow(
     renaming: RwSignal<Option<String>>,
 ) -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let Shelved { id, bytes, card, small } = project;
+    let Shelved { id, bytes, card, small, unreadable, damaged } = project;
     let key = StoredValue::new(id);
     let is_of =
         move |signal: RwSignal<Option<String>>| signal.with(|of| key.with_value(|key| of.as_ref() == Some(key)));
@@ -76,7 +108,11 @@ fn ProjectRow(
     });
     let shown = move || {
         let name = name.get_value();
-        if name.is_empty() { text::without_name().to_owned() } else { name }
+        match name.is_empty() {
+            _ if unreadable => text::unreadable_project().to_owned(),
+            true => text::without_name().to_owned(),
+            false => name,
+        }
     };
     let sigma0 = card.sigma0.map(|s| format::fixed(s, 3)).unwrap_or_default();
     let outcome = card.outcome;
@@ -114,10 +150,10 @@ fn ProjectRow(
                 CardOutcome::Estimated => view! { <span>{estimated.clone()}</span> }.into_any(),
                 CardOutcome::OutOfDate => view! { <span class="warn"><Glyph icon=Icon::Clock size=14/> {text::out_of_date}</span> }.into_any(),
             }}</td>
-            <td class="l wide">{move || page::moment(card.changed, language().tag())}</td>
+            <td class="l wide">{move || if card.changed > 0.0 { page::moment(card.changed, language().tag()) } else { "–".to_owned() }}</td>
             <td class="wide">{format::fixed(bytes / 1e6, 1)}</td>
             <td class="do">
-                <button class="button small" class:primary=first disabled=busy
+                <button class="button small" class:primary=first disabled=move || busy() || unreadable
                     aria-label=move || text::go_on_with(shown()) on:click=go_on>{text::go_on}</button>
                 <button class="icon-button" aria-label=move || text::more_with(shown())
                     aria-expanded=move || menu_is_open.get().to_string()
@@ -128,9 +164,12 @@ fn ProjectRow(
         </tr>
         <Show when=move || menu_is_open.get()>
             <tr class="verbs"><td colspan="8">
-                <button class="text-button" on:click=move |_| { menu.set(None); renaming.set(Some(key.get_value())); }>{text::rename_project}</button>
-                <button class="text-button" on:click=move |_| key.with_value(|key| name.with_value(|name| desk.duplicate_kept(key, name)))>{text::duplicate}</button>
-                <button class="text-button" disabled=busy on:click=move |_| key.with_value(|key| step.with_value(|step| desk.download_kept(key, step)))>{text::download}</button>
+                <button class="text-button" disabled=unreadable on:click=move |_| { menu.set(None); renaming.set(Some(key.get_value())); }>{text::rename_project}</button>
+                <button class="text-button" disabled=unreadable on:click=move |_| key.with_value(|key| name.with_value(|name| desk.duplicate_kept(key, name)))>{text::duplicate}</button>
+                <button class="text-button" disabled=move || busy() || unreadable on:click=move |_| key.with_value(|key| step.with_value(|step| desk.download_kept(key, step)))>{text::download}</button>
+                {damaged.then(|| view! {
+                    <button class="text-button" on:click=move |_| key.with_value(|key| name.with_value(|name| desk.download_damaged(key, name)))>{text::download_damaged}</button>
+                })}
                 <button class="text-button" disabled=busy on:click=move |_| key.with_value(|key| name.with_value(|name| desk.delete_kept(key, name)))>{text::delete_project}</button>
             </td></tr>
         </Show>
@@ -149,6 +188,13 @@ pub fn StorageNotices() -> impl IntoView {
                 <Glyph icon=Icon::Warning/>
                 <p>{text::open_elsewhere}</p>
                 <button class="button small primary" on:click=move |_| desk.take_over()>{text::take_over}</button>
+            </div>
+        </Show>
+        <Show when=move || desk.outdated.get()>
+            <div class="notice warning" role="alert">
+                <Glyph icon=Icon::Warning/>
+                <p>{text::another_build}</p>
+                <button class="button small primary" on:click=move |_| page::reload()>{text::reload_page}</button>
             </div>
         </Show>
         <Show when=move || desk.update.get()>
@@ -210,15 +256,18 @@ pub fn StorageLine() -> impl IntoView {
             (Some((missed, why)), _) => uncopied_words(missed, &why),
             (None, Some((used, all))) => {
                 let lasts = if desk.persistent.get() { text::lasts() } else { text::may_be_cleared() };
-                format!("{} · {lasts}", text::space_used(bytes_words(used), bytes_words(all)))
+                let network =
+                    if desk.needs_network.get() { format!(" · {}", text::needs_network()) } else { String::new() };
+                format!("{} · {lasts}{network}", text::space_used(bytes_words(used), bytes_words(all)))
             }
+            (None, None) if desk.needs_network.get() => text::needs_network().to_owned(),
             (None, None) => String::new(),
         },
     };
     let alarm =
         move || desk.kept.with(|kept| matches!(kept, Kept::Nowhere | Kept::Failed(..))) || desk.not_copied().is_some();
     view! {
-        <Show when=move || desk.offline.get()><div class="offline"><b>{text::no_network}</b></div></Show>
+        <Show when=move || desk.offline.get()><div class="offline"><b>{move || if desk.needs_network.get() { text::no_network_nor_copy() } else { text::no_network() }}</b></div></Show>
         <div class="storage" class:warn=alarm>{words}</div>
     }
 }

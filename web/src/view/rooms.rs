@@ -93,6 +93,9 @@ pub fn Rooms() -> impl IntoView {
                 Part::Beside => fetch_beside().await,
             };
             state.set(if came.is_ok() { State::There } else { State::Failed });
+            if came.is_err() {
+                desk.look_for_another_build();
+            }
         });
     };
     let wanted = Memo::new(move |_| Part::of(desk.step.get()));

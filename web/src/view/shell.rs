@@ -12,6 +12,7 @@ use crate::browser::{event, file, page};
 use crate::i18n::{self, errors, experiments as words, planning as plan_words, printing as before, text};
 use crate::store::document::Document;
 use crate::store::experiments::from_hash;
+use crate::store::keeping::Kept;
 use crate::store::{Asking, Desk, Job, JobKind, Kind, Step, Theme};
 use crate::{format, i18n::language};
 
@@ -31,6 +32,7 @@ pub fn App() -> impl IntoView {
     page::listen_to_network(move || desk.offline.set(page::is_offline()));
     page::listen_to_start(move |told| match told {
         page::Told::Update => desk.update.set(true),
+        page::Told::Network => desk.needs_network.set(true),
         page::Told::Files(files) => desk.take(files),
     });
     event::listen_to_hash(move || desk.follow_hash());
@@ -93,7 +95,7 @@ fn Head() -> impl IntoView {
                     <input class="project-name" type="text" aria-label=text::project_name placeholder=text::project_name
                         prop:value=name on:change=move |e| desk.rename_project(&event::value(&e))/>
                 </Show>
-                <span>{state}</span>
+                <span class:bad=move || desk.kept.with(|kept| matches!(kept, Kept::Failed(..)))>{state}</span>
             </div>
             <nav aria-label=text::steps>
                 <ol class="steps">

@@ -13,7 +13,7 @@ use crate::store::{Desk, Step};
 pub fn Start() -> impl IntoView {
     let desk = expect_context::<Desk>();
     view! {
-        <main class="start" class:with-shelf=move || desk.shelf.with(|all| all.as_ref().is_some_and(|all| !all.is_empty()))>
+        <main class="start" class:with-shelf=move || desk.shelf.with(|all| all.as_ref().is_some_and(|all| !all.is_empty())) || desk.bin.with(|bin| !bin.is_empty())>
             <div class="drop-zone">
                 <div class="invitation">
                     <Glyph icon=Icon::Drop size=40/>
@@ -64,6 +64,7 @@ pub fn Start() -> impl IntoView {
                     </span>
                     <Glyph icon=Icon::Arrow/>
                 </button>
+                <button class="link wipe" on:click=move |_| desk.wipe()>{text::wipe}</button>
             </div>
             <Projects/>
         </main>

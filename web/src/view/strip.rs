@@ -1,7 +1,10 @@
 //! The photos at the side of the photo view, by camera, with the count of their targets.
 
+use std::collections::HashMap;
+
 use leptos::html::Canvas;
 use leptos::prelude::*;
+use sightline::project::{Camera, Project};
 
 use super::icon::{Glyph, Icon};
 use super::shell::problem_sentence;
@@ -36,36 +39,70 @@ pub fn NoThumbnail() -> impl IntoView {
     view! { <span class="thumbnail absent"><Glyph icon=Icon::Warning/></span> }
 }
 
-/// Cameras and their photos, one of them chosen.
+/// A camera with its photos, as the strip shows them.
+#[derive(Clone, PartialEq)]
+struct Group {
+    camera: String,
+    size: [u32; 2],
+    pitch_mm: Option<f64>,
+    /// Names and files.
+    photos: Vec<(String, String)>,
+}
+
+/// Cameras that have photos, in the order of the document.
+fn groups(project: &Project) -> Vec<Group> {
+    let mut photos = HashMap::<&str, Vec<(String, String)>>::new();
+    for photo in &project.photos {
+        photos.entry(&photo.camera).or_default().push((photo.id.clone(), photo.file.clone()));
+    }
+    let group = |camera: &Camera| {
+        Some(Group {
+            camera: camera.id.clone(),
+            size: [camera.width, camera.height],
+            pitch_mm: camera.pixel_pitch.map(|pitch| pitch[0]),
+            photos: photos.remove(&*camera.id)?,
+        })
+    };
+    project.cameras.iter().filter_map(group).collect()
+}
+
+/// Cameras and their photos, one of them chosen. What is shown of a photo is made once and stays: a strip that was made anew with every change of
+/// the document took most of the time of a detection in hundreds of photos.
 #[component]
 pub fn Strip() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let cameras = move || desk.document.with(|d| d.project.cameras.clone());
+    let all = Memo::new(move |_| desk.document.with(|d| groups(&d.project)));
+    let names = move || all.with(|all| all.iter().map(|group| group.camera.clone()).collect::<Vec<_>>());
+    let left_out = Memo::new(move |_| desk.left_out());
     view! {
         <nav class="strip" aria-label=text::photos>
-            {move || cameras().into_iter().map(|camera| {
-                let id = camera.id.clone();
-                let photos = desk.document.with(|d| {
-                    d.project.photos.iter().filter(|p| p.camera == id).map(|p| (p.id.clone(), p.file.clone())).collect::<Vec<_>>()
-                });
-                (!photos.is_empty()).then(|| view! {
-                    <div class="strip-camera">
-                        <b>{move || text::camera_named(&camera.id)}</b>
-                        <span>{format!("{} × {}", format::count(camera.width as usize), format::count(camera.height as usize))}</span>
-                        <span>{move || match camera.pixel_pitch {
-                            Some(pitch) => text::pitch_um(format::fixed(pitch[0] * 1000.0, 2)),
-                            None => text::pitch_unknown().to_owned(),
-                        }}</span>
-                    </div>
-                    <ul>
-                        {photos.into_iter().map(|(id, file)| view! { <StripPhoto id file/> }).collect_view()}
-                    </ul>
-                })
-            }).collect_view()}
+            <For each=names key=Clone::clone children=move |camera| view! { <StripCamera camera all/> }/>
             <ul>
-                {move || desk.left_out().into_iter().map(|problem| view! { <StripProblem problem/> }).collect_view()}
+                {move || left_out.get().into_iter().map(|problem| view! { <StripProblem problem/> }).collect_view()}
             </ul>
         </nav>
+    }
+}
+
+#[component]
+fn StripCamera(camera: String, all: Memo<Vec<Group>>) -> impl IntoView {
+    let group = Memo::new(move |_| all.with(|all| all.iter().find(|group| group.camera == camera).cloned()));
+    let head = Memo::new(move |_| group.with(|group| group.as_ref().map(|g| (g.camera.clone(), g.size, g.pitch_mm))));
+    view! {
+        {move || head.get().map(|(camera, [width, height], pitch_mm)| view! {
+            <div class="strip-camera">
+                <b>{move || text::camera_named(&camera)}</b>
+                <span>{format!("{} × {}", format::count(width as usize), format::count(height as usize))}</span>
+                <span>{move || match pitch_mm {
+                    Some(pitch) => text::pitch_um(format::fixed(pitch * 1000.0, 2)),
+                    None => text::pitch_unknown().to_owned(),
+                }}</span>
+            </div>
+        })}
+        <ul>
+            <For each=move || group.get().map(|group| group.photos).unwrap_or_default() key=Clone::clone
+                children=move |(id, file)| view! { <StripPhoto id file/> }/>
+        </ul>
     }
 }
 
@@ -73,16 +110,16 @@ pub fn Strip() -> impl IntoView {
 fn StripPhoto(id: String, file: String) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let id = StoredValue::new(id);
-    let chosen = move || desk.selection.with(|s| s.photo == Some(id.get_value()));
-    let count = move || {
-        let found = desk.document.with(|d| d.detections.get(&id.get_value()).map(|detection| detection.targets.len()));
-        found.map_or("–".to_owned(), format::count)
-    };
+    let chosen = Memo::new(move |_| id.with_value(|id| desk.selection.with(|s| s.photo.as_ref() == Some(id))));
+    let found = Memo::new(move |_| {
+        id.with_value(|id| desk.document.with(|d| d.detections.get(id).map(|detection| detection.targets.len())))
+    });
+    let count = move || found.get().map_or("–".to_owned(), format::count);
     let small = Memo::new(move |_| desk.files.with(|files| files.get(&id.get_value()).map(|f| f.digest)));
     let stem = file.rsplit_once('.').map_or(file.clone(), |(stem, _)| stem.to_owned());
     view! {
         <li class:chosen=chosen>
-            <button data-photo=id.get_value() aria-pressed=move || chosen().to_string() on:click=move |_| desk.select_photo(&id.get_value())>
+            <button data-photo=id.get_value() aria-pressed=move || chosen.get().to_string() on:click=move |_| desk.select_photo(&id.get_value())>
                 {move || {
                     small.get();
                     let file = desk.files.with_untracked(|files| files.get(&id.get_value()).cloned());

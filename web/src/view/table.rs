@@ -427,9 +427,10 @@ pub fn to_tsv(columns: &[Column], rows: &[Row]) -> String {
 
 #[component]
 pub fn CopyButton(#[prop(into)] columns: Signal<Vec<Column>>, #[prop(into)] rows: Signal<Vec<Row>>) -> impl IntoView {
+    let desk = expect_context::<Desk>();
     view! {
         <button class="link" on:click=move |_| {
-            page::copy(&columns.with_untracked(|c| rows.with_untracked(|r| to_tsv(c, r))));
+            desk.copy_text(columns.with_untracked(|c| rows.with_untracked(|r| to_tsv(c, r))));
         }>
             <Glyph icon=Icon::Copy size=14/> {text::copy}
         </button>

@@ -70,7 +70,7 @@ pub fn Actions(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView 
                 {button(text::delete_rows, "delete", |desk, table| desk.delete_rows(table))}
             </Show>
             <button class="button small" type="button" data-action="copy" on:click=move |_| {
-                page::copy(&sheet.with_untracked(|s| rows.with_untracked(|rows| copied(desk, &s.0, rows))));
+                desk.copy_text(sheet.with_untracked(|s| rows.with_untracked(|rows| copied(desk, &s.0, rows))));
             }>{text::copy}</button>
             <button class="button small" type="button" data-action="paste" on:click=|_| page::focus_id("pasted-cells")>{text::paste}</button>
         </div>

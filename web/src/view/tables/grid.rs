@@ -122,7 +122,7 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
             .with_untracked(|s| rows.with_untracked(|rows| rows.iter().map(|row| s.0.key(*row as usize)).collect()));
         desk.selection.update(|s| s.mark_all(untrack(kind), all));
     };
-    let copy = move || page::copy(&sheet.with_untracked(|s| rows.with_untracked(|rows| copied(desk, &s.0, rows))));
+    let copy = move || desk.copy_text(sheet.with_untracked(|s| rows.with_untracked(|rows| copied(desk, &s.0, rows))));
     let fill = move || {
         if let Some(col) = untrack(col).filter(|col| untrack(table).editable(*col)) {
             sheet.with_untracked(|s| rows.with_untracked(|rows| desk.fill_down(&s.0, rows, col)));
