@@ -119,6 +119,8 @@ pub fn adjust(
     adjustment.gross_errors = record;
     adjustment.covariance = solution.covariance;
     tell_of_what_is_outside(document, &session, &left_out, &mut adjustment);
+    // Wrong axes or units make single points misfit: they are the cause.
+    adjustment.advice.sort_by_key(|advice| !questions::is_cause(advice));
     if !document.features.is_empty() || !document.systems.is_empty() {
         let stated = solution.cofactors.is_some();
         let mut carry = |functions: &[Function]| match stated {

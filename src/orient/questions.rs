@@ -2,7 +2,7 @@
 
 use super::block::{Block, principal_distance_px};
 use super::note::Note;
-use super::{Attempt, give_principal_distances};
+use super::{Attempt, fine_px, give_principal_distances};
 use crate::adjustment::ImplausibleCamera;
 use crate::initial::Pose;
 use crate::initial::robust::quantile;
@@ -38,16 +38,17 @@ pub(super) fn units(given: &Project, oriented: &Project) -> Vec<Note> {
 
 /// Whether the axes of given coordinates are mirrored.
 ///
-/// Where the oriented network, which took them for right, agrees with them and not with their mirror image, nothing is asked, and where they
-/// lie in a plane its form is the photos' own. Else the photos are oriented once more without anything given in the object's system.
+/// Where the oriented network, which took them for right, agrees with them and not with their mirror image, and the measurements of all of
+/// them agree with it, nothing is asked; where they lie in a plane its form is the photos' own. Else the photos are oriented once more
+/// without anything given in the object's system.
 pub(super) fn axes(project: &Project, block: &Block) -> Option<Note> {
     let measured = project.points.iter().zip(&block.marks);
     let given = measured.filter(|(p, m)| p.role != Role::Tie && p.xyz.is_some() && m.sights.len() >= 2).count();
     let own = pairs(project, block);
     let question = match axes::handedness(&own) {
-        Handedness::AsGiven => None,
+        Handedness::AsGiven if !is_contradicted(project, block) => None,
         Handedness::Both { .. } => axes::question(&own, &poses(block)),
-        Handedness::Mirrored { .. } | Handedness::Neither if given >= FEWEST => {
+        _ if given >= FEWEST => {
             let bare = without_given(project);
             let mut start = Block::new(&bare);
             let sources = give_principal_distances(&mut start);
@@ -59,6 +60,18 @@ pub(super) fn axes(project: &Project, block: &Block) -> Option<Note> {
     question.map(|question| match question {
         Question::Mirrored(mirrored) => Note::MirroredControl(mirrored),
         Question::Undecided(undecided) => Note::UndecidedAxes(undecided),
+    })
+}
+
+/// Whether the network fits far worse than the measurements are, or a given point is where fewer than half of its measurements are. Mirrored
+/// coordinates bend the whole network, or hold it in the mirror image with some measurements set aside.
+fn is_contradicted(project: &Project, block: &Block) -> bool {
+    if block.noise_px.is_some_and(|noise| noise > fine_px(project)) {
+        return true;
+    }
+    project.points.iter().zip(&block.marks).filter(|(p, _)| p.role != Role::Tie && p.xyz.is_some()).any(|(_, mark)| {
+        let agreeing = mark.sights.iter().filter(|&&s| block.sights[s].taken && block.misfit_px(s).is_some()).count();
+        mark.sights.len() >= 2 && 2 * agreeing < mark.sights.len()
     })
 }
 

@@ -40,6 +40,11 @@ pub fn questions(project: &Project, distances: usize, adjustment: &Adjustment) -
     advice
 }
 
+/// Whether it says what is wrong with everything given, rather than with single items.
+pub fn is_cause(advice: &Advice) -> bool {
+    matches!(advice, Advice::MirroredControl(_) | Advice::UndecidedAxes(_) | Advice::UnitRatio(_))
+}
+
 /// Given coordinates against the adjusted ones. Those of control points are drawn towards what is given: where they lie in a plane the form
 /// is the photos' own all the same, and check points are free.
 fn axes(project: &Project, adjustment: &Adjustment) -> Option<Question> {
