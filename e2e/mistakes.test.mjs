@@ -31,10 +31,10 @@ const mistakes = [
     (p) => ([control(p, '3').xyz, control(p, '7').xyz] = [control(p, '7').xyz, control(p, '3').xyz]),
     /\b3\b.*\b7\b|\b7\b.*\b3\b/s,
   ],
-  ['X with the other sign', (p) => p.points.forEach((point) => point.xyz && (point.xyz[0] *= -1)), /mirrored|거울상/],
-  ['X and Y exchanged', (p) => p.points.forEach((point) => point.xyz && point.xyz.splice(0, 2, point.xyz[1], point.xyz[0])), /mirrored|거울상/],
-  ['control in another unit', (p) => p.points.forEach((point) => point.xyz && (point.xyz = point.xyz.map((x) => x / 1000))), /unit|단위/],
-  ['a distance in another unit', (p) => (p.distances[0].length /= 25.4), /unit|단위/],
+  ['X with the other sign', (p) => p.points.forEach((point) => point.xyz && (point.xyz[0] *= -1)), /axes|mirrored/],
+  ['X and Y exchanged', (p) => p.points.forEach((point) => point.xyz && point.xyz.splice(0, 2, point.xyz[1], point.xyz[0])), /axes|mirrored/],
+  ['control in another unit', (p) => p.points.forEach((point) => point.xyz && (point.xyz = point.xyz.map((x) => x / 1000))), /unit/],
+  ['a distance in another unit', (p) => (p.distances[0].length /= 25.4), /unit/],
   [
     'a wrong name',
     (p) => {

@@ -4,7 +4,8 @@ use sightline::exchange::control_csv::{Sign, decimal_readings, sign_of, without_
 use sightline::project::LARGEST;
 use sightline::report::number::{GROUP, MINUS};
 pub use sightline::report::number::{
-    compact, count, decimals_for, decimals_of, fixed, maybe, power, round, round_below, three_digits, with_sigma,
+    compact, count, decimals_for, decimals_of, factor, fixed, maybe, power, round, round_below, three_digits,
+    with_sigma,
 };
 
 /// A length as a reviewer types it back: enough digits, no grouping.

@@ -47,12 +47,11 @@ pub fn output(command: &mut Command) -> Outcome<String> {
     String::from_utf8(output.stdout).map_err(|_| format!("{name}: its output is not UTF-8"))
 }
 
-/// Runs it, passes its output on line by line and shows each line to `look`; whether it succeeded.
-pub fn watch(command: &mut Command, mut look: impl FnMut(&str)) -> Outcome<bool> {
+/// Runs it, passes its output on to `out` line by line and shows each line to `look`; whether it succeeded.
+pub fn watch(out: &mut dyn Write, command: &mut Command, mut look: impl FnMut(&str)) -> Outcome<bool> {
     let name = describe(command);
     let mut child = command.stdout(Stdio::piped()).spawn().map_err(|error| format!("{name}: {error}"))?;
     let reader = BufReader::new(child.stdout.take().expect("piped above"));
-    let mut out = std::io::stdout();
     for line in reader.split(b'\n') {
         let line = line.map_err(|error| format!("{name}: {error}"))?;
         let text = String::from_utf8_lossy(&line);

@@ -1,6 +1,7 @@
 //! `cargo xtask test`: every suite, one after the other, and one line that sums them up.
 
 use std::collections::BTreeSet;
+use std::io::Write;
 use std::path::Path;
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -27,8 +28,8 @@ enum Extent {
     All,
 }
 
-/// A suite: its name on the command line and how it runs.
-type Suite = (&'static str, fn(&Run) -> Outcome<Count>);
+/// A suite: its name on the command line and how it runs, with its output written to what is given.
+type Suite = (&'static str, fn(&Run, &mut dyn Write) -> Outcome<Count>);
 
 /// One run of the tests.
 struct Run {
@@ -66,27 +67,45 @@ pub fn command(arguments: &[String]) -> Outcome {
     let wanted = |name: &str| names.is_empty() || names.iter().any(|wanted| wanted == name);
     let profile = if extent == Extent::All { Profile::Release } else { Profile::Fast };
     let all = Run { extent, with_page: wanted("page"), products: Products::of(profile)?, built: OnceLock::new() };
+    let wanted_suites = SUITES.into_iter().filter(|(name, _)| wanted(name));
+    let (beside, after): (Vec<_>, Vec<_>) = wanted_suites.partition(|(name, _)| *name == "wasm" && wanted("native"));
+    let run = |(name, suite): Suite, out: &mut dyn Write| {
+        let _ = writeln!(out, "== {name}");
+        let began = Instant::now();
+        let (count, note) = match suite(&all, out) {
+            Ok(count) => (count, String::new()),
+            // A suite that cannot run is a failure, and the others still say what they have to say.
+            Err(message) => (Count { failed: 1, ..Count::default() }, format!(": {message}")),
+        };
+        (count, format!("{name}: {count} in {} s{note}", began.elapsed().as_secs()))
+    };
     let (mut total, mut lines) = (Count::default(), Vec::new());
     std::thread::scope(|threads| {
-        // While native tests are compiled and run, one core or the other is often free: modules are built beside them.
-        if wanted("native") && ["face", "types", "page"].into_iter().any(wanted) {
-            threads.spawn(|| all.build());
-        }
-        for (name, suite) in SUITES {
-            if !wanted(name) {
-                continue;
-            }
-            println!("== {name}");
-            let began = Instant::now();
-            let (count, note) = match suite(&all) {
-                Ok(count) => (count, String::new()),
-                // A suite that cannot run is a failure, and the others still say what they have to say.
-                Err(message) => (Count { failed: 1, ..Count::default() }, format!(": {message}")),
-            };
+        // While native tests are compiled and run, one core or the other is often free: modules are built beside them, then their tests run.
+        let second = wanted("native").then(|| {
+            threads.spawn(|| {
+                if ["face", "types", "page"].into_iter().any(wanted) {
+                    // Whoever needs them tells of a failure.
+                    let _ = all.build();
+                }
+                let mut out = Vec::new();
+                let done: Vec<_> = beside.into_iter().map(|suite| run(suite, &mut out)).collect();
+                (done, out)
+            })
+        });
+        let mut take = |(count, line): (Count, String)| {
             total = total.plus(count);
-            let seconds = began.elapsed().as_secs();
-            lines.push(format!("{name}: {count} in {seconds} s{note}"));
+            lines.push(line);
+        };
+        let mut after = after.into_iter();
+        if let Some(second) = second {
+            after.next().map(|native| run(native, &mut std::io::stdout())).into_iter().for_each(&mut take);
+            if let Ok((done, out)) = second.join() {
+                let _ = std::io::stdout().write_all(&out);
+                done.into_iter().for_each(&mut take);
+            }
         }
+        after.map(|suite| run(suite, &mut std::io::stdout())).for_each(take);
     });
     println!("==\n{}", lines.join("\n"));
     println!("{total}");
@@ -94,7 +113,7 @@ pub fn command(arguments: &[String]) -> Outcome {
 }
 
 /// The engine from outside, and every other package; in the full extent the engine's unit tests and examples in its documentation too.
-fn native(all: &Run) -> Outcome<Count> {
+fn native(all: &Run, out: &mut dyn Write) -> Outcome<Count> {
     // Sheets of targets are printed and measured.
     install::poppler();
     // Tests whose data is missing pass and write their names here.
@@ -107,7 +126,7 @@ fn native(all: &Run) -> Outcome<Count> {
         if all.is_all() {
             command.env("SIGHTLINE_EXTENT", "all");
         }
-        count = count.plus(counted(&mut command, rust_count)?);
+        count = count.plus(counted(out, &mut command, rust_count)?);
         Ok::<_, String>(())
     };
     if all.is_all() {
@@ -127,34 +146,37 @@ fn native(all: &Run) -> Outcome<Count> {
 }
 
 /// The engine's unit tests as wasm. What it does from outside is compared with the native engine in the face suite.
-fn wasm(_: &Run) -> Outcome<Count> {
+fn wasm(_: &Run, out: &mut dyn Write) -> Outcome<Count> {
     install::target()?;
     install::node()?;
     // Asked for together with the page's modules, so that dependencies have the features that those have, and are compiled once.
     let packages = ["--package", "sightline", "--package", "sightline-desk", "--package", "sightline-worker"];
-    counted(cargo(&["test", "--target", TARGET, "--lib", "--no-fail-fast"]).args(packages), rust_count)
+    counted(out, cargo(&["test", "--target", TARGET, "--lib", "--no-fail-fast"]).args(packages), rust_count)
 }
 
-fn face(all: &Run) -> Outcome<Count> {
+fn face(all: &Run, out: &mut dyn Write) -> Outcome<Count> {
     install::packages()?;
     all.build()?;
     // Its numbers are compared with those that the engine gives natively.
     let pkg = text(&all.products.pkg)?;
-    node_tests("tests/face", all, &[("SIGHTLINE_EXAMPLES", &build::examples()?), ("SIGHTLINE_PKG", &pkg)])
+    node_tests("tests/face", all, out, &[("SIGHTLINE_EXAMPLES", &build::examples()?), ("SIGHTLINE_PKG", &pkg)])
 }
 
 /// The declarations of pkg/ with a program that uses them, under the strictest compiler.
-fn types(all: &Run) -> Outcome<Count> {
+fn types(all: &Run, out: &mut dyn Write) -> Outcome<Count> {
     install::packages()?;
     all.build()?;
     let project = all.products.declarations_project()?;
-    let compiled =
-        watch(&mut program("node", &["e2e/node_modules/typescript/bin/tsc", "--project", &text(&project)?]), |_| ())?;
+    let compiled = watch(
+        out,
+        &mut program("node", &["e2e/node_modules/typescript/bin/tsc", "--project", &text(&project)?]),
+        |_| (),
+    )?;
     Ok(Count { passed: usize::from(compiled), failed: usize::from(!compiled), skipped: 0 })
 }
 
 /// The page in a headless browser, against a server of dist/.
-fn browser(all: &Run) -> Outcome<Count> {
+fn browser(all: &Run, out: &mut dyn Write) -> Outcome<Count> {
     install::packages()?;
     install::poppler();
     let chromium = install::chromium()?;
@@ -172,7 +194,7 @@ fn browser(all: &Run) -> Outcome<Count> {
         ("SIGHTLINE_EXAMPLES", build::examples()?),
     ];
     let variables: Vec<_> = variables.iter().map(|(name, value)| (*name, value.as_str())).collect();
-    node_tests("e2e", all, &variables)
+    node_tests("e2e", all, out, &variables)
 }
 
 fn text(path: &Path) -> Outcome<String> {
@@ -201,7 +223,7 @@ const ONLY_ALL: [&str; 2] = ["browsers.test.mjs", "parts.test.mjs"];
 const ALONE: [&str; 4] = ["calls.test.mjs", "experiments.test.mjs", "kills.test.mjs", "stopping.test.mjs"];
 
 /// The `*.test.mjs` of a folder under Node's own test runner, two files at a time where they bear it.
-fn node_tests(folder: &str, all: &Run, variables: &[(&str, &str)]) -> Outcome<Count> {
+fn node_tests(folder: &str, all: &Run, out: &mut dyn Write, variables: &[(&str, &str)]) -> Outcome<Count> {
     let mut names = Vec::new();
     for entry in std::fs::read_dir(root().join(folder)).map_err(|error| format!("{folder}: {error}"))? {
         let name = entry.map_err(|error| format!("{folder}: {error}"))?.file_name();
@@ -225,15 +247,15 @@ fn node_tests(folder: &str, all: &Run, variables: &[(&str, &str)]) -> Outcome<Co
         if all.is_all() {
             command.env("SIGHTLINE_EXTENT", "all");
         }
-        count = count.plus(counted(&mut command, node_count)?);
+        count = count.plus(counted(out, &mut command, node_count)?);
     }
     Ok(count)
 }
 
 /// Runs a program that reports tests; one that fails without a failed test counts as one.
-fn counted(command: &mut std::process::Command, count: fn(&str) -> Count) -> Outcome<Count> {
+fn counted(out: &mut dyn Write, command: &mut std::process::Command, count: fn(&str) -> Count) -> Outcome<Count> {
     let mut total = Count::default();
-    let succeeded = watch(command, |line| total = total.plus(count(line)))?;
+    let succeeded = watch(out, command, |line| total = total.plus(count(line)))?;
     if !succeeded && total.failed == 0 {
         total.failed = 1;
     }

@@ -6,7 +6,7 @@ use crate::adjustment::{Advice, CameraDoubt, Exchange, ImplausibleCamera, OneSta
 use crate::report::context::{Context, listed};
 use crate::report::html::{Html, Table};
 use crate::report::names::parameter_name;
-use crate::report::number::{compact, count, fixed};
+use crate::report::number::{compact, count, factor, fixed};
 
 pub fn write(context: &Context, html: &mut Html) {
     let (words, a) = (context.words, context.adjustment);
@@ -147,7 +147,7 @@ fn unit_ratio(context: &Context, unit: &UnitRatio) -> String {
     let words = context.words;
     let pairs: Vec<String> = unit.distances.iter().map(|(a, b)| format!("{a} – {b}")).collect();
     let bars = listed(pairs.iter().map(String::as_str), 5);
-    let (ratio, nearest) = (compact(unit.ratio), compact(unit.nearest));
+    let (ratio, nearest) = (factor(unit.ratio), factor(unit.nearest));
     match (unit.of, &unit.camera) {
         (UnitOf::Distance, _) if !pairs.is_empty() => words.weak_unit_distance(&bars, &ratio, &nearest),
         (UnitOf::Control, _) if !pairs.is_empty() => words.weak_unit_control(&ratio, &nearest),

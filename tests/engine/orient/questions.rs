@@ -2,6 +2,7 @@
 
 use super::orientation::{all_oriented, bare, camcal, network, sxb};
 use crate::support::data::text;
+use crate::support::extent;
 use sightline::adjust::adjust;
 use sightline::adjustment::{
     AdjustOptions, Advice, CameraDoubt, Exchange, ImplausibleCamera, MirroredControl, OneStation, UnitOf, UnitRatio,
@@ -70,7 +71,7 @@ fn the_mirrored_facade_is_told_and_mended_by_its_exchange() {
 
 #[test]
 fn mirrored_control_of_any_relief_is_told_and_right_control_is_not() {
-    for seed in 0..6 {
+    for seed in 0..extent::cases(3, 6) as u64 {
         let (control, flat) = (4 + (seed % 3) as usize, [0.05, 0.3, 1.0][(seed % 3) as usize]);
         let right = controlled(seed, control, flat);
         let oriented = orient(&right).expect("a valid project");
@@ -144,7 +145,7 @@ fn a_principal_distance_in_millimetres_for_a_camera_in_pixels_is_not_used() {
 
 #[test]
 fn a_resized_and_a_cropped_photo_among_others_are_named() {
-    for seed in 0..4 {
+    for seed in 0..extent::cases(2, 4) as u64 {
         let project = bare(&network(seed, 8, 30, 0.7, 0.1));
         let with = |change: &dyn Fn([f64; 2]) -> [f64; 2]| {
             let mut project = project.clone();

@@ -762,6 +762,7 @@ declare! { desk {
     lacks_control: "Give at least three control points, or choose another datum";
     lacks_control_body: "The control datum takes position, attitude and scale from known points that do not lie on one line.";
     n_control(n): "{n} control";
+    no_unit: "no unit";
     lacks_scale: "Give a distance between two points";
     lacks_scale_body: "Neither control nor a distance gives the scale: the size of the result is arbitrary.";
     seen_once(points): "Measure in a second photo: {points}";

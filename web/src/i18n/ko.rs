@@ -748,6 +748,7 @@ translate! { Korean desk {
     lacks_control: "기준점을 셋 이상 주거나 다른 기준계를 고르십시오";
     lacks_control_body: "기준점 기준계는 한 직선 위에 있지 않은 알려진 점에서 위치, 자세, 축척을 얻습니다.";
     n_control(n): "기준점 {n}개";
+    no_unit: "단위 없음";
     lacks_scale: "두 점 사이 거리를 주십시오";
     lacks_scale_body: "기준점도 거리도 축척을 정하지 않아 결과의 크기가 임의입니다.";
     seen_once(points): "두 번째 사진에서 측정할 점: {points}";

@@ -279,6 +279,7 @@ fn no_card() -> Card {
         points: 0,
         outcome: CardOutcome::None,
         sigma0: None,
+        estimated: None,
         step: Step::Photos.name().to_owned(),
     }
 }

@@ -11,6 +11,7 @@ use sightline::project::{DatumKind, Parameter, Role};
 
 use super::adjust::parameter_name;
 use super::icon::{Glyph, Icon};
+use super::results::units::length_unit;
 use super::results::{given_kind, given_name};
 use super::shell::step_label;
 use crate::format;
@@ -90,13 +91,14 @@ pub fn Contradictions() -> impl IntoView {
         let mut found = desk.document.with(|d| {
             let Some(result) = d.current() else { return Vec::new() };
             let advice = result.adjustment.advice.iter().filter(|advice| advice.contradicts());
-            advice.map(|advice| network_item(advice, &result.adjustment.criteria)).collect::<Vec<_>>()
+            advice.map(|advice| network_item(advice, &result.adjustment.criteria, &length_unit(d))).collect::<Vec<_>>()
         });
-        if desk.document.with(|d| d.current().is_some()) {
-            let noted = desk
-                .notes
-                .with(|all| all.iter().filter(|note| note.contradicts()).filter_map(note_item).collect::<Vec<_>>());
-            found.extend(noted);
+        let said = desk.document.with(|d| d.current().map(|r| (r.adjustment.advice.clone(), length_unit(d))));
+        if let Some((said, unit)) = said {
+            desk.notes.with(|all| {
+                let new = all.iter().filter(|note| note.contradicts() && !is_said(note, &said));
+                found.extend(new.filter_map(|note| note_item(note, &unit)));
+            });
         }
         let mut said = HashSet::new();
         found.retain(|item| said.insert(item.title.clone()));
@@ -206,27 +208,32 @@ fn items(desk: Desk) -> Vec<Item> {
         }
         if let Some(result) = d.current() {
             let adjustment = &result.adjustment;
+            let unit = length_unit(d);
             // What spoils everything else comes first; the scale is told above.
             let (spoils, rest): (Vec<_>, Vec<_>) = adjustment.advice.iter().partition(|a| of_the_input(a));
             let spoils = spoils.into_iter().filter(|a| !matches!(a, sightline::adjustment::Advice::NoScale));
-            items.splice(0..0, spoils.map(|advice| network_item(advice, &adjustment.criteria)));
+            items.splice(0..0, spoils.map(|advice| network_item(advice, &adjustment.criteria, &unit)));
             let (first, others): (Vec<_>, Vec<_>) = rest.into_iter().partition(|a| of_the_fit(a));
-            items.extend(first.into_iter().map(|advice| network_item(advice, &adjustment.criteria)));
+            items.extend(first.into_iter().map(|advice| network_item(advice, &adjustment.criteria, &unit)));
             items.extend(camera_against_photos(&adjustment.advice, &adjustment.criteria));
             let others = others.into_iter().filter(|a| !of_one_photo(a));
-            items.extend(others.map(|advice| network_item(advice, &adjustment.criteria)));
+            items.extend(others.map(|advice| network_item(advice, &adjustment.criteria, &unit)));
         }
     });
     // What is said of a point, a photo or a measurement is said once; a step can mend several things.
     let one = |target: &Target| matches!(target, Target::Point(_) | Target::Photo(_) | Target::Observation { .. });
     let said = items.iter().map(|i| i.target.clone()).filter(one).collect::<Vec<_>>();
     let adjusted = desk.document.with(|d| d.current().is_some());
+    let advised = desk.document.with(|d| d.current().map(|r| r.adjustment.advice.clone()).unwrap_or_default());
+    let unit = desk.document.with(length_unit);
     desk.notes.with(|notes| {
         // Once there is a result its own test says what disagrees.
         let disagrees = |n: &&Note| matches!(n, Note::MeasurementDisagrees { .. });
-        let others = notes.iter().filter(|n| !disagrees(n));
+        let others = notes.iter().filter(|n| !disagrees(n) && !is_said(n, &advised));
         let disagreeing = notes.iter().filter(disagrees).take(if adjusted { 0 } else { 5 });
-        items.extend(others.chain(disagreeing).filter_map(note_item).filter(|i| !said.contains(&i.target)));
+        items.extend(
+            others.chain(disagreeing).filter_map(|n| note_item(n, &unit)).filter(|i| !said.contains(&i.target)),
+        );
         let more = notes.iter().filter(disagrees).count().saturating_sub(5);
         if more > 0 && !adjusted {
             let title = text::more_notes(format::count(more));
@@ -333,7 +340,11 @@ fn camera_against_photos(
 }
 
 /// What the engine says of a network that is solvable but weak.
-fn network_item(advice: &sightline::adjustment::Advice, criteria: &sightline::adjustment::Criteria) -> Item {
+fn network_item(
+    advice: &sightline::adjustment::Advice,
+    criteria: &sightline::adjustment::Criteria,
+    unit: &str,
+) -> Item {
     use sightline::adjustment::Advice;
     let pairs = |pairs: &[(String, String)]| {
         let names: Vec<String> = pairs.iter().map(|(a, b)| format!("{a} – {b}")).collect();
@@ -445,7 +456,9 @@ fn network_item(advice: &sightline::adjustment::Advice, criteria: &sightline::ad
             String::new(),
             Target::GivenWeights,
         ),
-        Advice::ControlMisfit { point, difference, sigma_ratio } => control_misfit(point, difference, *sigma_ratio),
+        Advice::ControlMisfit { point, difference, sigma_ratio } => {
+            control_misfit(point, difference, *sigma_ratio, unit)
+        }
         Advice::ExchangedPoints { points } => exchanged_points(points),
         Advice::DoublePoints { pairs: all } => double_points(all),
         Advice::MirroredControl(found) => return questions::mirrored(found),
@@ -461,14 +474,30 @@ fn network_item(advice: &sightline::adjustment::Advice, criteria: &sightline::ad
     Item { warning: true, title, body, evidence, target }
 }
 
+/// Whether the adjustment's advice says the same: its figures are the better ones.
+fn is_said(note: &Note, advice: &[sightline::adjustment::Advice]) -> bool {
+    use sightline::adjustment::Advice as A;
+    advice.iter().any(|advice| match (note, advice) {
+        (Note::ControlMisfit { point, .. }, A::ControlMisfit { point: said, .. }) => point == said,
+        (Note::ExchangedPoints { points }, A::ExchangedPoints { points: said }) => points == said,
+        (Note::UnitRatio(ratio), A::UnitRatio(said)) => (ratio.of, &ratio.camera) == (said.of, &said.camera),
+        (Note::ImplausibleCamera(camera), A::ImplausibleCamera(said)) => camera == said,
+        (Note::OneStation(station), A::OneStation(said)) => station == said,
+        (Note::MirroredControl(_), A::MirroredControl(_))
+        | (Note::UndecidedAxes(_), A::UndecidedAxes(_))
+        | (Note::DoublePoints { .. }, A::DoublePoints { .. }) => true,
+        _ => false,
+    })
+}
+
 type Words = (String, String, String, Target);
 
 /// A control point that is not where the photos see it.
-fn control_misfit(point: &str, difference: &[f64; 3], sigma_ratio: f64) -> Words {
+fn control_misfit(point: &str, difference: &[f64; 3], sigma_ratio: f64, unit: &str) -> Words {
     let largest = (0..3).max_by(|&a, &b| difference[a].abs().total_cmp(&difference[b].abs())).unwrap_or_default();
     let size = difference[0].hypot(difference[1]).hypot(difference[2]);
     (
-        text::control_misfit(point, format::compact(size), ["X", "Y", "Z"][largest]),
+        text::control_misfit(point, format!("{} {unit}", format::compact(size)), ["X", "Y", "Z"][largest]),
         text::control_misfit_body().to_owned(),
         format!("{} σ", format::fixed(sigma_ratio, 0)),
         Target::Step(Step::Control),
@@ -490,7 +519,7 @@ fn double_points(pairs: &[(String, String)]) -> Words {
 }
 
 /// What the orientation had to say.
-fn note_item(note: &Note) -> Option<Item> {
+fn note_item(note: &Note, unit: &str) -> Option<Item> {
     let item = |title: String, body: String, target: Target| Item {
         warning: true,
         title,
@@ -577,7 +606,7 @@ fn note_item(note: &Note) -> Option<Item> {
             }
         }
         Note::ControlMisfit { point, difference, sigma_ratio } => {
-            worded(control_misfit(point, difference, *sigma_ratio))
+            worded(control_misfit(point, difference, *sigma_ratio, unit))
         }
         Note::ExchangedPoints { points } => worded(exchanged_points(points)),
         Note::DoublePoints { pairs } => worded(double_points(pairs)),
@@ -694,7 +723,7 @@ mod tests {
     #[test]
     fn every_advice_has_a_button() {
         for advice in every_kind() {
-            let item = network_item(&advice, &Criteria::default());
+            let item = network_item(&advice, &Criteria::default(), "mm");
             assert_ne!(item.target, Target::None, "{}", item.title);
             assert!(!item.title.is_empty() && !item.body.is_empty());
         }
@@ -704,7 +733,7 @@ mod tests {
             Note::Groups { groups: vec![vec!["a".into(), "b".into()], vec!["c".into(), "d".into()]] },
         ];
         for note in notes {
-            assert_ne!(note_item(&note).map(|item| item.target), Some(Target::None), "{note:?}");
+            assert_ne!(note_item(&note, "mm").map(|item| item.target), Some(Target::None), "{note:?}");
         }
     }
 }

@@ -6,6 +6,7 @@ use sightline::project::{Project, Role};
 
 use super::gross_errors::follow;
 use super::results::given_name;
+use super::results::units::length_unit;
 use crate::format;
 use crate::i18n::text;
 use crate::store::{Desk, Step};
@@ -87,7 +88,7 @@ pub fn NotUsedList() -> impl IntoView {
             sentence(&items, &result.input).map(|said| (items, said))
         })
     });
-    let unit = move || desk.document.with(|d| d.project.unit.clone());
+    let unit = move || desk.document.with(length_unit);
     view! {
         {move || found.get().map(|(items, said)| view! {
             <h2 class="section-head"><span>{text::not_used_head}</span><span class="aside">{items.len()}</span></h2>

@@ -13,6 +13,7 @@ use leptos::task::spawn_local;
 
 use super::icon::{Glyph, Icon};
 use super::results::NoNumbers;
+use super::results::units::length_unit;
 use crate::browser::object::{Met, Scene, State, View, numbered};
 use crate::browser::{event, page};
 use crate::edit::natural;
@@ -209,7 +210,7 @@ fn Shown() -> impl IntoView {
     let save = move || {
         let (name, unit, points, photos) = desk.document.with_untracked(|d| {
             let all = d.current().map_or((0, 0), |r| (r.adjustment.points.len(), r.adjustment.photos.len()));
-            (d.project.name.clone(), d.project.unit.clone(), all.0, all.1)
+            (d.project.name.clone(), length_unit(d), all.0, all.1)
         });
         let factor = format::round(exaggeration(ellipsoid_step.get_untracked()));
         let lines = [name.clone(), words::caption(format::count(points), format::count(photos), factor, unit)];

@@ -6,7 +6,7 @@ pub mod drawings;
 mod given;
 mod meanings;
 mod tables;
-mod units;
+pub mod units;
 
 use leptos::prelude::*;
 use leptos::task::spawn_local;
@@ -33,7 +33,7 @@ use given::GivenTable;
 pub use given::{given_kind, given_name};
 use meanings::{Meanings, Statistic};
 use tables::{CheckPoints, PhotosTable, PointsTable, Worst, largest_w};
-use units::{pixel_of, shown_as};
+use units::{length_unit, pixel_of, shown_as};
 
 #[component]
 pub fn Results() -> impl IntoView {
@@ -169,7 +169,7 @@ fn Explained(explain: Callback<Statistic>, of: Statistic, name: crate::i18n::Tex
 #[component]
 fn Hero(explain: Callback<Statistic>) -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
+    let unit = Memo::new(move |_| desk.document.with(length_unit));
     let sigma0 = move || read(desk, |a, _| a.sigma0);
     let test = move || read(desk, |a, _| a.global_test.clone());
     let redundancy = move || read(desk, |a, _| (a.redundancy, a.observations_count, a.unknowns, a.constraints));

@@ -53,7 +53,7 @@ pub fn unit(found: &UnitRatio) -> Item {
         (UnitOf::Control, _) if !bars.is_empty() => (text::unit_of_control().to_owned(), Step::Control),
         _ => (text::unit_of_diameters().to_owned(), Step::Control),
     };
-    let (ratio, nearest) = (format::compact(found.ratio), format::compact(found.nearest));
+    let (ratio, nearest) = (format::factor(found.ratio), format::factor(found.nearest));
     item(title, text::unit_body(&ratio, &nearest), format!("{ratio} ≈ {nearest}"), Target::Step(step))
 }
 

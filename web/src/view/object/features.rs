@@ -14,6 +14,7 @@ use crate::store::Desk;
 use crate::store::selection::Kind;
 use crate::view::icon::{Glyph, Icon};
 use crate::view::results::drawings::Drawing;
+use crate::view::results::units::length_unit;
 use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 
 const KINDS: [(&str, Text); 8] = [
@@ -181,7 +182,7 @@ fn FeatureList() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let chosen = expect_context::<Chosen>();
     let all = Memo::new(move |_| lines(desk));
-    let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
+    let unit = Memo::new(move |_| desk.document.with(length_unit));
     let pick = move |id: String, more: bool| {
         chosen.features.update(|all| {
             let place = all.iter().position(|f| *f == id);
@@ -245,7 +246,7 @@ fn Detail() -> impl IntoView {
         lines(desk).into_iter().find(|line| line.id == id)
     });
     let measured = Memo::new(move |_| feature.get().and_then(|line| line.measured));
-    let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
+    let unit = Memo::new(move |_| desk.document.with(length_unit));
     let sorting = RwSignal::new(None::<Sorting>);
     let columns = Signal::derive(move || {
         vec![
@@ -361,7 +362,7 @@ fn Systems() -> impl IntoView {
             d.project.systems.iter().map(one).collect::<Vec<_>>()
         })
     });
-    let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
+    let unit = Memo::new(move |_| desk.document.with(length_unit));
     let open = RwSignal::new(None::<String>);
     let sorting = RwSignal::new(None::<Sorting>);
     let columns = Signal::derive(move || {

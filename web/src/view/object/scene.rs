@@ -9,14 +9,19 @@ use sightline::project::{Project, Role};
 use crate::browser::object::{Label, Scene, numbered};
 use crate::format;
 use crate::store::document::Outcome;
+use crate::view::results::units::unit_of;
 
 /// The scene of a result; `chosen` is the feature whose deviations are drawn.
 pub fn scene(result: &Outcome, project: &Project, chosen: Option<&str>) -> Scene {
     let adjustment = &result.adjustment;
     let (centre, size) = extent(adjustment.points.iter().map(|p| p.xyz));
     let about = |xyz: [f64; 3]| -> [f32; 3] { std::array::from_fn(|k| (xyz[k] - centre[k]) as f32) };
-    let mut scene =
-        Scene { key: format!("{} {size:e}", project.name), unit: project.unit.clone(), size, ..Scene::default() };
+    let mut scene = Scene {
+        key: format!("{} {size:e}", project.name),
+        unit: unit_of(&result.adjustment, project),
+        size,
+        ..Scene::default()
+    };
     scene.grid = round(size / 8.0);
     let roles: HashMap<&str, Role> = project.points.iter().map(|p| (p.id.as_str(), p.role)).collect();
     let known = adjustment.points.iter().all(|p| p.covariance.is_some());

@@ -6,6 +6,7 @@ use leptos::prelude::*;
 use sightline::comparison::{Alignment, Moved, ParameterChange};
 
 use super::cameras::parameter_cells;
+use super::units::length_unit;
 use crate::format;
 use crate::i18n::{comparing as words, text};
 use crate::store::{Desk, Kind};
@@ -42,7 +43,7 @@ pub(super) fn Compared() -> impl IntoView {
         pair.track();
         desk.compare_results();
     });
-    let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
+    let unit = Memo::new(move |_| desk.document.with(length_unit));
     let says = move || {
         all.with(|found| {
             let found = found.as_ref()?;
@@ -106,7 +107,7 @@ fn Movements(
     let desk = expect_context::<Desk>();
     let sorting = RwSignal::new(Some(Sorting { column: 6, descending: true }));
     let columns = Signal::derive(move || {
-        let unit = desk.document.with(|d| d.project.unit.clone());
+        let unit = desk.document.with(length_unit);
         let length = |name: fn() -> &'static str| Column::number(name).unit(unit.clone());
         vec![
             Column::words(if matches!(kind, Kind::Photos) { text::photo } else { text::id }),

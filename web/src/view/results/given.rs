@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use sightline::adjustment::{Given, GivenObservation};
 
 use super::read;
+use super::units::{length_unit, unit_of};
 use crate::format;
 use crate::i18n::text;
 use crate::store::Desk;
@@ -38,7 +39,7 @@ pub(super) fn GivenTable() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let sorting = RwSignal::new(Some(Sorting { column: 6, descending: true }));
     let columns = Signal::derive(move || {
-        let unit = desk.document.with(|d| d.project.unit.clone());
+        let unit = desk.document.with(length_unit);
         vec![
             Column::words(text::id),
             Column::words(text::kind_of_observation),
@@ -60,7 +61,7 @@ pub(super) fn GivenTable() -> impl IntoView {
                         let camera = project.cameras.iter().find(|c| c.id == *camera);
                         camera.map(|camera| parameter_unit(camera, *parameter)).unwrap_or_default()
                     }
-                    _ => project.unit.clone(),
+                    _ => unit_of(a, project),
                 };
                 let decimals = format::decimals_for(given.sigma);
                 let test = given.reliability.unwrap_or_default();

@@ -8,7 +8,7 @@ use leptos::task::spawn_local;
 use sightline::adjustment::{AdjustedObservation, Adjustment};
 
 use super::read;
-use super::units::{common_unit, factors};
+use super::units::{common_unit, factors, length_unit};
 use crate::browser::page;
 use crate::format;
 use crate::i18n::{language, text};
@@ -21,7 +21,7 @@ use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 pub(super) fn CheckPoints() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let all = Memo::new(move |_| read(desk, |a, _| a.check_points.clone()));
-    let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
+    let unit = Memo::new(move |_| desk.document.with(length_unit));
     view! {
         <Show when=move || all.with(|a| !a.is_empty())>
             <h2 class="section-head"><span>{text::check_points}</span><span class="aside">{text::adjusted_minus_given}</span></h2>
@@ -42,7 +42,7 @@ pub(super) fn PhotosTable() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let sorting = RwSignal::new(None::<Sorting>);
     let columns = Signal::derive(move || {
-        let length = desk.document.with(|d| d.project.unit.clone());
+        let length = desk.document.with(length_unit);
         let unit = read(desk, |a, _| common_unit(a).1.to_owned());
         vec![
             Column::words(text::photo),
@@ -91,7 +91,7 @@ pub(super) fn PointsTable() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let sorting = RwSignal::new(Some(Sorting { column: 7, descending: true }));
     let columns = Signal::derive(move || {
-        let unit = desk.document.with(|d| d.project.unit.clone());
+        let unit = desk.document.with(length_unit);
         let number = |name: fn() -> &'static str, low| Column::number(name).low(low).unit(unit.clone());
         vec![
             Column::words(text::id),

@@ -1,8 +1,21 @@
-//! In which unit residuals are shown.
+//! In which unit lengths and residuals are shown.
 
-use sightline::adjustment::PhotoUnit;
-use sightline::project::Camera;
+use sightline::adjustment::{Adjustment, Advice, PhotoUnit};
+use sightline::project::{Camera, Project};
 pub(super) use sightline::report::names::{common_unit, factors};
+
+use crate::i18n::text;
+use crate::store::document::Document;
+
+/// The unit of adjusted lengths: none where nothing gave them a scale.
+pub fn unit_of(adjustment: &Adjustment, project: &Project) -> String {
+    if adjustment.advice.contains(&Advice::NoScale) { text::no_unit().to_owned() } else { project.unit.clone() }
+}
+
+/// The same of the document's result, or the project's unit before there is one.
+pub fn length_unit(document: &Document) -> String {
+    document.current().map_or_else(|| document.project.unit.clone(), |r| unit_of(&r.adjustment, &document.project))
+}
 
 /// Width and height of a pixel in the unit of the camera's residuals.
 pub(super) fn pixel_of(camera: &Camera) -> [f64; 2] {

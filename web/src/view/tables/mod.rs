@@ -9,6 +9,7 @@ use std::sync::Arc;
 use leptos::prelude::*;
 
 use super::identities::NamedPhoto;
+use super::results::units::length_unit;
 use super::shell::TitleBar;
 use crate::browser::event;
 use crate::edit::sheet::{Col, Sheet, Table, Value};
@@ -35,7 +36,7 @@ pub fn table_words(table: Table) -> &'static str {
 
 /// A column's heading, and its unit where it has one.
 pub fn heading(desk: Desk, table: Table, col: Col) -> (String, String) {
-    let unit = || desk.document.with_untracked(|d| d.project.unit.clone());
+    let unit = || desk.document.with_untracked(length_unit);
     let (words, unit): (&str, String) = match col {
         Col::Id => (text::id(), String::new()),
         Col::File => (text::file(), String::new()),
