@@ -820,6 +820,7 @@ declare! { desk {
     behind: "behind";
 
     // Questions about the input
+    exchange_now(how): "Correct by {how}";
     exchanging(first, second): "exchanging {first} and {second}";
     negating(axis): "changing the sign of {axis}";
     mirrored(exchange, exchanged, given):
@@ -927,6 +928,7 @@ declare! { desk {
     change_datum: "datum chosen";
     change_colours_taken(camera): "colours of camera {camera} taken";
     change_colours_forgotten(camera): "colours of camera {camera} removed";
+    change_axes: "axes of the given coordinates exchanged";
     change_parameters(camera): "parameters of camera {camera} changed";
     change_options: "weights or search for gross errors chosen";
     change_adjusted: "adjusted";

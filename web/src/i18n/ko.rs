@@ -796,6 +796,7 @@ translate! { Korean desk {
     behind: "뒤쪽";
 
     // Questions about the input
+    exchange_now(how): "바로잡기: {how}";
     exchanging(first, second): "{first}, {second} 좌표 교환";
     negating(axis): "{axis} 좌표 부호 변경";
     mirrored(exchange, exchanged, given):
@@ -902,6 +903,7 @@ translate! { Korean desk {
     change_datum: "기준계 선택";
     change_colours_taken(camera): "카메라 {camera} 색별 값 사용";
     change_colours_forgotten(camera): "카메라 {camera} 색별 값 삭제";
+    change_axes: "주어진 좌표의 축 교환";
     change_parameters(camera): "카메라 {camera} 매개변수 변경";
     change_options: "가중값·과대오차 처리 선택";
     change_adjusted: "조정";

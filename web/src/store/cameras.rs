@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 
 use leptos::prelude::*;
+use sightline::adjustment::Exchange;
 use sightline::exif::PhotoInfo;
+use sightline::plausibility;
 use sightline::project::{Parameter, Project};
 
 use super::document::Change;
@@ -97,6 +99,16 @@ impl Desk {
             let next = self.document.with_untracked(|d| d.project.photos.first().map(|p| p.id.clone()));
             self.selection.update(|s| *s = Selection { photo: next, ..Selection::default() });
         }
+    }
+
+    /// Exchanges axes of everything given, or changes the sign of one: what a mirrored network asks for. Orientation begins anew.
+    pub fn exchange_axes(self, exchange: Exchange) {
+        self.change(Change::AxesExchanged, |document| {
+            let exchanged = plausibility::exchange_axes(&document.project, exchange);
+            *document.project_mut() = exchanged;
+        });
+        // They were said of the orientation that is no more.
+        self.notes.set(Vec::new());
     }
 
     /// Lets a camera's parameter be estimated or held.

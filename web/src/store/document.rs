@@ -115,6 +115,7 @@ pub enum Change {
     DistanceRemoved { from: String, to: String },
     DatumChosen,
     ParametersChosen(String),
+    AxesExchanged,
     OptionsChosen,
     Adjusted,
     UnitSet,

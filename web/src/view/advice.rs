@@ -5,7 +5,7 @@ mod questions;
 use std::collections::{HashMap, HashSet};
 
 use leptos::prelude::*;
-use sightline::adjustment::Given;
+use sightline::adjustment::{Exchange, Given};
 use sightline::orient::{DistanceSource, Note, PhotoReason, PointReason, ScaleSource, SystemSource};
 use sightline::project::{DatumKind, Parameter, Role};
 
@@ -34,6 +34,8 @@ enum Target {
         camera: String,
         parameter: Parameter,
     },
+    /// Exchanges axes of everything given.
+    Exchange(Exchange),
     /// Takes the standard errors as they were given, and adjusts again.
     GivenWeights,
     /// Weighs image coordinates with this standard deviation of what is not modelled, pixels.
@@ -63,6 +65,7 @@ pub fn Advice() -> impl IntoView {
                     Target::None => None,
                     Target::Step(step) => Some(step_label(step).to_owned()),
                     Target::Unmodelled(px) => Some(text::add_unmodelled(format::fixed(px, 3))),
+                    Target::Exchange(exchange) => Some(text::exchange_now(questions::exchange_name(exchange))),
                     Target::GivenWeights => Some(text::given_weights().to_owned()),
                     Target::Hold { parameter, .. } => Some(text::hold(parameter_name(parameter))),
                     _ => Some(text::show().to_owned()),
@@ -144,6 +147,7 @@ fn follow(desk: Desk, target: &Target) {
             desk.set_options(|options| options.unmodelled = *px);
             desk.adjust();
         }
+        Target::Exchange(exchange) => desk.exchange_axes(*exchange),
         Target::GivenWeights => {
             desk.set_options(|options| options.variance_components = None);
             desk.adjust();

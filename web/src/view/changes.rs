@@ -31,6 +31,7 @@ pub fn change_words(change: &Change) -> String {
         Change::DistanceAdded { from, to } => text::change_distance_added(from, to),
         Change::DistanceRemoved { from, to } => text::change_distance_removed(from, to),
         Change::DatumChosen => text::change_datum().to_owned(),
+        Change::AxesExchanged => text::change_axes().to_owned(),
         Change::ParametersChosen(camera) => text::change_parameters(camera),
         Change::OptionsChosen => text::change_options().to_owned(),
         Change::Adjusted => text::change_adjusted().to_owned(),

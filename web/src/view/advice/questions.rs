@@ -12,7 +12,7 @@ fn item(title: String, body: String, evidence: String, target: Target) -> Item {
     Item { warning: true, title, body, evidence, target }
 }
 
-fn exchange_name(exchange: Exchange) -> String {
+pub fn exchange_name(exchange: Exchange) -> String {
     match exchange {
         Exchange::Xy => text::exchanging("X", "Y"),
         Exchange::Xz => text::exchanging("X", "Z"),
@@ -31,7 +31,7 @@ pub fn mirrored(found: &MirroredControl) -> Item {
     };
     let [given, exchanged] = [found.rms_given, found.rms_exchanged].map(format::compact);
     let title = text::mirrored(exchange_name(found.exchange), &exchanged, &given);
-    item(title, body, format!("{given} → {exchanged}"), Target::Step(Step::Control))
+    item(title, body, format!("{given} → {exchanged}"), Target::Exchange(found.exchange))
 }
 
 pub fn undecided(found: &UndecidedAxes) -> Item {
