@@ -353,11 +353,16 @@ const harmJournal = (page, harm) =>
     return keys.length;
   }, harm);
 
+/** What is done to the journal, and what has to be told. */
+const harms = [['bit', /repaired, and nothing is lost/], ['length', /repaired, and nothing is lost/], ['sector', /was damaged/], ['first', null], ['tail', null]];
 for (const [kind, address] of [['files', () => undefined], ['database', plainHttp]]) {
   test(`a damaged journal (${kind}) is mended or told, what can be read of it is open, and the damaged one can be downloaded`, { timeout: 600_000 }, async () => {
-    const { page, errors, close } = await open({ width: 1366, height: 768, address: address() });
-    try {
-      for (const [harm, told] of [['bit', /repaired, and nothing is lost/], ['length', /repaired, and nothing is lost/], ['sector', /was damaged/], ['first', /was damaged/], ['tail', null]]) {
+    for (const [harm, known] of harms) {
+      // A database writes a record whole or not at all: one that is cut was damaged.
+      const told = harm === 'tail' && kind === 'database' ? /The end of this stored project was damaged/ : known;
+      // A browser for each: a deleted project's journal is kept for a day.
+      const { page, errors, close } = await open({ width: 1366, height: 768, address: address() });
+      try {
         // Large enough that later names are told as what changed of the first.
         const points = Array.from({ length: 60 }, (_, k) => ({ id: `p${k}`, role: 'control', xyz: [k, k, k], sigma: [0.1, 0.1, 0.1] }));
         await drop(page, [scratch('harmed.json', JSON.stringify({ format: 'sightline', version: 1, name: 'Edit 0', unit: 'mm', points }))]);
@@ -368,6 +373,7 @@ for (const [kind, address] of [['files', () => undefined], ['database', plainHtt
           if (edit % 4 === 0) {
             await page.fill('[name=unit]', edit % 8 ? 'm' : 'mm');
             await page.press('[name=unit]', 'Enter');
+            await page.locator('.asking').getByRole('button', { name: /^Convert/ }).click();
           }
           await rename(page, `Edit ${edit}`);
           await written(page);
@@ -379,6 +385,14 @@ for (const [kind, address] of [['files', () => undefined], ['database', plainHtt
         assert.ok(frames >= 12, `${frames} frames`);
         await page.reload();
         await page.waitForSelector('[data-project]');
+        if (harm === 'first') {
+          // What everything after it builds on is gone: that is said, and the journal stays where it is.
+          await page.click('[data-project] .do .button');
+          await page.waitForSelector('.notice.warning:has-text("could not be read")');
+          await page.reload();
+          await page.waitForSelector('[data-project]');
+          continue;
+        }
         await goOn(page);
         const name = await page.inputValue('.project-name');
         if (told) assert.match(await page.textContent('.notices'), told, harm);
@@ -405,12 +419,10 @@ for (const [kind, address] of [['files', () => undefined], ['database', plainHtt
           const files = await downloads(page, 1, () => verb(page, `Saved ${harm}`, 'Download damaged file'));
           assert.ok(Object.values(files)[0].length > 500);
         }
-        await verb(page, `Saved ${harm}`, 'Delete');
-        await waitForList(page, []);
+        assert.deepEqual(errors, []);
+      } finally {
+        await close();
       }
-      assert.deepEqual(errors, []);
-    } finally {
-      await close();
     }
   });
 }

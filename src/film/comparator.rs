@@ -76,13 +76,13 @@ const LARGEST: f64 = 1e9;
 ///
 /// # Errors
 /// [`Error::Invalid`] when a photo's fiducial marks do not determine the transformation, the camera has no pixel pitch
-/// or sigma is not above 0; [`Error::Duplicate`] for a mark or point read twice in a photo.
+/// or sigma is not above 0 or beyond all measure; [`Error::Duplicate`] for a mark or point read twice in a photo.
 pub fn observations(camera: &Camera, setup: &Setup, readings: &[Reading]) -> Result<Observed> {
     if camera.pixel_pitch.is_none() {
         let at = Place::camera(&camera.id).with_field("pixel_pitch");
         return Err(Error::Invalid { reason: Reason::PitchMissing, at });
     }
-    if !setup.sigma.is_finite() || setup.sigma <= 0.0 {
+    if !setup.sigma.is_finite() || setup.sigma <= 0.0 || setup.sigma > LARGEST {
         return Err(Error::Invalid { reason: Reason::ReadingSigma, at: Place::field("sigma") });
     }
     let far = |values: [f64; 2]| values.iter().any(|value| !value.is_finite() || value.abs() > LARGEST);

@@ -89,8 +89,8 @@ mod tests {
         let sigma = Some([Some(1.0), None, Some(3.0)]);
         let point =
             |id: &str, role| Point { id: id.into(), role, xyz: Some([1.0, 2.0, 3.0]), sigma, ..Point::default() };
-        let mut project = Project::default();
-        project.points = vec![point("c", Role::Control), point("k", Role::Check), point("t", Role::Tie)];
+        let points = vec![point("c", Role::Control), point("k", Role::Check), point("t", Role::Tie)];
+        let mut project = Project { points, ..Project::default() };
         let photo = Photo { position: Some([1.0, 2.0, 3.0]), rotation: Some([0.1; 3]), ..Photo::default() };
         project.photos = vec![photo.clone(), Photo { sigma_position: sigma, ..photo }];
         let exchanged = exchange_axes(&project, Exchange::Xy);

@@ -24,9 +24,17 @@ export async function database(life) {
   const base = await settled(opening);
   // Another visit's version of it must not wait for this one.
   base.onversionchange = () => base.close();
+  /** A connection is closed under its worker where the browser cleared the storage: there is one version only, and nobody else deletes it. */
+  const begun = (stores) => {
+    try {
+      return base.transaction(stores, 'readwrite', { durability: 'strict' });
+    } catch (error) {
+      throw error.name === 'InvalidStateError' ? fault('GoneError', 'cleared') : error;
+    }
+  };
   const run = (stores, work) =>
     new Promise((done, failed) => {
-      const transaction = base.transaction(stores, 'readwrite', { durability: 'strict' });
+      const transaction = begun(stores);
       let result;
       transaction.oncomplete = () => done(result);
       // Not `onerror`: what was wrong is known when the transaction is aborted.

@@ -122,7 +122,7 @@ fn wrong_names_throughout_are_no_reflection() {
         let mut all = scene(seed, 500.0, true, 0);
         let count = all.pairs.len();
         let given: Vec<_> = (0..count).map(|k| all.pairs[(k * 5 + 1 + seed as usize % 3) % count].given).collect();
-        if count % 5 == 0 {
+        if count.is_multiple_of(5) {
             continue;
         }
         all.pairs.iter_mut().zip(given).for_each(|(pair, given)| pair.given = given);

@@ -2,11 +2,11 @@
 //! rows cost no more than their order.
 
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use serde::{Deserialize, Serialize};
-use sightline::adjustment::AdjustedObservation;
-use sightline::project::Role;
+use sightline::adjustment::{AdjustedObservation, Given, LeftOutItem, LeftOutKind};
+use sightline::project::{Project, Role};
 
 use super::natural;
 use crate::edit::cameras::distance_parameter;
@@ -93,6 +93,8 @@ pub enum Value {
     /// With its decimals.
     Number(f64, usize),
     Flag(bool),
+    /// It is to take part, and did not in the present result.
+    NotUsed,
     Role(Role),
 }
 
@@ -164,6 +166,22 @@ impl Table {
     }
 }
 
+/// Keys of rows of which nothing took part.
+fn not_used(table: Table, project: &Project, left_out: &[LeftOutItem]) -> HashSet<String> {
+    let of = |item: &LeftOutItem| match (table, item.kind, &item.given) {
+        (Table::Observations, LeftOutKind::Observation, _) => {
+            Some(observation_key(item.photo.as_deref()?, item.point.as_deref()?))
+        }
+        (Table::Photos, LeftOutKind::Photo, _) => item.photo.clone(),
+        (Table::Points, LeftOutKind::Point, _) | (Table::Control, LeftOutKind::Control, None) => item.point.clone(),
+        (Table::Distances, LeftOutKind::Distance, Some(Given::Distance { from, to })) => {
+            project.distances.iter().position(|d| (&d.from, &d.to) == (from, to)).map(|row| row.to_string())
+        }
+        _ => None,
+    };
+    left_out.iter().filter_map(of).collect()
+}
+
 /// Rays of a point: taking part, and in all.
 type Rays = HashMap<String, (usize, usize)>;
 
@@ -182,6 +200,8 @@ pub struct Sheet {
     counts: BTreeMap<String, usize>,
     /// Adjusted points or photos by identifier.
     adjusted: HashMap<String, usize>,
+    /// Keys of rows of which the present result used nothing.
+    not_used: HashSet<String>,
 }
 
 impl Sheet {
@@ -241,7 +261,8 @@ impl Sheet {
             }
             Table::Distances => {}
         }
-        Self { table, document, result, places, targets, named, rays, counts, adjusted }
+        let not_used = result.as_ref().map_or_else(HashSet::new, |r| not_used(table, project, &r.adjustment.left_out));
+        Self { table, document, result, places, targets, named, rays, counts, adjusted, not_used }
     }
 
     pub fn len(&self) -> usize {
@@ -282,8 +303,20 @@ impl Sheet {
         }
     }
 
-    /// Whether a row takes part in the adjustment.
+    /// Whether a row takes part in the adjustment: it is to, and the present result did not leave it out.
     pub fn takes_part(&self, row: usize) -> bool {
+        self.is_to_take_part(row) && (self.not_used.is_empty() || !self.not_used.contains(&self.key(row)))
+    }
+
+    /// Whether it takes part, as a value of its cell.
+    fn part(&self, row: usize) -> Value {
+        match self.is_to_take_part(row) {
+            true if !self.takes_part(row) => Value::NotUsed,
+            flag => Value::Flag(flag),
+        }
+    }
+
+    fn is_to_take_part(&self, row: usize) -> bool {
         let project = &self.document.project;
         match self.table {
             Table::Photos => project.photos[row].enabled,
@@ -336,7 +369,7 @@ impl Sheet {
             Col::Id => Some(Value::Words(photo.id.clone())),
             Col::File => Some(Value::Words(photo.file.clone())),
             Col::Camera => Some(Value::Words(photo.camera.clone())),
-            Col::TakesPart => Some(Value::Flag(photo.enabled)),
+            Col::TakesPart => Some(self.part(row)),
             Col::Count => Some(Value::Count(self.counts.get(&photo.id).copied().unwrap_or(0))),
             Col::X => position(0),
             Col::Y => position(1),
@@ -405,7 +438,7 @@ impl Sheet {
                 let [u, v] = o.sigma.both();
                 Some(Value::Number(u.hypot(v) / 2f64.sqrt(), 3))
             }
-            Col::TakesPart => Some(Value::Flag(o.enabled)),
+            Col::TakesPart => Some(self.part(row)),
             Col::ResidualX => Some(Value::Number(adjusted()?.vx? / pixel()?[0], 3)),
             Col::ResidualY => Some(Value::Number(adjusted()?.vy? / pixel()?[1], 3)),
             Col::W => Some(Value::Number(self.w(row)?, 2)),
@@ -481,6 +514,7 @@ impl Sheet {
                 Value::Number(value, _) if col == Col::W => Some(value.abs()),
                 Value::Number(value, _) => Some(value),
                 Value::Flag(flag) => Some(f64::from(u8::from(flag))),
+                Value::NotUsed => Some(0.5),
                 Value::Role(role) => Some(f64::from(role as u8)),
                 Value::Words(word) => {
                     match words.get_mut(&word) {
@@ -511,6 +545,8 @@ impl Value {
             Self::Count(n) => n.to_string(),
             Self::Number(value, _) => value.to_string(),
             Self::Flag(flag) => u8::from(*flag).to_string(),
+            // What the document says.
+            Self::NotUsed => "1".into(),
             Self::Role(Role::Tie) => "tie".into(),
             Self::Role(Role::Control) => "control".into(),
             Self::Role(Role::Check) => "check".into(),
@@ -541,6 +577,43 @@ mod tests {
             ..Project::default()
         };
         Document { project: std::sync::Arc::new(project), ..Document::default() }
+    }
+
+    #[test]
+    fn what_a_result_left_out_is_known_by_the_rows_of_its_table() {
+        use sightline::adjustment::{LeftOutBy, LeftOutReason};
+        use sightline::project::Distance;
+        let item = |kind, photo: Option<&str>, point: Option<&str>, given| LeftOutItem {
+            kind,
+            photo: photo.map(str::to_owned),
+            point: point.map(str::to_owned),
+            given,
+            by: LeftOutBy::Orientation,
+            reason: LeftOutReason::Disagrees,
+            size_px: None,
+            size: None,
+            size_sigma: None,
+        };
+        let mut d = document();
+        let distance = |from: &str, to: &str| Distance { from: from.into(), to: to.into(), ..Distance::default() };
+        d.project_mut().distances = vec![distance("10", "9"), distance("9", "10")];
+        let given = Given::Distance { from: "9".into(), to: "10".into() };
+        let x = Given::Control { point: "9".into(), axis: 0 };
+        let all = [
+            item(LeftOutKind::Observation, Some("2"), Some("10"), None),
+            item(LeftOutKind::Photo, Some("2"), None, None),
+            item(LeftOutKind::Control, None, Some("9"), None),
+            item(LeftOutKind::Control, None, Some("10"), Some(x)),
+            item(LeftOutKind::Distance, None, None, Some(given)),
+        ];
+        let of = |table| not_used(table, &d.project, &all).into_iter().collect::<Vec<_>>();
+        assert_eq!(of(Table::Observations), [observation_key("2", "10")]);
+        assert_eq!((of(Table::Photos), of(Table::Control)), (vec!["2".to_owned()], vec!["9".to_owned()]));
+        assert_eq!((of(Table::Distances), of(Table::Points).len()), (vec!["1".to_owned()], 0));
+        let mut sheet = Sheet::new(Table::Observations, &d);
+        sheet.not_used = not_used(Table::Observations, &d.project, &all);
+        assert_eq!(sheet.value(2, Col::TakesPart), Value::NotUsed);
+        assert_eq!((sheet.value(0, Col::TakesPart), sheet.takes_part(2)), (Value::Flag(true), false));
     }
 
     #[test]

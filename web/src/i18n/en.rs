@@ -953,6 +953,7 @@ declare! { desk {
     gross_tukey: "Robust weights, Tukey";
     gross_tukey_body: "Beyond its limit a residual counts nothing.";
     not_used_head: "Not used";
+    not_used_cell: "not used";
     not_used(parts): "Not used: {parts}.";
     show_not_used: "Show the list";
     take_back: "Take back";

@@ -927,6 +927,7 @@ translate! { Korean desk {
     gross_tukey: "로버스트 가중값(Tukey)";
     gross_tukey_body: "한계를 넘은 잔차는 영향을 주지 않습니다.";
     not_used_head: "사용하지 않은 항목";
+    not_used_cell: "미사용";
     not_used(parts): "사용하지 않음: {parts}.";
     show_not_used: "목록 보기";
     take_back: "되돌리기";

@@ -93,7 +93,12 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
     let begin = move |with: Option<String>| {
         let Some(col) = untrack(col).filter(|col| untrack(table).editable(*col)) else { return false };
         let Some(row) = rows.with_untracked(|rows| rows.get(at.get_untracked()).copied()) else { return false };
-        if let Value::Flag(on) = sheet.with_untracked(|s| s.0.value(row as usize, col)) {
+        let flag = match sheet.with_untracked(|s| s.0.value(row as usize, col)) {
+            Value::Flag(on) => Some(on),
+            Value::NotUsed => Some(true),
+            _ => None,
+        };
+        if let Some(on) = flag {
             let key = sheet.with_untracked(|s| s.0.key(row as usize));
             desk.set_cell(untrack(table), Cell { key, col, typed: u8::from(!on).to_string() });
         } else {

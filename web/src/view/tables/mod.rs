@@ -93,6 +93,7 @@ pub fn shown(value: &Value) -> String {
         Value::Number(value, decimals) => format::fixed(*value, *decimals),
         Value::Flag(true) => "✓".into(),
         Value::Flag(false) => "–".into(),
+        Value::NotUsed => text::not_used_cell().to_owned(),
         Value::Role(role) => role_word(*role).to_owned(),
     }
 }
