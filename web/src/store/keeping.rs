@@ -711,8 +711,7 @@ async fn rescued(storage: &Storage, opened: &Opened) -> Result<Reading, Fault> {
             break;
         }
     }
-    let mut lost = 0;
-    for state in notes.iter().rev().filter_map(|note| note.present.as_ref()) {
+    for (lost, state) in notes.iter().rev().filter_map(|note| note.present.as_ref()).enumerate() {
         if let Ok(document) = read_document(storage, &RefCell::default(), state).await {
             return Ok(Reading {
                 document,
@@ -723,7 +722,6 @@ async fn rescued(storage: &Storage, opened: &Opened) -> Result<Reading, Fault> {
                 lost,
             });
         }
-        lost += 1;
     }
     Err(data_fault("no state can be read".into()))
 }
