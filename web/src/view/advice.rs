@@ -112,7 +112,7 @@ pub fn Contradictions() -> impl IntoView {
         let show = move |_| desk.go(Step::Adjust);
         (!items.is_empty()).then(|| {
             view! {
-                <ul class="contradictions" role="alert" data-result="contradictions">
+                <ul class="contradictions" role="alert">
                     {items.into_iter().map(|item| view! {
                         <li>
                             <Glyph icon=Icon::Warning/>
