@@ -258,7 +258,7 @@ for (const [way, address] of [['loopback', () => undefined], ['plain HTTP', plai
         }
       },
       async undo(page, w) {
-        // Names are no steps of the history; a unit is, and undoing it must not take the name back.
+        // Renaming a project cannot be undone, changing its unit can. Undoing that must not change the name back.
         if (!expected.projects.has(opened.get(w)) || (await page.locator('.project-name').count()) === 0) return STEPS.open(page, w);
         await go(page, 'control');
         await page.fill('[name=unit]', pick(['m', 'cm', 'mm']), quick);
@@ -341,7 +341,7 @@ for (const [way, address] of [['loopback', () => undefined], ['plain HTTP', plai
             for (let n = 2; n > 0; n--) {
               const kind = pick(KINDS);
               count(kind);
-              // What a list or a window no longer has is no fault: the other one took it, or it was reloaded.
+              // A button or a row may be gone: the other window has taken the project over, or this one was reloaded.
               await STEPS[kind](page, w).catch((error) => count(/Timeout|closed|crash|detached|Target|Protocol/i.test(String(error)) ? 'given up' : `FAILED ${error}`));
             }
           }),

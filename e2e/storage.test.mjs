@@ -363,7 +363,7 @@ for (const [kind, address] of [['files', () => undefined], ['database', plainHtt
       // A browser for each: a deleted project's journal is kept for a day.
       const { page, errors, close } = await open({ width: 1366, height: 768, address: address() });
       try {
-        // Large enough that later names are told as what changed of the first.
+        // Large enough that the journal stores later names as differences from the first snapshot.
         const points = Array.from({ length: 60 }, (_, k) => ({ id: `p${k}`, role: 'control', xyz: [k, k, k], sigma: [0.1, 0.1, 0.1] }));
         await drop(page, [scratch('harmed.json', JSON.stringify({ format: 'sightline', version: 1, name: 'Edit 0', unit: 'mm', points }))]);
         await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Edit 0');

@@ -1,5 +1,5 @@
-// Two windows of one browser, over loopback and over plain HTTP, where there are no locks: nothing that was done in either is lost, and the list
-// has every project.
+// Two windows of one browser work on the same projects, over loopback and over plain HTTP (without Web Locks). No edit of either window is
+// lost, and the list shows every project.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -206,11 +206,11 @@ for (const [way, address] of WAYS) {
         await rename(page, `Round ${round} and on`);
         await written(page);
       }
-      // One undo for each of the names would be too few: names are no changes that are undone. What is stored is what is here.
+      // Renaming cannot be undone, so that the last stored name is what tells whether everything was written.
       await page.reload();
       await waitForList(page, ['Round 3 and on']);
       await goOn(page, 'Round 3 and on');
-      // One that does not come back is told in red, and the page goes on trying.
+      // If the worker cannot be started again, the page says so in red and keeps trying.
       await context.route('**/storage.js', (route) => route.abort());
       await storageOf(page).evaluate('setTimeout(() => self.close()); 0').catch(() => {});
       await rename(page, 'Waiting');

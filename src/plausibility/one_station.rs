@@ -242,9 +242,9 @@ pub fn is_all(project: &Project) -> Option<OneStation> {
     Some(OneStation { photos, all: true })
 }
 
-/// Groups of photos that were taken from one place each and held alike, in a document with the cameras that its network determines: photos rolled against each other add to the calibration of their
-/// camera, and are taken so on purpose. Photos that are oriented in the document are compared where their centres are near
-/// to each other for the depth of what they show, others with all.
+/// Groups of photos that were taken from one place each and held alike, in a document with the cameras that its network determines. Photos
+/// that are rolled against each other are no such group: they add to the calibration of their camera, and are taken so on purpose. Oriented
+/// photos are compared where their centres are near to each other for the depth of what they show, others with all.
 pub fn groups(project: &Project) -> Vec<OneStation> {
     let shots: Vec<Shot> = shots(project).into_iter().filter(|shot| shot.marks.len() >= FEWEST).collect();
     let poses: Vec<Option<Pose>> = shots.iter().map(|shot| Pose::of_photo(&project.photos[shot.photo])).collect();

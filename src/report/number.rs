@@ -94,7 +94,7 @@ pub fn compact(value: f64) -> String {
     }
 }
 
-/// A factor: 25.4, or 1/25.4 below one.
+/// A positive factor to five digits: 25.4, or 1/25.4 below one.
 pub fn factor(value: f64) -> String {
     if value > 0.0 && value < 1.0 { format!("1/{}", round_to_five(1.0 / value)) } else { round_to_five(value) }
 }
@@ -103,8 +103,7 @@ pub fn factor(value: f64) -> String {
 fn round_to_five(value: f64) -> String {
     let digits = 4 - value.abs().max(1e-300).log10().floor() as i32;
     let unit = 10f64.powi(digits);
-    let text = format!("{}", (value * unit).round() / unit);
-    text.replace('-', &MINUS.to_string())
+    format!("{}", (value * unit).round() / unit)
 }
 
 /// A round number without idle zeros: 200, 0.1, 5 × 10⁻⁶.

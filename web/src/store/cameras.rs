@@ -103,6 +103,9 @@ impl Desk {
 
     /// Exchanges axes of everything given, or changes the sign of one: what a mirrored network asks for. Orientation begins anew.
     pub fn exchange_axes(self, exchange: Exchange) {
+        if !self.may_change() {
+            return;
+        }
         self.change(Change::AxesExchanged, |document| {
             let exchanged = plausibility::exchange_axes(&document.project, exchange);
             *document.project_mut() = exchanged;

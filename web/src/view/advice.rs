@@ -34,12 +34,33 @@ enum Target {
         camera: String,
         parameter: Parameter,
     },
-    /// Exchanges axes of everything given.
-    Exchange(Exchange),
+    /// Exchanges axes of everything given; which of several it was is the person's to say.
+    Exchange(Vec<Exchange>),
     /// Takes the standard errors as they were given, and adjusts again.
     GivenWeights,
     /// Weighs image coordinates with this standard deviation of what is not modelled, pixels.
     Unmodelled(f64),
+}
+
+impl Target {
+    /// Labels of buttons with what each goes to: one, or one for each exchange of axes that may have been meant.
+    fn buttons(&self) -> Vec<(String, Self)> {
+        let label = match self {
+            Self::None => return Vec::new(),
+            Self::Exchange(all) => {
+                let one = |exchange: &Exchange| {
+                    (text::exchange_now(questions::exchange_name(*exchange)), Self::Exchange(vec![*exchange]))
+                };
+                return all.iter().map(one).collect();
+            }
+            Self::Step(step) => step_label(*step).to_owned(),
+            Self::Unmodelled(px) => text::add_unmodelled(format::fixed(*px, 3)),
+            Self::GivenWeights => text::given_weights().to_owned(),
+            Self::Hold { parameter, .. } => text::hold(parameter_name(*parameter)),
+            _ => text::show().to_owned(),
+        };
+        vec![(label, self.clone())]
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -59,24 +80,17 @@ pub fn Advice() -> impl IntoView {
         <h2 class="section-head"><span>{text::what_lacks}</span></h2>
         <ul class="advice">
             {move || items.get().into_iter().map(|item| {
-                let target = item.target.clone();
-                let go = move |_| follow(desk, &target);
-                let label = match item.target {
-                    Target::None => None,
-                    Target::Step(step) => Some(step_label(step).to_owned()),
-                    Target::Unmodelled(px) => Some(text::add_unmodelled(format::fixed(px, 3))),
-                    Target::Exchange(exchange) => Some(text::exchange_now(questions::exchange_name(exchange))),
-                    Target::GivenWeights => Some(text::given_weights().to_owned()),
-                    Target::Hold { parameter, .. } => Some(text::hold(parameter_name(parameter))),
-                    _ => Some(text::show().to_owned()),
-                };
+                let buttons = item.target.buttons().into_iter().map(|(label, target)| {
+                    view! { <button class="link" on:click=move |_| follow(desk, &target)>{label}</button> }
+                });
+                let buttons = buttons.collect_view();
                 view! {
                     <li class:warning=item.warning>
                         <Glyph icon=if item.warning { Icon::Warning } else { Icon::Check }/>
                         <div>
                             <b>{item.title}</b>
                             <p>{item.body}</p>
-                            {label.map(|label| view! { <button class="link" on:click=go>{label}</button> })}
+                            {buttons}
                         </div>
                         <span class="evidence">{item.evidence}</span>
                     </li>
@@ -147,7 +161,7 @@ fn follow(desk: Desk, target: &Target) {
             desk.set_options(|options| options.unmodelled = *px);
             desk.adjust();
         }
-        Target::Exchange(exchange) => desk.exchange_axes(*exchange),
+        Target::Exchange(all) => all.iter().take(1).for_each(|exchange| desk.exchange_axes(*exchange)),
         Target::GivenWeights => {
             desk.set_options(|options| options.variance_components = None);
             desk.adjust();
@@ -729,6 +743,8 @@ mod tests {
         for advice in every_kind() {
             let item = network_item(&advice, &Criteria::default(), "mm");
             assert_ne!(item.target, Target::None, "{}", item.title);
+            let choices = if matches!(advice, A::MirroredControl(_)) { 2 } else { 1 };
+            assert_eq!(item.target.buttons().len(), choices, "{}", item.title);
             assert!(!item.title.is_empty() && !item.body.is_empty());
         }
         let notes = [

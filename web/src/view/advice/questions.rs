@@ -30,8 +30,9 @@ pub fn mirrored(found: &MirroredControl) -> Item {
         false => text::mirrored_or_body(others.join(", ")),
     };
     let [given, exchanged] = [found.rms_given, found.rms_exchanged].map(format::compact);
+    let all = std::iter::once(found.exchange).chain(found.alternatives.iter().copied()).collect();
     let title = text::mirrored(exchange_name(found.exchange), &exchanged, &given);
-    item(title, body, format!("{given} → {exchanged}"), Target::Exchange(found.exchange))
+    item(title, body, format!("{given} → {exchanged}"), Target::Exchange(all))
 }
 
 pub fn undecided(found: &UndecidedAxes) -> Item {
