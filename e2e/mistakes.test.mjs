@@ -25,11 +25,12 @@ const control = (p, id) => p.points.find((point) => point.id === id);
 /** Name, what is done to the project, and what the page must say. */
 const mistakes = [
   ['a typing error of 1 mm in control', (p) => (control(p, '9').xyz[0] += 1), /Control point 9 is/],
-  ['a typing error of 30 mm in control', (p) => (control(p, '9').xyz[0] += 30), /[Cc]ontrol point\D{0,40}\b9\b/],
+  ['a typing error of 30 mm in control', (p) => (control(p, '9').xyz[0] += 30), /Control points 9 do not fit/],
   [
     'two control points exchanged',
     (p) => ([control(p, '3').xyz, control(p, '7').xyz] = [control(p, '7').xyz, control(p, '3').xyz]),
-    /\b3 and 7\b|\b7 and 3\b|[Cc]ontrol points?\D{0,40}\b[37]\b/,
+    // On four corners of a rectangle the exchange of 1 and 9 explains the same: no adjustment, and an error that names them all.
+    /Control points 1, 3, 7, 9 do not fit.*exchanged/,
   ],
   ['X with the other sign', (p) => p.points.forEach((point) => point.xyz && (point.xyz[0] *= -1)), /axes|mirrored/],
   ['X and Y exchanged', (p) => p.points.forEach((point) => point.xyz && point.xyz.splice(0, 2, point.xyz[1], point.xyz[0])), /axes|mirrored/],
@@ -82,12 +83,12 @@ for (const [name, mistake, said] of mistakes) {
       await page.click('.action .button');
       await idle(page);
       await go(page, 'adjust');
-      assert.match(await shown(page, '.advice li, .not-used-list tbody tr, .trouble'), said, 'step 5');
+      assert.match(await shown(page, '.advice li, .not-used-list tbody tr, .notice'), said, 'step 5');
       if (shots) await page.screenshot({ path: `${shots}/${name.replaceAll(' ', '-')}-5.png` });
       await go(page, 'results');
       if (!(await page.locator('[data-result=sigma0]').count())) {
         // No result at all: then the error says it.
-        assert.match(await shown(page, '.notice, .failure, [role=alert]'), said, 'the error');
+        assert.match(await shown(page, '.notice'), said, 'the error');
         return;
       }
       assert.match(await shown(page, '.contradictions li, [data-result=not-used]'), said, 'beside sigma0');

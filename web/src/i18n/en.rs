@@ -1376,6 +1376,8 @@ declare! { errors {
     empty(what): "the project has no {what} to work on";
     initial_values(things): "initial values are missing for {things}";
     not_solved(causes): "the network cannot be solved: {causes}";
+    control_disagrees_all(disagreeing):
+        "control points {disagreeing} do not fit the photos and each other, and no others do: at least four must agree. Check coordinates, axes, unit and names; two may be exchanged";
     control_disagrees(disagreeing, n, agreeing):
         "control points {disagreeing} do not fit the photos and the other control points; {n} do ({agreeing}): at least four, and half of all, must agree. Check coordinates, axes, unit and names";
     stopped: "stopped on request";

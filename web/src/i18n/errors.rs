@@ -23,6 +23,9 @@ pub fn sentence(error: &Error) -> String {
             initial_values(things(&[(some_photos(), photos), (some_points(), points), (some_cameras(), cameras)]))
         }
         Error::RankDefect { defects } => not_solved(defects.iter().map(defect).collect::<Vec<_>>().join("; ")),
+        Error::ControlDisagrees { agreeing, disagreeing } if agreeing.is_empty() => {
+            control_disagrees_all(listed(disagreeing))
+        }
         Error::ControlDisagrees { agreeing, disagreeing } => {
             control_disagrees(listed(disagreeing), agreeing.len(), listed(agreeing))
         }

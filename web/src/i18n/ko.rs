@@ -1338,6 +1338,8 @@ translate! { Korean errors {
     empty(what): "프로젝트에 처리할 {what}{what:이|가} 없습니다";
     initial_values(things): "초기값이 없습니다: {things}";
     not_solved(causes): "망을 풀 수 없습니다: {causes}";
+    control_disagrees_all(disagreeing):
+        "기준점 {disagreeing}{disagreeing:은|는} 사진 및 서로와 맞지 않고, 맞는 기준점이 없습니다. 네 점 이상이 맞아야 합니다. 좌표, 축, 단위, 점번호를 확인하십시오. 두 점이 서로 바뀌었을 수도 있습니다";
     control_disagrees(disagreeing, n, agreeing):
         "기준점 {disagreeing}{disagreeing:은|는} 사진 및 다른 기준점과 맞지 않고, {n}점({agreeing})만 맞습니다. 네 점 이상이고 전체의 절반 이상이 맞아야 합니다. 좌표, 축, 단위, 점번호를 확인하십시오";
     stopped: "요청에 따라 중지했습니다";
