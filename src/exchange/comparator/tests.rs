@@ -106,7 +106,6 @@ fn faults_name_file_line_and_field() {
 
 #[test]
 fn numbers_beyond_all_measure_are_refused_and_no_infinity_comes_out() {
-    let wanted = import(&files(&[("camera.txt", DESCRIPTION), ("readings.csv", READINGS)])).unwrap();
     let numbers = |text: &str| text.split([' ', ',', ';', '\n']).filter(|f| text::number(f).is_some()).count();
     let mut seen = 0;
     for (which, source) in [DESCRIPTION, READINGS].into_iter().enumerate() {
@@ -129,9 +128,9 @@ fn numbers_beyond_all_measure_are_refused_and_no_infinity_comes_out() {
                     seen += 1;
                     continue;
                 };
-                // As JSON what is no finite number is null.
-                let nulls = |reduced: &Reduced| serde_json::to_string(reduced).unwrap().matches("null").count();
-                assert!(nulls(&reduced) <= nulls(&wanted) + 1, "{huge} at {place} of {which}: {reduced:?}");
+                let written = format!("{reduced:?}");
+                let infinite = written.split(|c: char| !c.is_alphanumeric()).any(|word| ["inf", "NaN"].contains(&word));
+                assert!(!infinite, "{huge} at {place} of {which}: {written}");
             }
         }
     }
