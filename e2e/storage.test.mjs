@@ -141,6 +141,14 @@ test('photos that do not fit are told, and stay in use', { timeout: 600_000 }, a
     // It stands there for as long as it is so, whatever else is told.
     await storageLine(page, '\\d photos? (is|are) not copied .*\\(no room\\).*saved with photos');
     await page.waitForFunction(() => /saved \S+( [AP]M)?, \d photos? not/.test(document.querySelector('.project span')?.textContent));
+    // What cannot be written is tried every few seconds, and takes no more room for that.
+    await room(0);
+    await rename(page, `Without room ${'x'.repeat(20_000)}`);
+    await storageLine(page, 'is full');
+    const stored = await journals(page);
+    await page.waitForTimeout(11_000);
+    await storageLine(page, 'is full');
+    assert.deepEqual(await journals(page), stored);
     await room(400_000);
     await go(page, 'targets');
     const targets = await figure(page, 'targets');

@@ -363,9 +363,13 @@ async function append({ id, note, parts, card, snapshot }, texts) {
       // Told as stored when it can be read again: another clearing may have come between.
       if (anew && (await backend.journal(id)).size !== frame.length) throw fault('GoneError', 'cleared');
     } else {
-      await project.writer.append(framed(items));
-      // After it: a writer that was passed over has thrown, and the card is the other window's.
-      await setCard();
+      const takeBack = await project.writer.append(framed(items));
+      // After it: a writer that was passed over has thrown, and the card is the other window's. Without room for the card the frame goes
+      // again: it is sent another time, and would fill what room there comes.
+      await setCard().catch(async (error) => {
+        await takeBack().catch(() => {});
+        throw error;
+      });
     }
   } catch (error) {
     // What was not written is no base of what comes next; it is sent again.

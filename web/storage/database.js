@@ -118,6 +118,14 @@ export async function database(life) {
           });
           end++;
           size += frame.length;
+          return async () => {
+            await run(['frames', 'cards'], async (frames, cards) => {
+              await mine(id, frames, cards);
+              await settled(frames.delete([id, generation, end - 1]));
+            });
+            end--;
+            size -= frame.length;
+          };
         },
         close() {},
         size: () => size,

@@ -143,6 +143,7 @@ export async function fileSystem() {
           }
           // Another window that could not wait for this one has begun a new journal, and may have read this one before the frame was here.
           if ((await generations(folder))[0] > generation) throw fault('TakenError', 'another window writes this project');
+          return async () => handle.truncate((end -= frame.length));
         },
         close: () => handle.close(),
         size: () => end,

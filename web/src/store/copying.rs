@@ -16,16 +16,18 @@ use crate::browser::storage::{Extra, Fault, LOST};
 const AGAIN_MS: f64 = 60_000.0;
 
 impl Desk {
-    /// Copies photos that are not kept yet, one after the other; then works on the copies, which nobody can unplug.
+    /// Copies photos that are not kept yet, one after the other; then works on the copies, which nobody can unplug. What was
+    /// done comes first: a photo must not take the room that it needs.
     pub(super) fn copy_photos(self) {
         let Some(storage) = self.storage() else { return };
-        if self.keeper.with_value(|keeper| keeper.copying) || self.next_to_copy().is_none() {
+        if self.unwritten() || self.keeper.with_value(|keeper| keeper.copying) || self.next_to_copy().is_none() {
             return;
         }
         self.keeper.update_value(|keeper| keeper.copying = true);
         spawn_local(async move {
             let (mut kept, mut missed) = (Vec::new(), Vec::new());
-            while let Some((key, file)) = self.next_to_copy() {
+            while self.flushed().await {
+                let Some((key, file)) = self.next_to_copy() else { break };
                 self.to_copy.set(self.left_to_copy());
                 let extras = vec![Extra::Blob(file.content.clone()), Extra::Picture(file.small.clone())];
                 let asked = Keys { keys: std::slice::from_ref(&key) };
@@ -74,19 +76,23 @@ impl Desk {
 
     /// Tries again with photos that found no room: what browsers say of free space is no guide.
     pub(super) fn copy_again(self) {
-        let missed = self.uncopied.get_untracked();
-        if !missed.is_empty() {
+        self.forget_missed();
+        self.copy_photos();
+    }
+
+    fn forget_missed(self) {
+        self.uncopied.with_untracked(|missed| {
             self.keeper.update_value(|keeper| keeper.photos.retain(|key| !missed.contains_key(key)));
-            self.copy_photos();
-        }
+        });
     }
 
     /// Something was written: after a while, or where it could not be before, there may be room for photos.
     pub(super) fn copy_after_writing(self, room_came: bool) {
         let waited = self.keeper.with_value(|keeper| page::now() - keeper.missed_at > AGAIN_MS);
         if room_came || waited {
-            self.copy_again();
+            self.forget_missed();
         }
+        self.copy_photos();
     }
 
     /// How many photos of the project are in this page alone, and why.
