@@ -72,7 +72,7 @@ export async function verb(page, name, label) {
 }
 
 /** Waits until a window has its project for itself. */
-export const owns = (page, timeout = 30_000) => page.waitForFunction(() => !/reads along/.test(document.querySelector('.project span')?.textContent), undefined, { timeout });
+export const owns = (page, timeout = 30_000) => page.waitForFunction(() => !/read-only/.test(document.querySelector('.project span')?.textContent), undefined, { timeout });
 
 /** Opens a project of the list. */
 export async function goOn(page, name) {

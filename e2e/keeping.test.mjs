@@ -127,7 +127,7 @@ test('a second window reads along, and can take over', { timeout: 300_000 }, asy
     await go(second, 'control');
     await second.fill('[name=unit]', 'm');
     await second.press('[name=unit]', 'Enter');
-    assert.match(await second.textContent('.notices'), /only reads along/);
+    assert.match(await second.textContent('.notices'), /Read-only/);
     await second.getByRole('button', { name: 'Take over' }).click();
     await page.waitForSelector('.notice:has-text("open in another window")');
     await second.waitForFunction(() => document.querySelector('.notices')?.textContent.includes('open in another window') === false);

@@ -214,7 +214,7 @@ for (const [way, address] of [['loopback', () => undefined], ['plain HTTP', plai
     const did = {};
     const count = (what) => (did[what] = (did[what] ?? 0) + 1);
     const quick = { timeout: 4000 };
-    const follows = (page) => page.evaluate(() => /reads along/.test(document.querySelector('.project span')?.textContent));
+    const follows = (page) => page.evaluate(() => /read-only/.test(document.querySelector('.project span')?.textContent));
     const isSaved = (page) => page.waitForFunction(() => /^saved \d/.test(document.querySelector('.project span')?.textContent), undefined, { timeout: 8000 });
     const rows = async (page) => (await page.$$eval('[data-project] .name', (all) => all.map((one) => one.textContent))).map((name) => [name, parsedName(name)]).filter(([, parts]) => parts && !parts[3]);
     const toStart = async (page) => {

@@ -134,7 +134,7 @@ for (const [way, address] of WAYS) {
       await rename(page, '1234.567');
       await second.waitForFunction(() => document.querySelector('.project-name')?.value === '1234.567');
       await rename(second, '9876.543');
-      assert.match(await second.textContent('.notices'), /only reads along/);
+      assert.match(await second.textContent('.notices'), /Read-only/);
       await rename(page, '1234.568');
       await written(page);
       for (let round = 0; round < 6; round++) {

@@ -257,6 +257,7 @@ async function open({ id }, _, taken) {
     }
     contents = gathered(journal.items);
   } catch (error) {
+    if (error.name === 'DamagedError' && release) await backend.putAside(id).catch(() => {});
     release?.();
     throw error;
   }

@@ -140,15 +140,16 @@ export async function database(life) {
       }),
     putAside: (id, generation) =>
       run(['frames', 'cards'], async (frames, cards) => {
-        const records = await settled(frames.getAll(range(id, generation)));
-        await settled(cards.put(joined(records), ['damaged', id, Date.now()]));
+        const journal = joined(await settled(frames.getAll(range(id, generation))));
+        const put = await settled(cards.getAll(IDBKeyRange.bound(['damaged', id], ['damaged', id, []])));
+        if (!put.some(({ size }) => size === journal.size)) await settled(cards.put(journal, ['damaged', id, Date.now()]));
       }),
     asides: async (id) => (await run('cards', (cards) => settled(cards.getAllKeys(IDBKeyRange.bound(['damaged', id], ['damaged', id, []]))))).length,
     async aside(id) {
       const put = await run('cards', (cards) => settled(cards.getAll(IDBKeyRange.bound(['damaged', id], ['damaged', id, []]))));
       const records = await run('frames', (frames) => settled(frames.getAll(range(id))));
       const unread = records.length > 0 && records.every((record) => unframed(record).frames.length === 0);
-      return unread ? [...put, joined(records)] : put;
+      return unread && put.length === 0 ? [joined(records)] : put;
     },
     card: (id) => run('cards', (cards) => settled(cards.get(id))),
     /** Of a project that is there and that this worker holds: a card makes none. */

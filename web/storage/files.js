@@ -156,17 +156,19 @@ export async function fileSystem() {
       for (const old of await generations(folder)) if (old < generation) await drop(folder, `journal-${old}`);
       return frame.length;
     },
-    /** A copy of a damaged journal, for the person to download. */
+    /** A copy of a damaged journal, for the person to download; one of it, however often it is opened. */
     async putAside(id, generation) {
       const folder = await projects.getDirectoryHandle(id);
-      await write(folder, `damaged-${Date.now()}`, await bytes(folder, `journal-${generation}`));
+      const journal = await bytes(folder, `journal-${generation ?? (await generations(folder))[0]}`);
+      for (const name of await names(folder)) if (name.startsWith('damaged-') && (await file(folder, name)).size === journal.length) return;
+      await write(folder, `damaged-${Date.now()}`, journal);
     },
     asides: async (id) => (await names(await projects.getDirectoryHandle(id))).filter((name) => name.startsWith('damaged-')).length,
     /** Damaged journals: those that were put aside, and those of which nothing can be read. */
     async aside(id) {
       const folder = await projects.getDirectoryHandle(id);
       const all = (await names(folder)).filter((name) => name.startsWith('damaged-')).sort();
-      for (const generation of await generations(folder)) {
+      for (const generation of all.length > 0 ? [] : await generations(folder)) {
         const content = await bytes(folder, `journal-${generation}`);
         if (content.length > 0 && unframed(content).frames.length === 0) all.push(`journal-${generation}`);
       }

@@ -10,7 +10,7 @@ const MOST_NAMES = 500;
  */
 export function words(draw, { scene, options, order, quick, screen, camera, perPixel, width, height, family }) {
   const shown = [];
-  const [ink, quiet, paper, accent] = ['--ink', '--ink-2', '--paper', '--accent'].map(token);
+  const [ink, quiet, paper, accent, warn] = ['--ink', '--ink-2', '--paper', '--accent', '--warn'].map(token);
   const taken = [];
   const cells = new Map();
   const free = (x, y, w, h) => {
@@ -63,11 +63,9 @@ export function words(draw, { scene, options, order, quick, screen, camera, perP
     const place = k !== options.selected && at(k);
     if (place) ring(place, 6);
   }
-  if (options.features) {
-    for (const { words, place, chosen } of scene.labels) {
-      const where = screen(...place);
-      if (where) say(words, where[0] + 6, where[1] - 6, { bold: true, colour: chosen ? accent : ink });
-    }
+  for (const { words, place, chosen, warning } of scene.labels) {
+    const where = (options.features || warning) && screen(...place);
+    if (where) say(words, where[0] + 6, where[1] - 6, { bold: true, colour: warning ? warn : chosen ? accent : ink, must: warning });
   }
   if (options.photos && !quick) {
     for (let k = 0; k < scene.photos.length / 15; k++) {

@@ -165,7 +165,7 @@ declare! {
     point: "point";
     weaknesses: "What the network is weak in";
     no_weakness: "Nothing in the network was found weak.";
-    weak_correlation(camera, first, second, r): "Camera {camera}: {first} and {second} are hardly told apart (correlation {r}).";
+    weak_correlation(camera, first, second, r): "Camera {camera}: {first} and {second} are strongly correlated (correlation {r}).";
     weak_redundancy(n): "{n} {n:observation is|observations are} hardly checked by others.";
     weak_two_rays(n, points): "{n} {n:point has|points have} two rays only ({points}): an error along the epipolar line stays unseen.";
     weak_narrow(n, points): "The rays of {n} {n:point|points} meet under a narrow angle ({points}).";

@@ -23,7 +23,7 @@ pub struct Scene {
     pub names: Vec<String>,
     /// Three a point.
     pub points: Vec<f32>,
-    /// 0 tie, 1 control, 2 check; 4 more where it is in doubt.
+    /// 0 tie, 1 control, 2 check; 4 more where it has fewer than three rays or something of it was not used.
     pub roles: Vec<u8>,
     /// Nine a point, columns; empty without covariances.
     pub ellipsoids: Vec<f32>,
@@ -56,12 +56,13 @@ pub struct Scene {
     pub grid: f64,
 }
 
-/// A feature's name at its place.
+/// A name at its place: of a feature, or of control that was not used, which is always shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
     pub words: String,
     pub place: [f32; 3],
     pub chosen: bool,
+    pub warning: bool,
 }
 
 /// How it is looked at.
@@ -154,6 +155,7 @@ impl View {
             set(&one, "words", &label.words.as_str().into());
             set(&one, "place", &Array::from(&Float32Array::from(label.place.as_slice())));
             set(&one, "chosen", &label.chosen.into());
+            set(&one, "warning", &label.warning.into());
             JsValue::from(one)
         });
         set(&object, "labels", &labels.collect::<Array>());

@@ -359,11 +359,11 @@ declare! { desk {
     open_project: "Open project…";
     opening_project: "Opening the project";
     open_sample: "Open the sample project";
-    sample_words: "A panel with coded and plain targets, photographed by the engine itself. Opens adjusted in one click.";
+    sample_words: "A panel with coded and plain targets in computer-generated photos. Opens adjusted in one click.";
     sample_name: "Sample";
     opening_sample: "Rendering, measuring and adjusting the sample";
     busy: "Wait for the work under way to end, or cancel it first.";
-    waits_at_identities(file): "{file} holds marks and waits under Identities.";
+    waits_at_identities(file): "{file} holds image measurements and waits under Point names.";
     waits_at_control(file): "{file} holds control points and waits under Control, scale.";
     marks_or_control(file): "{file} can be read as marks (photo, point, u, v) or as control points (id, X, Y, Z). Which is it?";
     is_empty: "the file is empty";
@@ -398,8 +398,8 @@ declare! { desk {
     column_changed: "changed";
     open_now: "open";
     without_name: "Project without a name";
-    go_on: "Go on";
-    go_on_with(name): "Go on with {name}";
+    go_on: "Open";
+    go_on_with(name): "Open {name}";
     more_with(name): "More for {name}";
     rename_project: "Rename";
     duplicate: "Duplicate";
@@ -409,11 +409,11 @@ declare! { desk {
     deleted(name): "{name} was deleted.";
     writing: "saving…";
     not_written: "not saved: see below";
-    following: "reads along, open elsewhere";
+    following: "read-only, open in another window";
     copying_photos(n): "copying photos, {n} left";
     open_elsewhere: "This project is open in another window. What is done there is seen here; to work here, take it over.";
     take_over: "Take over";
-    reads_along: "This window only reads along: take the project over to change it.";
+    reads_along: "Read-only: the project is open in another window. Take it over to change it.";
     other_is_kept(name): "{name} is kept on this computer; the start page has it.";
     held_elsewhere: "The project is open in another window. Do this there, or close that window first.";
     kept_as_copy(name, copy): "Another window took {name} over before the last changes here were stored. They are kept as a project of its own, {copy}.";
@@ -438,7 +438,7 @@ declare! { desk {
     photos_not_copied(n, detail):
         "{n} {n:photo is|photos are} not copied into the browser's storage ({detail}). They are needed again when the project is reopened, unless it is saved with photos.";
     no_room: "no room";
-    kept_unreadable(detail): "What is stored could not be read ({detail}). Nothing of it was deleted.";
+    kept_unreadable(detail): "What is stored could not be read ({detail}). Nothing of it was deleted. If it is damaged, the start page offers the damaged file for download.";
     kept_by_newer(version): "A newer version of Sightline stored this project (format {version}). Reload the page to get that version.";
     storage_cleared(n): "The browser has cleared its storage: {n} {n:project is|projects are} gone from this list. Open them from their saved files.";
     cleared_under_page: "The browser cleared its storage while this page was open. The project is stored again as it is here, photos and all; other projects are gone. Save it as a file too: what was cleared once may be cleared again.";
@@ -459,9 +459,9 @@ declare! { desk {
     take_update: "Reload with it";
 
     // Identities
-    identities: "Identities";
+    identities: "Point names";
     identities_sentence(named, points, single):
-        "{named} {named:observation|observations} of {points} {points:point|points}; {single} {single:point|points} seen only once.";
+        "{named} {named:observation|observations} of {points} {points:point|points}; {single} {single:point|points} in one photo only.";
     open_marks: "Open marks…";
     match_uncoded: "Match uncoded targets";
     matching: "Matching";
@@ -480,7 +480,7 @@ declare! { desk {
     doubt_code_unclear(photo): "code not clear in photo {photo}";
     doubt_ambiguous(photo): "fits more than one way in photo {photo}";
     doubt_disagrees(photo): "disagrees with the other rays in photo {photo}";
-    one_ray: "seen in one photo only";
+    one_ray: "in one photo only";
     no_ray: "not measured";
     points: "Points";
     point: "Point";
@@ -492,7 +492,7 @@ declare! { desk {
     marks: "Marks";
     snap_radius: "snap radius";
     snapped_sentence(good, all): "{good} of {all} {all:mark|marks} lie at a measured centre.";
-    take_marks(n): "Take {n}";
+    take_marks(n): "Import {n} {n:measurement|measurements}";
     why_not: "not taken because";
     unsnapped_no_detection: "no targets were detected in this photo";
     unsnapped_no_target: "no target within the radius";
@@ -511,7 +511,7 @@ declare! { desk {
     rename_where: "renames";
     in_all_photos(n): "in all {n} {n:photo|photos}";
     in_this_photo(photo): "in photo {photo} only";
-    rename_says(n): "A new name goes to the point in all its {n} {n:photo|photos}; the name of another point joins the two.";
+    rename_says(n): "Renames the point in all its {n} {n:photo|photos}. The name of an existing point merges both points.";
     rename_here_says(photo): "Only what photo {photo} shows gets the new name; the other photos keep theirs.";
     point_renamed(from, to, n): "Point {from} is now {to}, in {n} {n:photo|photos}.";
     points_joined(from, to, n): "Points {from} and {to} are one now: {to}, in {n} {n:photo|photos}.";
@@ -558,13 +558,13 @@ declare! { desk {
     // Keys
     keys_title: "Keys";
     keys_note: "Keys rest while something is typed.";
-    single_keys: "keys of a single letter";
+    single_keys: "single-letter shortcuts";
     close: "Close";
     keys_everywhere: "Everywhere";
     keys_measuring: "Measuring";
     keys_in_photo: "In the photo";
     keys_in_tables: "In tables";
-    key_escape: "take back what is chosen or asked";
+    key_escape: "clear selection or question";
     key_yes: "yes: take the target that is asked for";
     key_no: "no; or the next photo of the point";
     key_doubtful: "next doubtful";
@@ -626,7 +626,7 @@ declare! { desk {
     nearest_none: "No adjusted point lies so near to a given one.";
     paste_cells: "Paste rows here (Ctrl+V)";
     plan_counts(good, bad, lost): "{good} {good:cell|cells} to change, {bad} refused, {lost} {lost:line|lines} without a row";
-    take_changes: "Take the changes";
+    take_changes: "Apply";
     value_of_cell: "Value of the cell";
     refused_no_row: "There is no such row any more.";
     refused_not_editable: "This column cannot be changed.";
@@ -660,15 +660,15 @@ declare! { desk {
     paste_control: "Paste rows here: id, X, Y, Z, sX, sY, sZ";
     pasted: "Control points, pasted";
     rows_read(all, bad): "{all} rows read, {bad} not understood";
-    take_points(n): "Take {n}";
+    take_points(n): "Import {n} {n:point|points}";
     measured: "measured";
     not_measured: "not measured in any photo";
     fixed: "fixed";
     distances: "Distances";
     distance_same_point: "A distance needs two different points.";
     distance_no_point: "Both ends must be points of this project.";
-    distance_length: "The length must be a positive number.";
-    distance_sigma: "The standard error must be a positive number.";
+    distance_length: "Enter the length as a positive number, e.g. 1250.4.";
+    distance_sigma: "Enter the standard error of this length as a positive number, e.g. 0.02.";
     add_distance: "Add";
     remove_distance: "Remove the distance";
     from_point: "from";
@@ -709,7 +709,7 @@ declare! { desk {
     datum_control: "Control points";
     datum_control_means: "The result sits in the control system, and errors of control enter the shape.";
     datum_minimal: "Minimal constraints";
-    datum_minimal_means: "Seven coordinates are held: no strain on the shape, but sigmas depend on which seven.";
+    datum_minimal_means: "Seven coordinates are held: fixes position, rotation and scale only. Standard errors depend on which seven.";
     datum_free: "Free network";
     datum_free_means: "Inner constraints over all points give the smallest mean sigma; control only gives the start.";
 
@@ -757,7 +757,7 @@ declare! { desk {
     sigmas_optimistic_body:
         "σ₀ should be 1. Something that is not modelled is left in the residuals (flatness of targets, light, lens), or the sigmas are too hopeful. Sigmas of the result include σ₀.";
     more_notes(n): "{n} {n:more measurement disagrees|more measurements disagree} with the orientation";
-    what_lacks: "What the network lacks";
+    what_lacks: "Warnings and advice";
     hold(name): "Hold {name}";
     lacks_control: "Give at least three control points, or choose another datum";
     lacks_control_body: "The control datum takes position, attitude and scale from known points that do not lie on one line.";
@@ -937,7 +937,7 @@ declare! { desk {
     change_photos_attached(n): "files of {n} {n:photo|photos} attached";
     change_photos_replaced(n): "{n} {n:photo|photos} replaced";
     change_opened: "project opened";
-    unmodelled: "not modelled, px";
+    unmodelled: "extra image error, px";
     unmodelled_why: "added in quadrature to every σ of the image: lens, flatness of targets, light";
     target_diameter(unit): "target diameter, {unit}";
     target_diameter_why:
@@ -1009,12 +1009,12 @@ declare! { desk {
     camera_parameter: "camera parameter";
     unmodelled_again: "What is not modelled can be told more closely now";
     unmodelled_again_body: "The value was found with other weights; with these the residuals ask for this one.";
-    add_unmodelled(px): "Take {px} px and adjust";
-    correlated(first, second): "{first} and {second} are hardly told apart";
+    add_unmodelled(px): "Use {px} px and readjust";
+    correlated(first, second): "{first} and {second} are strongly correlated";
     correlated_body(camera): "Camera {camera}: hold one of them, or add rolled photos and depth.";
-    camera_against_photos(n): "In {n} {n:photo|photos} the camera is hardly told apart from their orientation";
+    camera_against_photos(n): "Camera and photo positions cannot be separated well in {n} {n:photo|photos}";
     camera_against_photos_body(limit, photos):
-        "Correlations over {limit}. Coordinates suffer little as long as the camera is used as adjusted; rolled photos and depth would part them ({photos}).";
+        "Correlations over {limit}. Coordinates suffer little as long as the camera is used as adjusted; take photos rotated by 90° and from different distances ({photos}).";
     low_redundancy(n): "{n} {n:observation is|observations are} hardly checked by others";
     low_redundancy_body(names): "Redundancy numbers below 0.1: an error there would stay unseen ({names}).";
     two_rays(points): "Measure in a third photo: {points}";
@@ -1110,7 +1110,7 @@ declare! { experiments {
     plates_files: "Readings from files…";
     plates_scans: "Measured in the scans";
     plates_scans_words:
-        "In scanned photos: point at marks and points under Targets, name the marks as above under Identities, then return here.";
+        "In scanned photos: point at marks and points under Targets, name the marks as above under Point names, then return here.";
     plates_reduced(photos, observations):
         "{photos} {photos:photo|photos} reduced, {observations} {observations:observation|observations}.";
 

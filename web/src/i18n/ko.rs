@@ -350,11 +350,11 @@ translate! { Korean desk {
     open_project: "프로젝트 열기…";
     opening_project: "프로젝트 여는 중";
     open_sample: "예제 프로젝트 열기";
-    sample_words: "엔진이 스스로 촬영한, 코드 표적과 일반 표적이 있는 패널. 한 번 눌러 조정된 상태로 엽니다.";
+    sample_words: "코드 표적과 일반 표적이 있는 패널의 컴퓨터 생성 사진. 한 번 눌러 조정된 상태로 엽니다.";
     sample_name: "예제";
     opening_sample: "예제 촬영·측정·조정 중";
     busy: "진행 중인 작업이 끝날 때까지 기다리거나 먼저 취소하십시오.";
-    waits_at_identities(file): "{file}: 측정점 파일입니다. 점 식별 단계에서 확인하십시오.";
+    waits_at_identities(file): "{file}: 측정점 파일입니다. 점 이름 단계에서 확인하십시오.";
     waits_at_control(file): "{file}: 기준점 파일입니다. 기준점·축척 단계에서 확인하십시오.";
     marks_or_control(file): "{file}{file:은|는} 측정점(사진, 점, u, v)으로도 기준점(점번호, X, Y, Z)으로도 읽을 수 있습니다. 어느 쪽입니까?";
     is_empty: "빈 파일입니다";
@@ -389,8 +389,8 @@ translate! { Korean desk {
     column_changed: "변경";
     open_now: "열려 있음";
     without_name: "이름 없는 프로젝트";
-    go_on: "계속";
-    go_on_with(name): "계속: {name}";
+    go_on: "열기";
+    go_on_with(name): "열기: {name}";
     more_with(name): "더 보기: {name}";
     rename_project: "이름 바꾸기";
     duplicate: "복제";
@@ -429,7 +429,7 @@ translate! { Korean desk {
     photos_not_copied(n, detail):
         "사진 {n}매를 브라우저 저장소에 복사하지 못했습니다({detail}). 사진과 함께 저장하지 않으면 프로젝트를 다시 열 때 사진이 필요합니다.";
     no_room: "공간 부족";
-    kept_unreadable(detail): "보관된 내용을 읽지 못했습니다({detail}). 삭제된 것은 없습니다.";
+    kept_unreadable(detail): "보관된 내용을 읽지 못했습니다({detail}). 삭제된 것은 없습니다. 손상된 경우 시작 화면에서 손상된 파일을 내려받을 수 있습니다.";
     kept_by_newer(version): "더 새로운 Sightline에서 보관한 프로젝트입니다(형식 {version}). 페이지를 새로 고쳐 그 버전을 받으십시오.";
     storage_cleared(n): "브라우저가 저장소를 비웠습니다. 프로젝트 {n}개가 목록에서 사라졌습니다. 저장한 파일에서 여십시오.";
     cleared_under_page: "페이지가 열려 있는 동안 브라우저가 저장소를 비웠습니다. 이 프로젝트는 사진까지 지금 상태로 다시 보관했으며, 다른 프로젝트는 사라졌습니다. 저장소는 다시 비워질 수 있으니 파일로도 저장하십시오.";
@@ -450,7 +450,7 @@ translate! { Korean desk {
     take_update: "새 버전으로 다시 읽기";
 
     // Identities
-    identities: "점 식별";
+    identities: "점 이름";
     identities_sentence(named, points, single): "점 {points}개에 관측 {named}개. 한 사진에만 있는 점 {single}개.";
     open_marks: "측정점 파일 열기…";
     match_uncoded: "비코드 표적 정합";
@@ -655,8 +655,8 @@ translate! { Korean desk {
     distances: "거리";
     distance_same_point: "거리에는 서로 다른 두 점이 필요합니다.";
     distance_no_point: "양 끝은 이 프로젝트의 점이어야 합니다.";
-    distance_length: "길이는 양수여야 합니다.";
-    distance_sigma: "표준오차는 양수여야 합니다.";
+    distance_length: "길이를 양수로 입력하십시오. 예: 1250.4";
+    distance_sigma: "이 길이의 표준오차를 양수로 입력하십시오. 예: 0.02";
     add_distance: "추가";
     remove_distance: "거리 지우기";
     from_point: "시점";
@@ -736,14 +736,14 @@ translate! { Korean desk {
     damping: "감쇠";
     converged: "보정량이 한계 미만으로 수렴했습니다.";
     iteration_limit: "최대 반복 횟수에 이르렀으나 수렴하지 않았습니다. 표시된 값은 해가 아닙니다.";
-    diverged: "잔차를 줄이는 보정이 없었습니다. 점 식별, 기준점, 초기값을 확인하십시오.";
+    diverged: "잔차를 줄이는 보정이 없었습니다. 점 이름, 기준점, 초기값을 확인하십시오.";
     stopped: "요청에 따라 중지했습니다.";
 
     // Advice
     sigmas_optimistic(sigma0): "사진좌표 표준오차가 {sigma0}배만큼 작게 주어졌습니다";
     sigmas_optimistic_body: "σ₀는 1이어야 합니다. 잔차에 모형화되지 않은 영향(표적의 평탄도, 조명, 렌즈)이 남았거나 표준오차가 너무 작습니다. 결과의 표준오차에는 σ₀가 들어 있습니다.";
     more_notes(n): "표정과 맞지 않는 측정 {n}개 더 있음";
-    what_lacks: "망에 부족한 것";
+    what_lacks: "경고와 권고";
     hold(name): "{name} 고정";
     lacks_control: "기준점을 셋 이상 주거나 다른 기준계를 고르십시오";
     lacks_control_body: "기준점 기준계는 한 직선 위에 있지 않은 알려진 점에서 위치, 자세, 축척을 얻습니다.";
@@ -912,7 +912,7 @@ translate! { Korean desk {
     change_photos_attached(n): "사진 {n}매의 파일 연결";
     change_photos_replaced(n): "사진 {n}매 교체";
     change_opened: "프로젝트 열기";
-    unmodelled: "모형화되지 않은 오차, px";
+    unmodelled: "추가 사진좌표 오차, px";
     unmodelled_why: "렌즈, 표적 평탄도, 조명의 영향. 사진좌표의 각 σ에 제곱합으로 더합니다";
     target_diameter(unit): "표적 지름, {unit}";
     target_diameter_why: "지름이 따로 주어지지 않은 모든 원형 표적에 적용하여 편심을 보정합니다. 비워 두면 보정하지 않습니다";
@@ -984,9 +984,9 @@ translate! { Korean desk {
     unmodelled_again: "모형화되지 않은 오차를 이제 더 정확히 정할 수 있습니다";
     unmodelled_again_body: "앞의 값은 다른 가중값에서 구한 것입니다. 지금 가중값의 잔차로는 이 값이 맞습니다.";
     add_unmodelled(px): "{px} px로 조정";
-    correlated(first, second): "{first}{first:과|와} {second}{second:이|가} 거의 구분되지 않습니다";
+    correlated(first, second): "{first}{first:과|와} {second}의 상관이 매우 높습니다";
     correlated_body(camera): "카메라 {camera}: 하나를 고정하거나 회전 촬영과 깊이 변화를 더하십시오.";
-    camera_against_photos(n): "사진 {n}매에서 카메라 매개변수와 외부표정요소가 거의 구분되지 않습니다";
+    camera_against_photos(n): "사진 {n}매에서 카메라 매개변수와 외부표정요소가 잘 분리되지 않습니다";
     camera_against_photos_body(limit, photos): "상관계수가 {limit}{limit:을|를} 넘습니다. 조정된 카메라를 그대로 쓰면 좌표에는 영향이 작으며, 회전 촬영과 깊이 변화로 분리됩니다({photos}).";
     low_redundancy(n): "다른 관측으로 거의 점검되지 않는 관측 {n}개";
     low_redundancy_body(names): "여유수가 0.1 미만이어서 오차가 있어도 드러나지 않습니다({names}).";

@@ -499,6 +499,8 @@ impl Desk {
         match restored {
             Ok(()) => true,
             Err(fault) => {
+                // A damaged journal was put aside: the list offers it.
+                self.read_shelf();
                 self.say(true, Until::NextWork, move || match fault.name.as_str() {
                     "VersionError" => text::kept_by_newer(&fault.detail),
                     _ => text::kept_unreadable(format!("{}: {}", fault.name, fault.detail)),

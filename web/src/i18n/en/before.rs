@@ -70,7 +70,7 @@ declare! { printing {
 
 declare! { planning {
     plan: "Plan";
-    plan_words: "Stations on paper, accuracy predicted before the photos: the same computation as the adjustment. Offline.";
+    plan_words: "Plan camera positions and see the expected accuracy before taking photos. Works offline.";
     plan_sentence: "Accuracy predicted before the photos, by the equations of the adjustment.";
     begin_with: "Begin a plan";
     begin_words: "With targets on a simple form, with what the project has measured, or with a paper's network.";
@@ -136,7 +136,7 @@ declare! { planning {
     facing_outward: "away from the middle";
     facing_own: "each its own way";
     not_known: "not known";
-    hiding_faces: "What hides";
+    hiding_faces: "Obstacles";
     face_hint: "three corners: x, y, z, x, y, z, x, y, z";
     control_points: "Control points";
     control_sigma: "Their σ";
@@ -177,7 +177,7 @@ declare! { planning {
     ended_time: "What is wanted was not reached in the time of the search. Add photos by hand, or go on from this plan.";
     two_rays(points): "Only two rays, where an error stays unseen: {points}.";
     narrow(points): "Rays meet under less than 5°: {points}.";
-    correlated(first, second, value): "{first} and {second} are hardly told apart (correlation {value}): roll some photos by 90°, or photograph from more sides.";
+    correlated(first, second, value): "{first} and {second} are strongly correlated (correlation {value}): roll some photos by 90°, or photograph from more sides.";
     weak_distance(parameter, sigma): "{parameter} is weak (σ {sigma}): convergent photos, or an object with depth, are needed.";
     next_photo: "Where should the next photo be?";
     criterion: "by";

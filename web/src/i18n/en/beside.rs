@@ -43,7 +43,7 @@ declare! { equipment {
     equipment_words: "Calibrated cameras and certified scale bars, kept on this computer and in a file, offered where photos show them.";
     sentence(cameras, calibrations, bars):
         "{cameras} {cameras:camera|cameras} with {calibrations} {calibrations:calibration|calibrations}, {bars} scale {bars:bar|bars}.";
-    import_file: "Take in a file";
+    import_file: "Import a file";
     export_file: "Save as a file";
     kept_cameras: "Cameras";
     kept_bars: "Scale bars";

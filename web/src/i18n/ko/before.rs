@@ -69,7 +69,7 @@ translate! { Korean printing {
 
 translate! { Korean planning {
     plan: "촬영 계획";
-    plan_words: "촬영점을 종이 위에 놓고 촬영 전에 정확도를 예측합니다. 광속조정과 같은 계산이며 오프라인에서도 됩니다.";
+    plan_words: "촬영 위치를 계획하고 촬영 전에 예상 정확도를 확인합니다. 오프라인에서도 됩니다.";
     plan_sentence: "광속조정의 방정식으로 촬영 전에 정확도를 예측합니다.";
     begin_with: "계획 시작";
     begin_words: "단순한 형상의 표적, 프로젝트에서 측정한 점, 또는 논문의 망에서 시작합니다.";
@@ -135,7 +135,7 @@ translate! { Korean planning {
     facing_outward: "중심에서 바깥쪽";
     facing_own: "점마다 다름";
     not_known: "모름";
-    hiding_faces: "가리는 면";
+    hiding_faces: "장애물";
     face_hint: "세 모서리: x, y, z, x, y, z, x, y, z";
     control_points: "기준점";
     control_sigma: "기준점 σ";

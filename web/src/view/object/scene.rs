@@ -1,13 +1,14 @@
 //! What the 3-D view is given: the points, photos, lines and features of a result about the middle of the object.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
-use sightline::adjustment::{MeasuredFeature, Quantity};
+use sightline::adjustment::{LeftOutKind, MeasuredFeature, Quantity};
 use sightline::depiction::{drawn, ellipsoid, exaggeration, extent, frustum, round};
 use sightline::project::{Project, Role};
 
 use crate::browser::object::{Label, Scene, numbered};
 use crate::format;
+use crate::i18n::text;
 use crate::store::document::Outcome;
 use crate::view::results::units::unit_of;
 
@@ -24,6 +25,7 @@ pub fn scene(result: &Outcome, project: &Project, chosen: Option<&str>) -> Scene
     };
     scene.grid = round(size / 8.0);
     let roles: HashMap<&str, Role> = project.points.iter().map(|p| (p.id.as_str(), p.role)).collect();
+    let not_used: HashSet<&str> = adjustment.left_out.iter().filter_map(|item| item.point.as_deref()).collect();
     let known = adjustment.points.iter().all(|p| p.covariance.is_some());
     for point in &adjustment.points {
         scene.names.push(point.id.clone());
@@ -33,8 +35,9 @@ pub fn scene(result: &Outcome, project: &Project, chosen: Option<&str>) -> Scene
             Role::Control => 1,
             Role::Check => 2,
         };
-        // Two rays see no gross error along the epipolar line.
-        scene.roles.push(role | if point.rays < 3 { 4 } else { 0 });
+        // Two rays see no gross error along the epipolar line; of the others something was not used.
+        let doubtful = point.rays < 3 || not_used.contains(point.id.as_str());
+        scene.roles.push(role | if doubtful { 4 } else { 0 });
         if let Some(covariance) = point.covariance.filter(|_| known) {
             scene.ellipsoids.extend(ellipsoid(covariance).iter().map(|x| *x as f32));
         }
@@ -67,6 +70,15 @@ pub fn scene(result: &Outcome, project: &Project, chosen: Option<&str>) -> Scene
         scene.ray_start.push(scene.ray_photos.len() as u32);
     }
     let at = |id: &str| number.get(id).map(|k| about(adjustment.points[*k].xyz));
+    for item in adjustment.left_out.iter().filter(|item| item.kind == LeftOutKind::Control && item.given.is_none()) {
+        let point = item.point.as_deref().and_then(|id| project.points.iter().find(|p| p.id == id));
+        if let Some((id, given)) = point.and_then(|p| Some((&p.id, p.xyz?))) {
+            // Where the photos see it, or else where it was given.
+            let words = format!("{id}: {}", text::not_used_cell());
+            let place = at(id).unwrap_or_else(|| about(given));
+            scene.labels.push(Label { words, place, chosen: false, warning: true });
+        }
+    }
     let colours: HashMap<&str, [u8; 3]> = project.layers.iter().map(|l| (l.id.as_str(), l.colour)).collect();
     for line in &project.lines {
         if let (Some(from), Some(to)) = (at(&line.from), at(&line.to)) {
@@ -83,7 +95,12 @@ pub fn scene(result: &Outcome, project: &Project, chosen: Option<&str>) -> Scene
                 distance.to,
                 format::fixed(distance.length, format::decimals_for(distance.sigma))
             );
-            scene.labels.push(Label { words, place: std::array::from_fn(|k| 0.5 * (from[k] + to[k])), chosen: false });
+            scene.labels.push(Label {
+                words,
+                place: std::array::from_fn(|k| 0.5 * (from[k] + to[k])),
+                chosen: false,
+                warning: false,
+            });
         }
     }
     let mut differences = |id: &str, difference: [f64; 3]| {
@@ -154,7 +171,7 @@ fn feature_drawn(scene: &mut Scene, feature: &MeasuredFeature, points: &[[f64; 3
         format!("  {}{}", format::fixed(shown(value), decimals), if angle { "°" } else { "" })
     });
     let words = format!("{}{}", feature.id, shown.unwrap_or_default());
-    scene.labels.push(Label { words, place: about(place), chosen });
+    scene.labels.push(Label { words, place: about(place), chosen, warning: false });
 }
 
 /// Deviations of a feature's points as vectors across the form.
