@@ -274,7 +274,7 @@ fn against_random(seed: u64, plans: usize) -> (usize, Option<usize>) {
 
 #[test]
 fn a_plan_made_needs_no_more_photos_than_random_ones() {
-    for &seed in extent::of(&[1, 0], 1) {
+    for &seed in extent::of(&[0, 1], 1) {
         let (own, fewest) = against_random(seed, extent::cases(60, 150));
         assert!(fewest.is_none_or(|fewest| own <= fewest + 1), "case {seed}: {own}, {fewest:?}");
     }
