@@ -3,12 +3,13 @@
 //! The rooms, each using only those before it: `linear` (tiles and small factors), `problem` (the numbered document, its
 //! values, what is known of it beforehand), `equations` (collinearity, Schur complement, ordering), `datum`, `statistics`
 //! (cofactors), `diagnosis` (rank defect, advice), `solve` (iteration, session), `gross_errors` (snooping, robust weights),
-//! `variance_components`, `report` and `outside` (what took no part).
+//! `variance_components`, `report`, `outside` (what took no part) and `inside` (equations and iterations laid open).
 
 mod datum;
 mod diagnosis;
 mod equations;
 mod gross_errors;
+mod inside;
 mod linear;
 mod outside;
 mod problem;
@@ -39,6 +40,10 @@ use problem::{eccentric, far_points, unmodelled};
 use report::result::Solved;
 use solve::session::{Log, RobustVariance, Session};
 
+pub use inside::linear_system::{Equation, LinearSystem, Unknown, UnknownKind, linearise};
+pub use inside::normal_equations::{Block, BlockKind, FillIn, Motion, NormalEquations, Reduced, normal_equations};
+pub use inside::sparse::{SparseMatrix, npy};
+pub use inside::stepping::{Adjuster, StepState, start_adjustment};
 pub use problem::unmodelled::estimate as unmodelled;
 
 /// Adjusts the project; `on_iteration` sees every iteration and stops the work by returning false.

@@ -10,12 +10,14 @@
 mod brown;
 mod colours;
 mod opencv;
+mod units;
 
 use nalgebra::Vector3;
 
 pub use brown::Brown;
 pub use colours::colour_differences;
 pub use opencv::Opencv;
+pub use units::{parameter_unit, photo_unit};
 
 use crate::adjustment::ResidualPlace;
 use crate::project::{Camera, Interior};

@@ -326,6 +326,76 @@ pub fn adjust_project(
     }
 }
 
+/// The linearised observation equations of a project at its present values.
+#[wasm_bindgen(unchecked_return_type = "LinearSystem")]
+pub fn linearise(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "AdjustOptions")] options: JsValue,
+) -> Thrown {
+    let found = || adjust::linearise(&value::project(&project)?, &value::options(&options, &[])?);
+    found().map(|system| value::write(&system)).map_err(|error| thrown(&error))
+}
+
+/// The normal equations of a project at its present values, before and after the points are eliminated.
+#[wasm_bindgen(js_name = normalEquations, unchecked_return_type = "NormalEquations")]
+pub fn normal_equations(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "AdjustOptions")] options: JsValue,
+) -> Thrown {
+    let found = || adjust::normal_equations(&value::project(&project)?, &value::options(&options, &[])?);
+    found().map(|equations| value::write(&equations)).map_err(|error| thrown(&error))
+}
+
+/// A matrix of [`linearise`] or [`normal_equations`] in the Matrix Market format.
+#[wasm_bindgen(js_name = matrixMarket)]
+pub fn matrix_market(
+    #[wasm_bindgen(unchecked_param_type = "SparseMatrix")] matrix: JsValue,
+) -> Result<String, JsValue> {
+    let matrix: sightline::Result<adjust::SparseMatrix> = value::read(&matrix, "matrix");
+    matrix.map(|matrix| matrix.matrix_market()).map_err(|error| thrown(&error))
+}
+
+/// An adjustment that is run step by step.
+#[wasm_bindgen]
+pub struct Adjuster(adjust::Adjuster);
+
+/// Begins an adjustment at the project's values.
+#[wasm_bindgen(js_name = startAdjustment)]
+pub fn start_adjustment(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "AdjustOptions")] options: JsValue,
+) -> Result<Adjuster, JsValue> {
+    let begun = || adjust::start_adjustment(&value::project(&project)?, &value::options(&options, &[])?);
+    begun().map(Adjuster).map_err(|error| thrown(&error))
+}
+
+#[wasm_bindgen]
+impl Adjuster {
+    /// Takes one step and gives the state after it; nothing changes after the last one.
+    #[wasm_bindgen(unchecked_return_type = "StepState")]
+    pub fn step(&mut self) -> Thrown {
+        self.0.step().map(|state| value::write(state)).map_err(|error| thrown(&error))
+    }
+
+    /// Goes back by one step and gives the state before it; stays at the initial values.
+    #[wasm_bindgen(unchecked_return_type = "StepState")]
+    pub fn back(&mut self) -> JsValue {
+        value::write(self.0.back())
+    }
+
+    /// The present state.
+    #[wasm_bindgen(unchecked_return_type = "StepState")]
+    pub fn state(&self) -> JsValue {
+        value::write(self.0.state())
+    }
+
+    /// The whole adjustment, as [`adjust`] gives it.
+    #[wasm_bindgen(unchecked_return_type = "Adjustment")]
+    pub fn finish(&self) -> Thrown {
+        self.0.finish().map(value::adjustment_object).map_err(|error| thrown(&error))
+    }
+}
+
 /// The project with the adjusted values as new initial values; what is given stays as given.
 #[wasm_bindgen(js_name = applyAdjustment, unchecked_return_type = "Project")]
 pub fn apply_adjustment(

@@ -329,8 +329,92 @@ export interface Iteration {
   damping: number;
 }
 
+/** A sparse matrix by rows (compressed sparse rows); indices count from 0. */
+export interface SparseMatrix {
+  rows: number;
+  columns: number;
+  /** First entry of every row, and the number of entries. */
+  row_starts: number[];
+  column_indices: number[];
+  values: number[];
+}
+
+/** An unknown: a column of A. */
+export interface Unknown {
+  name: string;
+  kind: "rotation" | "projection_centre" | "interior_orientation" | "point";
+  photo?: string;
+  camera?: string;
+  point?: string;
+  /** Present value; 0 for rotations, which are counted from the present attitude about the camera axes. */
+  value: number;
+  unit: string;
+  /** The engine's scaled matrix is A with its columns multiplied by this. */
+  scale: number;
+}
+
+/** An observation: a row of A. */
+export interface Equation {
+  name: string;
+  photo?: string;
+  point?: string;
+  /** Observations of other kinds than image coordinates. */
+  given?: Given;
+  axis?: "x" | "y" | "X" | "Y" | "Z";
+  value: number;
+  sigma: number;
+  unit: string;
+}
+
+/** Linearised observation equations v = A d - l; corrections d = (A'PA)^-1 A'Pl, without control under the constraints D d = 0. */
+export interface LinearSystem {
+  unknowns: Unknown[];
+  observations: Equation[];
+  A: SparseMatrix;
+  /** Observed minus computed, in the unit of the observation. */
+  l: number[];
+  /** Weights, 1 / sigma^2. */
+  p: number[];
+  /** Rows D of the datum's constraints; none under control. */
+  constraints: SparseMatrix;
+  redundancy: number;
+}
+
+/** Normal equations N d = b, and S d_r = b' after elimination of the points. */
+export interface NormalEquations {
+  blocks: { name: string; kind: "photo" | "camera" | "point"; first: number; size: number; eliminated: boolean }[];
+  N: SparseMatrix;
+  b: number[];
+  /** `unknowns` are the places of its unknowns among all. */
+  reduced: { unknowns: number[]; S: SparseMatrix; b: number[] };
+  /** Blocks in the order in which they are eliminated. */
+  elimination_order: number[];
+  /** Entries of the lower triangle: of N, of its Cholesky factor, and of the factor with the photos eliminated first. */
+  fill_in: { matrix: number; factor: number; factor_photos_first: number };
+  rank: number;
+  /** Movements that no observation sees; rotations and scale about the object's centre. */
+  null_space: { name: string; vector: number[] }[];
+}
+
+/** State of an adjustment after a step. */
+export interface StepState {
+  step: number;
+  /** The project with the present values as initial values. */
+  project: Project;
+  /** The iteration that led here. */
+  iteration?: Iteration;
+  weighted_squares: number;
+  sigma0?: number;
+  /** In the order and units of `linearise(project).unknowns`. */
+  values: number[];
+  corrections: number[];
+  /** Computed minus observed, in the order and units of `linearise(project).observations`. */
+  residuals: number[];
+  termination?: "converged" | "iteration_limit" | "diverged" | "stopped";
+}
+
 export interface AdjustOptions {
-  /** [50] */
+  /** Largest number of steps taken; refused steps are not counted [50]. */
   max_iterations?: number;
   /** ["full"] */
   statistics?: "none" | "precision" | "full";

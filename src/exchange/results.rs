@@ -10,6 +10,7 @@ use std::collections::HashMap;
 use super::Files;
 use super::text::{disarmed, quoted};
 use crate::adjustment::Adjustment;
+use crate::camera::parameter_unit;
 use crate::error::Result;
 use crate::project::{Camera, Interior, Parameter, Project, Role};
 
@@ -107,28 +108,6 @@ fn points(project: &Project, adjustment: Option<&Adjustment>) -> Table {
         table.rows.push(row);
     }
     table
-}
-
-/// Unit of a parameter of a camera, as photo coordinates have it.
-fn parameter_unit(camera: &Camera, parameter: Parameter) -> String {
-    use Parameter as P;
-    let length = photo_unit(camera);
-    let brown = matches!(camera.interior, Interior::Brown { .. });
-    match parameter {
-        P::C | P::X0 | P::Y0 | P::F | P::Fx | P::Fy | P::Cx | P::Cy => length.into(),
-        P::K1 if brown => format!("{length}^-2"),
-        P::K2 if brown => format!("{length}^-4"),
-        P::K3 if brown => format!("{length}^-6"),
-        P::P1 | P::P2 if brown => format!("{length}^-1"),
-        _ => String::new(),
-    }
-}
-
-fn photo_unit(camera: &Camera) -> &'static str {
-    match camera.interior {
-        Interior::Brown { .. } if camera.pixel_pitch.is_some() => "mm",
-        _ => "px",
-    }
 }
 
 fn cameras(project: &Project, adjustment: Option<&Adjustment>) -> Table {

@@ -14,6 +14,7 @@ mod adjust {
     mod features;
     mod forms;
     mod gross_errors;
+    mod inside;
     mod monte_carlo;
     mod oracle;
     mod order;

@@ -214,3 +214,29 @@ test('camcal: the published calibration from the marks alone', { skip }, () => {
     assert.ok(Math.abs(ratio - 1) < 0.02, `sigma of ${name}: ${with_b1.cameras[0].sigma[name]}, published ${sigma}`);
   }
 });
+
+test('equations and steps are laid open, and agree with each other and with the adjustment', () => {
+  const project = sightline.simulate(network({ seed: 11 }));
+  for (const point of project.points) if (point.role === 'tie') point.xyz = point.xyz.map((x, k) => x + 0.5 * (k - 1));
+  const { unknowns, observations, A, l, p, constraints } = sightline.linearise(project);
+  assert.deepEqual([A.rows, A.columns, l.length, p.length], [observations.length, unknowns.length, observations.length, observations.length]);
+  // A'Pl by hand.
+  const b = new Array(A.columns).fill(0);
+  for (let row = 0; row < A.rows; row++) for (let k = A.row_starts[row]; k < A.row_starts[row + 1]; k++) b[A.column_indices[k]] += A.values[k] * p[row] * l[row];
+  const equations = sightline.normalEquations(project);
+  b.forEach((value, k) => assert.ok(Math.abs(value - equations.b[k]) <= 1e-9 * Math.max(1, Math.abs(value)), unknowns[k].name));
+  assert.equal(equations.null_space.length, constraints.rows);
+  assert.equal(equations.rank, unknowns.length - constraints.rows);
+  assert.match(sightline.matrixMarket(equations.N), new RegExp(`^%%MatrixMarket matrix coordinate real general\n${A.columns} ${A.columns} ${equations.N.values.length}\n`));
+  const adjuster = sightline.startAdjustment(project);
+  assert.equal(adjuster.state().step, 0);
+  let state;
+  do state = adjuster.step();
+  while (!state.termination);
+  const whole = adjuster.finish();
+  assert.equal(state.step, whole.iterations.length);
+  assert.ok(Math.abs(state.sigma0 / whole.sigma0 - 1) < 1e-9);
+  assert.equal(adjuster.back().step, state.step - 1);
+  adjuster.free();
+  assert.throws(() => sightline.linearise({ ...project, observations: [] }), { code: 'empty' });
+});

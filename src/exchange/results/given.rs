@@ -1,7 +1,8 @@
 //! Tables of observations of other kinds than image coordinates, and of the search for gross errors.
 
-use super::{Table, parameter_unit, value};
+use super::{Table, value};
 use crate::adjustment::{Adjustment, Given, GrossErrorAction};
+use crate::camera::parameter_unit;
 use crate::project::Project;
 
 /// What names a given observation: kind, photo, point, to, camera, component.

@@ -98,6 +98,7 @@ const ORDERS: [Order; 3] = [
             "variance_components",
             "report",
             "outside",
+            "inside",
         ],
     },
 ];

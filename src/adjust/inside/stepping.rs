@@ -1,0 +1,166 @@
+//! The adjustment step by step: the state after each iteration, forwards and back.
+//!
+//! After k steps the values are those of [`adjust`](crate::adjust::adjust) stopped after its k-th iteration, bit by bit: both run the same
+//! iteration. Robust estimation, the search for gross errors and variance components follow after it and are not stepped through.
+
+use nalgebra::Rotation3;
+use serde::{Deserialize, Serialize};
+
+use crate::adjust::equations::right_hand_side;
+use crate::adjust::problem::additional::LeftOut;
+use crate::adjust::problem::numbering::Numbering;
+use crate::adjust::problem::{eccentric, far_points, unmodelled};
+use crate::adjust::report::values::applied;
+use crate::adjust::solve::session::{Log, Session, unsound};
+use crate::adjust::{adjust, outside};
+use crate::adjustment::{AdjustOptions, Adjustment, Iteration, Termination};
+use crate::error::Result;
+use crate::project::Project;
+use crate::rotation;
+
+use super::linear_system::{Columns, of_session};
+
+/// What is known after a step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StepState {
+    /// Steps taken so far.
+    pub step: usize,
+    /// The document with the present values as initial values.
+    pub project: Project,
+    /// The iteration that led here: its sigma0 before the step, length and damping of the step; `None` at the initial values.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub iteration: Option<Iteration>,
+    /// vᵀPv at the present values.
+    pub weighted_squares: f64,
+    /// √(vᵀPv / redundancy); `None` without redundancy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sigma0: Option<f64>,
+    /// Values of the unknowns, in the order and units of [`LinearSystem::unknowns`](super::linear_system::LinearSystem::unknowns); rotations are 0.
+    pub values: Vec<f64>,
+    /// Change of every unknown by the last step; rotations as vectors about the camera axes.
+    pub corrections: Vec<f64>,
+    /// Residuals computed minus observed, in the order and units of [`LinearSystem::observations`](super::linear_system::LinearSystem::observations).
+    pub residuals: Vec<f64>,
+    /// How the iteration ended, after its last step.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub termination: Option<Termination>,
+}
+
+/// An adjustment under way.
+#[derive(Clone, Debug)]
+pub struct Adjuster {
+    project: Project,
+    options: AdjustOptions,
+    states: Vec<StepState>,
+    at: usize,
+}
+
+/// Begins an adjustment at the document's values.
+///
+/// # Errors
+/// As [`adjust`].
+pub fn start_adjustment(project: &Project, options: &AdjustOptions) -> Result<Adjuster> {
+    let first = after(project, options, 0, None)?;
+    Ok(Adjuster { project: project.clone(), options: options.clone(), states: vec![first], at: 0 })
+}
+
+impl Adjuster {
+    /// Takes one step; nothing changes after the last one.
+    ///
+    /// # Errors
+    /// As [`adjust`].
+    pub fn step(&mut self) -> Result<&StepState> {
+        if self.at + 1 == self.states.len() && self.states[self.at].termination.is_none() {
+            let next = after(&self.project, &self.options, self.at + 1, Some(&self.states[self.at]))?;
+            self.states.push(next);
+        }
+        self.at = (self.at + 1).min(self.states.len() - 1);
+        Ok(&self.states[self.at])
+    }
+
+    /// Goes back by one step; stays at the initial values.
+    pub fn back(&mut self) -> &StepState {
+        self.at = self.at.saturating_sub(1);
+        &self.states[self.at]
+    }
+
+    /// The present state.
+    pub fn state(&self) -> &StepState {
+        &self.states[self.at]
+    }
+
+    /// The whole adjustment.
+    ///
+    /// # Errors
+    /// As [`adjust`].
+    pub fn finish(&self) -> Result<Adjustment> {
+        adjust(&self.project, &self.options, &mut |_| true)
+    }
+}
+
+/// The session with which [`adjust`] begins.
+pub(super) fn with_session<T>(
+    project: &Project,
+    options: &AdjustOptions,
+    work: impl FnOnce(Session<'_>) -> Result<T>,
+) -> Result<T> {
+    project.validate()?;
+    let weighted = unmodelled::weighted(project, options.unmodelled)?;
+    let sized = eccentric::sized(weighted, options.target_diameter)?;
+    let numbering = Numbering::of(project);
+    let ready = far_points::brought_back(sized, &numbering);
+    let ready = outside::retest::with_what_fits(ready, &numbering, options, &mut Vec::new());
+    outside::control::enough(ready.as_ref(), &numbering)?;
+    let mut session = Session::new(ready.as_ref(), &numbering, &LeftOut::nothing(ready.as_ref()))?;
+    session.start_at(&far_points::control_starts(ready.as_ref(), &numbering));
+    work(session)
+}
+
+/// The state after so many steps from the document's values.
+fn after(project: &Project, options: &AdjustOptions, steps: usize, before: Option<&StepState>) -> Result<StepState> {
+    with_session(project, options, |mut session| {
+        let (mut iteration, mut termination) = (None, None);
+        if steps == 0 {
+            session.shift = eccentric::shifts(session.project, &session.network, &session.state);
+        } else {
+            let mut taken = 0;
+            let mut each = |one: &Iteration| {
+                taken += 1;
+                iteration = Some(one.clone());
+                taken < steps
+            };
+            let mut log = Log { iterations: Vec::new(), on_iteration: &mut each };
+            let ended = session.iterate(options, &mut log)?;
+            termination = Some(ended).filter(|ended| *ended != Termination::Stopped);
+        }
+        let (weighted_squares, _) = right_hand_side::cost(session.context(options.residuals)).ok_or_else(unsound)?;
+        let system = of_session(&session, options)?;
+        let values: Vec<f64> = system.unknowns.iter().map(|unknown| unknown.value).collect();
+        let corrections =
+            before.map_or_else(|| vec![0.0; values.len()], |before| corrections(&session, &values, before));
+        let redundancy = session.redundancy;
+        Ok(StepState {
+            step: steps,
+            project: applied(&session),
+            iteration,
+            weighted_squares,
+            sigma0: (redundancy > 0).then(|| (weighted_squares / redundancy as f64).sqrt()),
+            values,
+            corrections,
+            residuals: system.l.iter().map(|l| -l).collect(),
+            termination,
+        })
+    })
+}
+
+fn corrections(session: &Session<'_>, values: &[f64], before: &StepState) -> Vec<f64> {
+    let mut corrections: Vec<f64> = values.iter().zip(&before.values).map(|(now, then)| now - then).collect();
+    let columns = Columns::new(&session.network);
+    for (k, (block, pose)) in session.network.photos.iter().zip(&session.state.poses).enumerate() {
+        let then = rotation::object_to_camera(before.project.photos[block.index].rotation.unwrap_or_default());
+        let turn = Rotation3::from_matrix_unchecked(pose.matrix() * then.transpose()).scaled_axis();
+        let first = columns.photo(k).start;
+        corrections[first..first + 3].copy_from_slice(turn.as_slice());
+    }
+    corrections
+}

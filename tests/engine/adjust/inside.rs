@@ -1,0 +1,229 @@
+//! The equations and iterations that are laid open: the design matrix against numerical derivatives, the normal equations against dense
+//! ones, the steps against the adjustment.
+
+use crate::support::networks::{Wanted, brown, exact, noisy, opencv};
+use nalgebra::{DMatrix, DVector, Vector3};
+use sightline::adjust::{LinearSystem, UnknownKind, adjust, apply, linearise, normal_equations, start_adjustment};
+use sightline::adjustment::{AdjustOptions, StatisticsChoice, Termination};
+use sightline::noise::Noise;
+use sightline::project::{DatumKind, Parameter, Project, Role};
+use sightline::rotation;
+
+/// Networks of every kind of observation and datum, some way off their solution.
+fn networks() -> Vec<Project> {
+    use Parameter as P;
+    let mut list = Vec::new();
+    for (seed, datum) in [(3, DatumKind::Control), (5, DatumKind::Free), (7, DatumKind::Minimal)] {
+        let mut observed = brown(&[P::C, P::X0, P::Y0, P::K1, P::P1, P::B1]);
+        observed.sigma = [(P::C, 0.05), (P::K1, 1e-5)].into();
+        let mut per_photo = opencv(&[P::F, P::Cx, P::K1]);
+        per_photo.per_photo = true;
+        for (camera, distances) in [(observed, 0), (opencv(&[P::F, P::Cx, P::Cy, P::K1, P::P2]), 2), (per_photo, 0)] {
+            let wanted = Wanted {
+                photos: 4,
+                points: 12,
+                cameras: vec![camera],
+                datum,
+                control: (4, if seed == 3 && distances == 2 { 0.0 } else { 0.1 }),
+                distances: (distances, 0.1),
+                centre_sigma: if datum == DatumKind::Control { 2.0 } else { 0.0 },
+                ..Wanted::default()
+            };
+            let mut project = noisy(&exact(&wanted, seed), &mut Noise::new(seed, 1));
+            let mut noise = Noise::new(seed, 2);
+            for point in project.points.iter_mut().skip(4) {
+                point.xyz = point.xyz.map(|xyz| xyz.map(|x| x + noise.normal()));
+            }
+            list.push(project);
+        }
+    }
+    list
+}
+
+/// The document with one unknown changed.
+fn changed(project: &Project, system: &LinearSystem, k: usize, by: f64) -> Project {
+    let (mut project, unknown) = (project.clone(), &system.unknowns[k]);
+    let axis = ["X", "Y", "Z"].iter().position(|axis| unknown.name.ends_with(&format!(" {axis}")));
+    match unknown.kind {
+        UnknownKind::Rotation => {
+            let axis = ["x", "y", "z"].iter().position(|axis| unknown.name.ends_with(&format!(" {axis}")));
+            let photo = project.photos.iter_mut().find(|p| Some(&p.id) == unknown.photo.as_ref()).expect("its photo");
+            let mut turn = Vector3::zeros();
+            turn[axis.expect("an axis")] = by;
+            let m = rotation::object_to_camera(photo.rotation.expect("oriented"));
+            photo.rotation = Some(rotation::angles(&rotation::turned(&m, turn)));
+        }
+        UnknownKind::ProjectionCentre => {
+            let photo = project.photos.iter_mut().find(|p| Some(&p.id) == unknown.photo.as_ref()).expect("its photo");
+            photo.position.as_mut().expect("oriented")[axis.expect("an axis")] += by;
+        }
+        UnknownKind::Point => {
+            let point = project.points.iter_mut().find(|p| Some(&p.id) == unknown.point.as_ref()).expect("the point");
+            point.xyz.as_mut().expect("a place")[axis.expect("an axis")] += by;
+        }
+        UnknownKind::InteriorOrientation => {
+            let name = unknown.name.rsplit(' ').next().expect("a name");
+            let camera = &mut project.cameras[0];
+            let interior = match &unknown.photo {
+                None => &mut camera.interior,
+                Some(id) => {
+                    let photo = project.photos.iter_mut().find(|p| p.id == *id).expect("its photo");
+                    photo.interior.get_or_insert(camera.interior)
+                }
+            };
+            let parameter = *interior.parameters().iter().find(|p| p.name() == name).expect("a parameter");
+            let value = interior.get(parameter).unwrap_or_default();
+            interior.set(parameter, value + by);
+        }
+    }
+    project
+}
+
+#[test]
+fn the_design_matrix_agrees_with_numerical_derivatives() {
+    let options = AdjustOptions::default();
+    let mut compared = 0;
+    for project in networks() {
+        let system = linearise(&project, &options).expect("a sound document");
+        let a = system.a.dense();
+        assert_eq!((a.nrows(), a.ncols()), (system.observations.len(), system.unknowns.len()));
+        for (k, unknown) in system.unknowns.iter().enumerate() {
+            let h = unknown.scale * 1e-5;
+            let l = |by: f64| linearise(&changed(&project, &system, k, by), &options).expect("a sound document").l;
+            let (plus, minus) = (l(h), l(-h));
+            let size = a.column(k).amax();
+            for (row, equation) in system.observations.iter().enumerate() {
+                // Given values of the document are their own initial values: they move with them.
+                if equation.given.is_some() && !equation.name.contains(" - ") {
+                    continue;
+                }
+                let numerical = (minus[row] - plus[row]) / (2.0 * h);
+                let what = format!("{} by {}: {} {numerical}", equation.name, unknown.name, a[(row, k)]);
+                assert!((a[(row, k)] - numerical).abs() <= 2e-6 * size, "{what}");
+                compared += usize::from(numerical != 0.0);
+            }
+        }
+    }
+    assert!(compared > 5000, "{compared}");
+}
+
+#[test]
+fn the_normal_equations_are_those_of_dense_matrices() {
+    let options = AdjustOptions::default();
+    for project in networks() {
+        let system = linearise(&project, &options).expect("a sound document");
+        let normal = normal_equations(&project, &options).expect("a sound document");
+        let (a, p) = (system.a.dense(), DMatrix::from_diagonal(&DVector::from_row_slice(&system.p)));
+        let n = a.transpose() * &p * &a;
+        let b = a.transpose() * &p * DVector::from_row_slice(&system.l);
+        // Unknowns of one size, since their own differ by many powers of ten.
+        let size = DVector::from_fn(n.nrows(), |i, _| n[(i, i)].sqrt());
+        let close = |x: f64, y: f64, scale: f64| (x - y).abs() <= 1e-12 * scale;
+        let found = normal.n.dense();
+        for i in 0..n.nrows() {
+            assert!(close(normal.b[i], b[i], size[i] * b.component_div(&size).norm()), "{i}");
+            assert!((0..n.ncols()).all(|j| close(found[(i, j)], n[(i, j)], size[i] * size[j])), "{i}");
+        }
+        let kept = &normal.reduced.unknowns;
+        let others: Vec<usize> = (0..n.nrows()).filter(|k| !kept.contains(k)).collect();
+        let part = |rows: &[usize], columns: &[usize]| {
+            DMatrix::from_fn(rows.len(), columns.len(), |i, j| n[(rows[i], columns[j])])
+        };
+        let inverse = part(&others, &others).try_inverse().expect("points of two rays");
+        let s = part(kept, kept) - part(kept, &others) * &inverse * part(&others, kept);
+        let found = normal.reduced.s.dense();
+        for i in 0..kept.len() {
+            let of = |j: usize| size[kept[i]] * size[kept[j]];
+            assert!((0..kept.len()).all(|j| (found[(i, j)] - s[(i, j)]).abs() <= 1e-11 * of(j)), "{i}");
+        }
+        let defect = match (project.datum.kind, project.distances.is_empty()) {
+            (DatumKind::Control, _) => 0,
+            (_, true) => 7,
+            (_, false) => 6,
+        };
+        assert_eq!((normal.null_space.len(), normal.rank), (defect, n.nrows() - defect));
+        for motion in &normal.null_space {
+            let v = DVector::from_row_slice(&motion.vector);
+            let scaled = v.component_mul(&size).norm();
+            assert!((&n * v).component_div(&size).norm() <= 1e-9 * scaled, "{}", motion.name);
+        }
+        assert!(normal.fill_in.matrix <= normal.fill_in.factor);
+        assert!(normal.fill_in.factor <= normal.fill_in.factor_photos_first);
+        let sizes: usize = normal.blocks.iter().map(|block| block.size).sum();
+        assert_eq!((sizes, normal.elimination_order.len()), (n.nrows(), normal.blocks.len()));
+    }
+}
+
+#[test]
+fn steps_are_those_of_the_adjustment() {
+    let options = AdjustOptions { statistics: StatisticsChoice::Precision, ..AdjustOptions::default() };
+    for project in networks() {
+        let mut adjuster = start_adjustment(&project, &options).expect("a sound document");
+        let first = adjuster.state().clone();
+        if project.datum.kind == DatumKind::Control {
+            // The first step is the solution of the normal equations.
+            let system = linearise(&project, &options).expect("a sound document");
+            let n = system.a.normal(&system.p).dense();
+            let size = DVector::from_fn(n.nrows(), |i, _| n[(i, i)].sqrt());
+            let scaled = DMatrix::from_fn(n.nrows(), n.ncols(), |i, j| n[(i, j)] / size[i] / size[j]);
+            let b = DVector::from_vec(system.a.transposed_times(&system.p, &system.l)).component_div(&size);
+            let x = scaled.cholesky().expect("regular").solve(&b).component_div(&size);
+            let found = DVector::from_vec(adjuster.step().expect("a step").corrections.clone());
+            let off = (&found - &x).component_mul(&size).norm() / x.component_mul(&size).norm();
+            assert!(off < 1e-7, "{off}");
+            assert_eq!(adjuster.back(), &first);
+        }
+        let mut steps = 0;
+        while adjuster.state().termination.is_none() {
+            let state = adjuster.step().expect("a step").clone();
+            steps += 1;
+            let mut taken = 0;
+            let stopped = adjust(&project, &options, &mut |_| {
+                taken += 1;
+                taken < steps
+            });
+            let stopped = apply(&project, &stopped.expect("a result"));
+            for (one, other) in stopped.points.iter().zip(&state.project.points) {
+                let (one, other) = (one.xyz.expect("a place"), other.xyz.expect("a place"));
+                assert!((0..3).all(|k| (one[k] - other[k]).abs() <= 1e-9 || state.termination.is_some()), "{steps}");
+            }
+        }
+        let whole = adjuster.finish().expect("a result");
+        assert_eq!(adjuster.state().termination, Some(Termination::Converged));
+        assert_eq!(whole.iterations.len(), steps);
+        let (last, sigma0) = (adjuster.state().sigma0.expect("redundancy"), whole.sigma0.expect("redundancy"));
+        assert!((last / sigma0 - 1.0).abs() < 1e-9, "{last} {sigma0}");
+        for _ in 0..steps + 2 {
+            adjuster.back();
+        }
+        assert_eq!(adjuster.state(), &first);
+    }
+}
+
+#[test]
+fn adjusting_one_step_at_a_time_ends_where_the_adjustment_does() {
+    // What is given and observed begins anew with its given value each time: [`start_adjustment`] is the way with that.
+    let without = networks().into_iter().filter(|project| project.cameras[0].sigma.is_empty());
+    let free = without.filter(|project| project.datum.kind != DatumKind::Control);
+    for (mut project, far) in free.zip([30.0, 80.0, 60.0, 60.0].into_iter().cycle()) {
+        let mut noise = Noise::new(11, 3);
+        project.points.iter_mut().for_each(|point| (point.role, point.sigma) = (Role::Tie, None));
+        project
+            .points
+            .iter_mut()
+            .for_each(|point| point.xyz = point.xyz.map(|xyz| xyz.map(|x| x + far * noise.normal())));
+        let whole = adjust(&project, &AdjustOptions::default(), &mut |_| true).expect("a result");
+        let options = AdjustOptions { max_iterations: 1, ..AdjustOptions::default() };
+        let mut sigma0 = None;
+        for _ in 0..400 {
+            let one = adjust(&project, &options, &mut |_| true).expect("a result");
+            project = apply(&project, &one);
+            sigma0 = one.sigma0;
+            if one.termination == Termination::Converged {
+                break;
+            }
+        }
+        let (one, all) = (sigma0.expect("redundancy"), whole.sigma0.expect("redundancy"));
+        assert!((one / all - 1.0).abs() < 1e-6, "{far}: {one} {all}");
+    }
+}
