@@ -370,6 +370,39 @@ const harmJournal = (page, harm) =>
     return keys.length;
   }, harm);
 
+test('a copy whose card could not be written is listed by its own name', { timeout: 120_000 }, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await drop(page, [scratch('origin.json', named('Origin'))]);
+    await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Origin');
+    await written(page);
+    await page.click('.mark');
+    await waitForList(page, ['Origin']);
+    await verb(page, 'Origin', 'Duplicate');
+    await waitForList(page, ['Origin (copy)', 'Origin']);
+    const taken = await page.evaluate(async () => {
+      const top = await (await navigator.storage.getDirectory()).getDirectoryHandle('sightline');
+      const projects = await top.getDirectoryHandle('projects');
+      let taken = 0;
+      for await (const folder of projects.values()) {
+        for (const name of ['card-0', 'card-1']) {
+          const card = await folder.getFileHandle(name).catch(() => null);
+          if (card && (await (await card.getFile()).text()).includes('(copy)')) taken += (await folder.removeEntry(name), 1);
+        }
+      }
+      return taken;
+    });
+    assert.equal(taken, 1);
+    await page.reload();
+    await page.waitForSelector('[data-project]');
+    await page.waitForTimeout(500);
+    assert.deepEqual((await page.$$eval('[data-project] .name', (all) => all.map((one) => one.textContent.trim()))).sort(), ['Origin', 'Origin (copy)']);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
 /** What is done to the journal, and what has to be told. */
 const harms = [['bit', /repaired, and nothing is lost/], ['length', /repaired, and nothing is lost/], ['sector', /was damaged/], ['first', null], ['tail', null]];
 for (const [kind, address] of [['files', () => undefined], ['database', plainHttp]]) {

@@ -514,13 +514,18 @@ async function list() {
   return { reply: all.map(({ cover, changed, ...one }) => one), extras };
 }
 
-/** The last part of a kind that can be read, out of a project that is not opened for that. */
+/** The last part of a kind that can be read, out of a project that is not opened for that, and the name that it was given since. */
 async function peek({ id, kind }) {
   const { frames } = await backend.journal(id);
-  const { parts } = gathered(frames.flatMap(({ items }) => items));
+  const { parts, notes } = gathered(frames.flatMap(({ items }) => items));
+  let name = null;
+  for (const note of notes) {
+    const { name: given, present } = JSON.parse(note);
+    name = given ?? (present ? null : name);
+  }
   for (const part of [...parts.values()].reverse()) {
     try {
-      if (part.kind === kind) return { reply: {}, extras: [text(parts, part.id)] };
+      if (part.kind === kind) return { reply: { name }, extras: [text(parts, part.id)] };
     } catch {
       // What it is told from is lost: one before it may be whole.
     }

@@ -8,6 +8,7 @@ mod before;
 mod codecs;
 mod fault;
 mod plain;
+mod stepping;
 mod table;
 mod value;
 
@@ -355,45 +356,14 @@ pub fn matrix_market(
     matrix.map(|matrix| matrix.matrix_market()).map_err(|error| thrown(&error))
 }
 
-/// An adjustment that is run step by step.
-#[wasm_bindgen]
-pub struct Adjuster(adjust::Adjuster);
-
-/// Begins an adjustment at the project's values.
-#[wasm_bindgen(js_name = startAdjustment)]
+/// Begins an adjustment at the project's values, to be run step by step.
+#[wasm_bindgen(js_name = startAdjustment, unchecked_return_type = "Adjuster")]
 pub fn start_adjustment(
     #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
     #[wasm_bindgen(unchecked_optional_param_type = "AdjustOptions")] options: JsValue,
-) -> Result<Adjuster, JsValue> {
+) -> Thrown {
     let begun = || adjust::start_adjustment(&value::project(&project)?, &value::options(&options, &[])?);
-    begun().map(Adjuster).map_err(|error| thrown(&error))
-}
-
-#[wasm_bindgen]
-impl Adjuster {
-    /// Takes one step and gives the state after it; nothing changes after the last one.
-    #[wasm_bindgen(unchecked_return_type = "StepState")]
-    pub fn step(&mut self) -> Thrown {
-        self.0.step().map(|state| value::write(state)).map_err(|error| thrown(&error))
-    }
-
-    /// Goes back by one step and gives the state before it; stays at the initial values.
-    #[wasm_bindgen(unchecked_return_type = "StepState")]
-    pub fn back(&mut self) -> JsValue {
-        value::write(self.0.back())
-    }
-
-    /// The present state.
-    #[wasm_bindgen(unchecked_return_type = "StepState")]
-    pub fn state(&self) -> JsValue {
-        value::write(self.0.state())
-    }
-
-    /// The whole adjustment, as [`adjust`] gives it.
-    #[wasm_bindgen(unchecked_return_type = "Adjustment")]
-    pub fn finish(&self) -> Thrown {
-        self.0.finish().map(value::adjustment_object).map_err(|error| thrown(&error))
-    }
+    begun().map(stepping::object).map_err(|error| thrown(&error))
 }
 
 /// The project with the adjusted values as new initial values; what is given stays as given.

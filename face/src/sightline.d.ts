@@ -396,6 +396,18 @@ export interface NormalEquations {
   null_space: { name: string; vector: number[] }[];
 }
 
+/** An adjustment that is run step by step. */
+export interface Adjuster {
+  /** Takes one step and gives the state after it; nothing changes after the last one. */
+  step(): StepState;
+  /** Goes back by one step and gives the state there; stays at the initial values. */
+  back(): StepState;
+  /** The present state. */
+  state(): StepState;
+  /** The whole adjustment, as `adjust` gives it. */
+  finish(): Adjustment;
+}
+
 /** State of an adjustment after a step. */
 export interface StepState {
   step: number;

@@ -237,6 +237,5 @@ test('equations and steps are laid open, and agree with each other and with the 
   assert.equal(state.step, whole.iterations.length);
   assert.ok(Math.abs(state.sigma0 / whole.sigma0 - 1) < 1e-9);
   assert.equal(adjuster.back().step, state.step - 1);
-  adjuster.free();
   assert.throws(() => sightline.linearise({ ...project, observations: [] }), { code: 'empty' });
 });

@@ -46,6 +46,14 @@ const photosOf = (project) =>
     return { photo: id, targets: sightline.detectGray(width, height, samples).targets };
   });
 
+/** States of an adjustment at its beginning, on its way and at its end. */
+function stepped(project) {
+  const adjuster = sightline.startAdjustment(project);
+  const states = [adjuster.state(), adjuster.step()];
+  while (!states.at(-1).termination) states.push(adjuster.step());
+  return [...states.slice(0, 2), states.at(-1)];
+}
+
 /** Targets of one of its photos. */
 function detection() {
   const { width, height, samples } = sightline.renderPhoto(network(), 's0');
@@ -125,6 +133,9 @@ test('every field that the engine returns is declared, and every declared field 
     literal('prediction', 'S.Prediction', sightline.predict(project, 'p1', adjustments[0])),
     ...adjustments.map((adjustment, k) => literal(`adjustment${k}`, 'S.Adjustment', adjustment)),
     literal('measured', 'S.Measured', measuredLater),
+    literal('linear', 'S.LinearSystem', sightline.linearise(project)),
+    literal('normal', 'S.NormalEquations', sightline.normalEquations(project)),
+    ...stepped(project).map((state, k) => literal(`state${k}`, 'S.StepState', state)),
     literal('renaming', 'S.Renaming', sightline.nearestNames(featured.points, [{ id: 'near', xyz: project.points[0].xyz }], 1)),
     literal('featured', 'S.Project', sightline.applyAdjustment(featured, adjustments.at(-1))),
     literal('project', 'S.Project', sightline.importProject('sightline', { 'project.json': text })),

@@ -49,6 +49,12 @@ struct Peeking<'a> {
     kind: &'a str,
 }
 
+#[derive(Deserialize)]
+struct Peeked {
+    /// A name that was given since from outside.
+    name: Option<String>,
+}
+
 #[derive(Serialize)]
 struct Renaming<'a> {
     id: &'a str,
@@ -266,9 +272,14 @@ impl Desk {
 /// What the list shows of a project without a card that can be read: what its journal says.
 async fn card_of_journal(storage: &Storage, id: &str) -> Option<Card> {
     let peeking = Peeking { id, kind: "project" };
-    let (_, texts) = storage.call::<IgnoredAny>("peek", &peeking, Vec::new()).await.ok()?;
+    let (peeked, texts) = storage.call::<Peeked>("peek", &peeking, Vec::new()).await.ok()?;
     let project = from_text::<Project>(&texts.into_iter().next()?.text()?).ok()?;
-    Some(Card { name: project.name, photos: project.photos.len(), points: project.points.len(), ..no_card() })
+    Some(Card {
+        name: peeked.name.unwrap_or(project.name),
+        photos: project.photos.len(),
+        points: project.points.len(),
+        ..no_card()
+    })
 }
 
 fn no_card() -> Card {
