@@ -225,7 +225,7 @@ test('numbers and tables with two readings are asked', longer, async () => {
     assert.equal(await length.inputValue(), '1.5');
 
     // A table: both are buttons, and nothing is taken before one is chosen.
-    const take = page.locator('.panel .button.primary', { hasText: /Take|points/ }).first();
+    const take = page.locator('.panel .button.primary', { hasText: /^Import/ }).first();
     await drop(page, [scratch('control.txt', 'P1\t1,234\t2,345\t3,456\nP2\t4,567\t5,678\t6,789\n')]);
     await page.waitForSelector('[data-asked=decimal]');
     assert.equal(await take.isDisabled(), true);
