@@ -14,25 +14,53 @@
 //! | `plots` | | every plot as SVG |
 //! | `dxf`, `ply`, `gltf` | | `drawing.dxf` for CAD; `points.ply`, `ellipsoids.ply`, `cameras.ply`; `scene.glb` |
 //! | `csv`, `tsv` | | points, cameras, photos, observations with their statistics |
+//! | `colmap`, `colmap-binary` | cameras, images, points of COLMAP, text or binary | the same |
+//! | `metashape` | cameras and markers of Agisoft Metashape, XML | `cameras.xml`, `markers.xml` |
+//! | `bal`, `bundler` | problems of "Bundle Adjustment in the Large", results of Bundler | `problem.txt`; `bundle.out`, `list.txt` |
+//! | `meshroom` | scenes of AliceVision | `scene.sfm` |
+//! | `vstars` | points of V-STARS | `points.csv` |
+//! | `opencv` | | image and object points of every photo with its camera, `calibration.yml` |
+//!
+//! Cameras by themselves ([`cameras`]): `opencv`, `ros`, `kalibr`, `mrcal`, `colmap`, `agisoft-lens`, `micmac`, and read only `metashape`,
+//! `meshroom`. The head of each file has its conventions and where they are from; what no model of the engine has is refused by name or
+//! converted with a stated difference ([`conversion`]). `docs/interchange.md` is for users.
 //!
 //! Numbers are written with a decimal point whatever the user's language, and no cell can arm a spreadsheet: text that would be a
 //! formula gets an apostrophe before it. A format that holds a part of a project only
 //! (`control-csv`, `mark-points`, `aicon`) is read as a project with that part.
 
+mod agisoft_lens;
 pub mod aicon;
+mod bal;
+mod bundler;
+pub mod cameras;
+mod colmap;
 pub mod comparator;
 pub mod control_csv;
+pub mod conversion;
 pub mod dbat;
 mod dxf;
 pub mod encoding;
+pub mod foreign;
 mod gltf;
+mod kalibr;
+mod lens;
 pub mod mark_points;
+mod meshroom;
+mod metashape;
+mod micmac;
+mod mrcal;
+mod network;
+mod opencv;
 pub mod package;
 pub mod photomodeler;
 mod ply;
 pub mod results;
+mod ros;
 mod spatial;
 mod text;
+mod tree;
+mod vstars;
 
 pub(crate) use text::disarmed;
 pub use text::{Row, pasted, quoted, rows};
@@ -61,7 +89,7 @@ pub struct Format {
 }
 
 /// The formats.
-pub const FORMATS: [Format; 15] = [
+pub const FORMATS: [Format; 23] = [
     Format { name: "sightline", import: true, export: true },
     Format { name: "package", import: true, export: true },
     Format { name: "control-csv", import: true, export: true },
@@ -77,6 +105,14 @@ pub const FORMATS: [Format; 15] = [
     Format { name: "gltf", import: false, export: true },
     Format { name: "csv", import: false, export: true },
     Format { name: "tsv", import: false, export: true },
+    Format { name: "colmap", import: true, export: true },
+    Format { name: "colmap-binary", import: false, export: true },
+    Format { name: "metashape", import: true, export: true },
+    Format { name: "bal", import: true, export: true },
+    Format { name: "bundler", import: true, export: true },
+    Format { name: "meshroom", import: true, export: true },
+    Format { name: "vstars", import: true, export: true },
+    Format { name: "opencv", import: false, export: true },
 ];
 
 /// What a reader of a file took for granted.
@@ -88,8 +124,19 @@ pub struct FileAssumptions {
     pub assumptions: Vec<control_csv::Assumption>,
 }
 
+/// Choices for what files leave open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Choices {
+    /// Of tables of control points.
+    #[serde(flatten)]
+    pub tables: control_csv::Choices,
+    /// Whether a camera model is converted where the difference is more than 1 px.
+    pub convert: bool,
+}
+
 /// A project that was read, with what was taken for granted.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Imported {
     /// The project.
     #[serde(flatten)]
@@ -97,6 +144,15 @@ pub struct Imported {
     /// File by file, for formats that leave something open; [`control_csv::Basis::Undecided`] marks what has to be asked.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumptions: Vec<FileAssumptions>,
+    /// The format that `auto` found, for formats of other programs' networks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recognised: Option<&'static str>,
+    /// Cameras whose model was converted, and what that leaves.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub conversions: Vec<conversion::Conversion>,
+    /// What was assumed, and what of the files is not kept.
+    #[serde(flatten)]
+    pub notes: foreign::Notes,
 }
 
 /// Reads a project, or the part of one that the format holds.
@@ -107,16 +163,101 @@ pub fn import(format: &str, files: &Files) -> Result<Project> {
     import_with(format, files, control_csv::Choices::default()).map(|imported| imported.project)
 }
 
-/// The same with what was taken for granted, and with the caller's choices for what a file leaves open.
+/// The same with what was taken for granted, and with the caller's choices for what a table leaves open.
+///
+/// # Errors
+/// As [`import_files`].
+pub fn import_with(format: &str, files: &Files, choices: control_csv::Choices) -> Result<Imported> {
+    import_files(format, files, &Choices { tables: choices, convert: false })
+}
+
+/// The same for any format, with all choices; `auto` recognises what can be told by its content.
 ///
 /// # Errors
 /// [`Error::Unknown`] for a format that is not read, [`Error::Empty`] without files, [`Error::Invalid`] with file, line
-/// and field for what a file has wrong.
-pub fn import_with(format: &str, files: &Files, choices: control_csv::Choices) -> Result<Imported> {
-    if format == "control-csv" && !files.is_empty() {
-        return control_tables(files, choices);
+/// and field for what a file has wrong, and for a camera model that is not supported or differs too much after conversion.
+pub fn import_files(format: &str, files: &Files, choices: &Choices) -> Result<Imported> {
+    let format = match format {
+        "auto" if files.is_empty() => return Err(Error::Empty { what: Lack::Files }),
+        "auto" => recognised(files)
+            .ok_or(Error::Invalid { reason: Reason::FormatUnrecognised, at: Place::field("format") })?,
+        named => FORMATS
+            .iter()
+            .find(|known| known.import && known.name == named)
+            .map(|known| known.name)
+            .ok_or_else(|| unknown_format(named, |known| known.import))?,
+    };
+    if files.is_empty() {
+        return Err(Error::Empty { what: Lack::Files });
     }
-    whole(format, files).map(|project| Imported { project, assumptions: Vec::new() })
+    let in_only = |error: Error| match only(files) {
+        // Files of one network name themselves.
+        Ok((name, _)) if error.place().file.is_none() => error.in_file(name),
+        _ => error,
+    };
+    let network = match format {
+        "control-csv" => return control_tables(files, choices.tables),
+        "vstars" => {
+            let mut notes = foreign::Notes::default();
+            let (name, bytes) = only(files)?;
+            let points = encoding::text(bytes).and_then(|text| vstars::read(&text, &mut notes));
+            let project = control_project(points.map_err(|error| error.in_file(name))?);
+            project.validate().map_err(|error| error.in_file(name))?;
+            notes.assume(foreign::Assumed::UnitUnknown);
+            return Ok(Imported { project, notes, recognised: Some(format), ..Imported::default() });
+        }
+        "colmap" => colmap::read(files),
+        "metashape" => metashape::read(files),
+        "bal" => one_text(files, bal::read),
+        "bundler" => bundler::read(files),
+        "meshroom" => one_text(files, |text| {
+            let tree = tree::json(text)?;
+            meshroom::read(&tree::Node::root(&tree))
+        }),
+        other => return whole(other, files).map(|project| Imported { project, ..Imported::default() }),
+    };
+    network.and_then(|network| network.into_imported(format, choices.convert)).map_err(in_only)
+}
+
+/// The format of files that can be told by their content; none for tables and what is not known.
+pub fn recognised(files: &Files) -> Option<&'static str> {
+    if colmap::recognises(files) {
+        return Some("colmap");
+    }
+    if comparator::recognises(files) {
+        return Some("comparator");
+    }
+    let of = |bytes: &Vec<u8>| {
+        if bytes.starts_with(b"PK\x03\x04") {
+            return Some("package");
+        }
+        let text = encoding::text(bytes).ok()?;
+        let start = text.trim_start();
+        if bundler::recognises(&text) {
+            return Some("bundler");
+        }
+        if start.starts_with('<') {
+            let root = dbat::element::parse(&text).ok()?;
+            if metashape::recognises(&root) {
+                return Some("metashape");
+            }
+            return (root.name == "document" && root.child("input").is_some()).then_some("dbat");
+        }
+        if start.starts_with('{') {
+            let tree = tree::json(&text).ok()?;
+            let root = tree::Node::root(&tree);
+            if meshroom::recognises(&root) {
+                return Some("meshroom");
+            }
+            let own = root.get("format").is_some_and(|format| format.value == "sightline");
+            return own.then_some("sightline");
+        }
+        if start.starts_with("Bundle Soln") {
+            return Some("photomodeler");
+        }
+        bal::recognises(&text).then_some("bal")
+    };
+    files.values().find_map(of)
 }
 
 /// Points of control tables, in the unit of the first one that names its unit.
@@ -148,16 +289,10 @@ fn control_tables(files: &Files, choices: control_csv::Choices) -> Result<Import
     if let Some(unit) = unit {
         project.unit = unit.symbol().to_owned();
     }
-    Ok(Imported { project, assumptions })
+    Ok(Imported { project, assumptions, ..Imported::default() })
 }
 
 fn whole(format: &str, files: &Files) -> Result<Project> {
-    if !FORMATS.iter().any(|known| known.import && known.name == format) {
-        return Err(unknown_format(format, |known| known.import));
-    }
-    if files.is_empty() {
-        return Err(Error::Empty { what: Lack::Files });
-    }
     match format {
         "sightline" => {
             let (name, bytes) = only(files)?;
@@ -188,6 +323,16 @@ fn whole(format: &str, files: &Files) -> Result<Project> {
 /// # Errors
 /// [`Error::Unknown`] for a format that is not written, [`Error::Invalid`] for an identifier that the format cannot carry.
 pub fn export(format: &str, project: &Project, adjustment: Option<&Adjustment>) -> Result<Files> {
+    export_with(format, project, adjustment, false)
+}
+
+/// The same; `convert` accepts that a camera differs by more than 1 px in the other program's model. Networks of other programs have
+/// `interchange.json` beside them: differences of converted cameras, what has no place in the format, names of what is numbered there.
+///
+/// # Errors
+/// As [`export`], and [`Reason::ConversionTooLarge`].
+pub fn export_with(format: &str, project: &Project, adjustment: Option<&Adjustment>, convert: bool) -> Result<Files> {
+    let network = |models: network::Models<'_>| network::OutgoingNetwork::new(project, adjustment, models, convert);
     let one = |name: &str, bytes: Vec<u8>| Files::from([(name.to_owned(), bytes)]);
     match format {
         "sightline" => Ok(one("project.json", package::json(project)?)),
@@ -224,6 +369,14 @@ pub fn export(format: &str, project: &Project, adjustment: Option<&Adjustment>) 
         "gltf" => Ok(one("scene.glb", gltf::write(project, adjustment))),
         "csv" => results::write(project, adjustment, results::Separator::Comma),
         "tsv" => results::write(project, adjustment, results::Separator::Tab),
+        "colmap" => colmap::write(&network(colmap::WRITES)?, false),
+        "colmap-binary" => colmap::write(&network(colmap::WRITES)?, true),
+        "metashape" => metashape::write(&network::adjusted(project, adjustment), &network(metashape::WRITES)?),
+        "bal" => bal::write(&mut network(bal::WRITES)?),
+        "bundler" => bundler::write(&network(bundler::WRITES)?),
+        "meshroom" => meshroom::write(&network(meshroom::WRITES)?),
+        "vstars" => Ok(one("points.csv", vstars::write(project, adjustment)?.into_bytes())),
+        "opencv" => opencv::write_points(&network::adjusted(project, adjustment), convert),
         _ => Err(unknown_format(format, |known| known.export)),
     }
 }
@@ -310,7 +463,7 @@ fn only(files: &Files) -> Result<(&String, &Vec<u8>)> {
     }
 }
 
-fn one_text<T>(files: &Files, parse: fn(&str) -> Result<T>) -> Result<T> {
+fn one_text<T>(files: &Files, parse: impl FnOnce(&str) -> Result<T>) -> Result<T> {
     let (name, bytes) = only(files)?;
     encoding::text(bytes).and_then(|text| parse(&text)).map_err(|error| error.in_file(name))
 }

@@ -146,6 +146,15 @@ reasons! {
     XmlEntity { name: String } => "the XML is damaged: unknown entity {name}";
     XmlOpen { name: String } => "the XML is damaged: {name} does not end";
     XmlEmpty => "the XML is damaged: it is empty";
+    DamagedYaml { message: String } => "the YAML is damaged: {message}";
+    FormatUnrecognised => "the format of these files is not recognised: name it instead of \"auto\"";
+    ExpectedHere { expected: String, found: String } => "expected {expected}, found \"{found}\"";
+    EndsWhere { expected: String } => "the file ends where {expected} is expected";
+    NoSuchCameraModel { model: String } => "camera model {model} is not supported: calibrate with a perspective model (OpenCV, Brown) in the other program, or undistort the photos there";
+    ConversionFails { model: String } => "camera model {model} cannot be fitted in this region: give the region of the picture that is used";
+    ConversionTooLarge { max_px: Number } => "the camera models differ by up to {max_px} pixels: accept it with the option convert, or give the region of the picture that is used";
+    RegionShape => "a region is a polygon of at least three different points in pixels";
+    CovarianceShape => "a covariance has parameters of this camera and one row and column of a symmetric positive matrix for each";
 
     // Film
     PitchMissing => "photo coordinates are in millimetres: give the camera a pixel pitch";

@@ -5,7 +5,7 @@
 //! downwards; K and P correct the measured point (backward models), as ours do.
 //! Operations other than the choice of what is estimated and the least number of rays are left to the user.
 
-mod element;
+pub(super) mod element;
 
 use std::collections::HashMap;
 

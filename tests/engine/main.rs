@@ -38,6 +38,7 @@ mod detect {
 /// Files of other programs, read and written.
 mod exchange {
     mod foreign;
+    mod interchange;
     mod round_trips;
     mod spatial;
     mod tables;

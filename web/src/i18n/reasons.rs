@@ -267,6 +267,31 @@ pub fn reason(reason: &Reason) -> String {
             return told("XML이 손상되었습니다: {name}{name:이|가} 닫히지 않았습니다", &[("name", name)]);
         }
         R::XmlEmpty => "XML이 손상되었습니다: 비어 있습니다",
+        R::DamagedYaml { message } => return format!("YAML이 손상되었습니다: {message}"),
+        R::FormatUnrecognised => "파일의 형식을 알 수 없습니다. \"auto\" 대신 형식을 지정하십시오",
+        R::ExpectedHere { expected, found } => {
+            return format!("여기에는 다음이 있어야 합니다: {expected}. 실제로 있는 것: \"{found}\"");
+        }
+        R::EndsWhere { expected } => return format!("파일이 도중에 끝났습니다. 이어서 있어야 할 것: {expected}"),
+        R::NoSuchCameraModel { model } => {
+            return format!(
+                "카메라 모델 {model}: 지원하지 않습니다. 다른 프로그램에서 원근 모델(OpenCV, Brown)로 캘리브레이션하거나 사진의 왜곡을 보정한 뒤 가져오십시오"
+            );
+        }
+        R::ConversionFails { model } => {
+            return format!(
+                "카메라 모델 {model}: 이 영역에서 변환할 수 없습니다. 사진에서 실제로 사용하는 영역을 지정하십시오"
+            );
+        }
+        R::ConversionTooLarge { max_px } => {
+            return format!(
+                "두 카메라 모델의 차이가 최대 {max_px}화소입니다. convert 옵션으로 허용하거나 사진에서 실제로 사용하는 영역을 지정하십시오"
+            );
+        }
+        R::RegionShape => "영역은 서로 다른 세 점 이상으로 이루어진 화소 좌표의 다각형이어야 합니다",
+        R::CovarianceShape => {
+            "공분산에는 이 카메라의 매개변수와, 매개변수마다 행과 열이 하나씩 있는 대칭 양정치 행렬이 있어야 합니다"
+        }
 
         R::PitchMissing => "사진좌표는 밀리미터입니다. 카메라에 화소 간격을 주십시오",
         R::ReadingSigma => "사진좌표의 표준오차는 0보다 큰 밀리미터 값이어야 합니다",

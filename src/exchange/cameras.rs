@@ -1,0 +1,211 @@
+//! Cameras by themselves, in and out: which format has them, recognised by content.
+
+use serde::Serialize;
+
+use super::conversion::Conversion;
+use super::foreign::{self, Assumed, CameraOptions, ExportedCamera, ForeignCamera, Ignored, ImportedCamera, Notes};
+use super::tree::{self, Node};
+use super::{
+    Files, Format, agisoft_lens, bal, bundler, colmap, dbat, encoding, kalibr, meshroom, metashape, micmac, mrcal,
+    opencv, ros,
+};
+use crate::error::{Error, Lack, Place, Reason, Result, Thing};
+use crate::project::Camera;
+
+/// Formats of cameras.
+pub const FORMATS: [Format; 9] = [
+    Format { name: "opencv", import: true, export: true },
+    Format { name: "ros", import: true, export: true },
+    Format { name: "kalibr", import: true, export: true },
+    Format { name: "mrcal", import: true, export: true },
+    Format { name: "colmap", import: true, export: true },
+    Format { name: "metashape", import: true, export: false },
+    Format { name: "meshroom", import: true, export: false },
+    Format { name: "agisoft-lens", import: true, export: true },
+    Format { name: "micmac", import: true, export: true },
+];
+
+/// Cameras that were read.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ImportedCameras {
+    /// Format.
+    pub format: &'static str,
+    /// The cameras.
+    pub cameras: Vec<ImportedCamera>,
+    /// What was taken for granted.
+    pub assumed: Vec<Assumed>,
+    /// What of the files is not kept.
+    pub ignored: Vec<Ignored>,
+}
+
+impl ImportedCameras {
+    /// Conversions of the cameras.
+    pub fn conversions(&self) -> impl Iterator<Item = &Conversion> {
+        self.cameras.iter().filter_map(|camera| camera.conversion.as_ref())
+    }
+}
+
+fn unknown(format: &str, wanted: fn(&Format) -> bool) -> Error {
+    let known: Vec<&str> = FORMATS.iter().filter(|known| wanted(known)).map(|known| known.name).collect();
+    let at = Place::field(format!("format: one of {}", known.join(", ")));
+    Error::Unknown { kind: Thing::Format, name: format.into(), at }
+}
+
+/// What a text of one file is, parsed.
+enum Content {
+    Tree(serde_json::Value),
+    Xml(dbat::element::Element),
+    Text(String),
+}
+
+fn content(format: &str, bytes: &[u8]) -> Result<Content> {
+    let text = encoding::text(bytes)?;
+    Ok(match format {
+        "mrcal" => Content::Text(text),
+        "agisoft-lens" | "micmac" => Content::Xml(dbat::element::parse(&text)?),
+        "meshroom" => Content::Tree(tree::json(&text)?),
+        "opencv" => Content::Tree(tree::parse(&text)?),
+        _ => Content::Tree(tree::yaml(&text)?),
+    })
+}
+
+/// The format of files with cameras, by their content.
+pub fn recognised(files: &Files) -> Option<&'static str> {
+    if colmap::recognises(files) {
+        return Some("colmap");
+    }
+    let of = |bytes: &Vec<u8>| -> Option<&'static str> {
+        let text = encoding::text(bytes).ok()?;
+        let start = text.trim_start();
+        if bundler::recognises(&text) || bal::recognises(&text) {
+            return None;
+        }
+        if start.starts_with('<') {
+            let root = dbat::element::parse(&text).ok()?;
+            if agisoft_lens::recognises(&root) {
+                return Some("agisoft-lens");
+            }
+            if micmac::recognises(&root) {
+                return Some("micmac");
+            }
+            if metashape::recognises(&root) {
+                return Some("metashape");
+            }
+        }
+        // A dictionary of Python looks like JSON and like YAML.
+        if mrcal::recognises(&text) {
+            return Some("mrcal");
+        }
+        let tree = tree::parse(&text).ok()?;
+        let root = Node::root(&tree);
+        if meshroom::recognises(&root) {
+            return Some("meshroom");
+        }
+        if kalibr::recognises(&root) {
+            return Some("kalibr");
+        }
+        if ros::recognises(&root) {
+            return Some("ros");
+        }
+        opencv::recognises(&root).then_some("opencv")
+    };
+    files.values().find_map(of)
+}
+
+/// Reads cameras. Each model that the engine lacks is converted over the region, given or the file's own, else the whole picture.
+///
+/// # Errors
+/// [`Error::Unknown`] for a format that is not read, [`Error::Empty`] without files, [`Error::Invalid`] with file and line or element,
+/// [`Reason::NoSuchCameraModel`], [`Reason::ConversionTooLarge`].
+pub fn import(format: &str, files: &Files, options: &CameraOptions) -> Result<ImportedCameras> {
+    if files.is_empty() {
+        return Err(Error::Empty { what: Lack::Files });
+    }
+    let format = match format {
+        "auto" => recognised(files)
+            .ok_or(Error::Invalid { reason: Reason::FormatUnrecognised, at: Place::field("format") })?,
+        named => FORMATS
+            .iter()
+            .find(|known| known.import && known.name == named)
+            .map(|known| known.name)
+            .ok_or_else(|| unknown(named, |known| known.import))?,
+    };
+    let mut notes = Notes::default();
+    let mut cameras = Vec::new();
+    let settle = |camera: &ForeignCamera| foreign::settled(camera, options.region.as_deref(), options.convert);
+    match format {
+        "colmap" => {
+            for camera in colmap::read_cameras(files, &mut notes)? {
+                cameras.push(settle(&camera)?);
+            }
+        }
+        "metashape" => {
+            let network = metashape::read(files)?;
+            notes = network.notes;
+            notes.ignore("photos", network.photos.len());
+            notes.ignore("markers", network.points.len());
+            for camera in &network.cameras {
+                cameras.push(settle(camera)?);
+            }
+        }
+        _ => {
+            for (name, bytes) in files {
+                let stem = name.rsplit(['/', '\\']).next().unwrap_or_default();
+                let stem = stem.rsplit_once('.').map_or(stem, |(stem, _)| stem);
+                let id = if stem.is_empty() { "camera" } else { stem };
+                let mut read = || -> Result<Vec<ImportedCamera>> {
+                    let found = match content(format, bytes)? {
+                        Content::Text(text) => mrcal::read(&text, id, &mut notes)?,
+                        Content::Xml(root) if format == "micmac" => micmac::read(&root, id, &mut notes)?,
+                        Content::Xml(root) if agisoft_lens::recognises(&root) => {
+                            agisoft_lens::read(&root, id, &mut notes)?
+                        }
+                        Content::Xml(root) => {
+                            return Err(agisoft_lens::wrong(&root.name, "a calibration with its projection", ""));
+                        }
+                        Content::Tree(tree) => {
+                            let root = Node::root(&tree);
+                            match format {
+                                "ros" => ros::read(&root, &mut notes)?,
+                                "kalibr" => kalibr::read(&root, &mut notes)?,
+                                "meshroom" => meshroom::cameras(&root, &mut notes)?,
+                                _ => opencv::read(&root, &mut notes)?,
+                            }
+                        }
+                    };
+                    found.iter().map(settle).collect()
+                };
+                cameras.extend(read().map_err(|error| error.in_file(name))?);
+            }
+        }
+    }
+    // Files of several cameras that name none.
+    let mut taken = std::collections::HashSet::new();
+    for camera in &mut cameras {
+        let name = camera.camera.id.clone();
+        let mut number = 2;
+        while !taken.insert(camera.camera.id.clone()) {
+            camera.camera.id = format!("{name} {number}");
+            number += 1;
+        }
+    }
+    Ok(ImportedCameras { format, cameras, assumed: notes.assumed, ignored: notes.ignored })
+}
+
+/// Writes a camera.
+///
+/// # Errors
+/// [`Error::Unknown`] for a format that is not written, and as [`foreign::outgoing`].
+pub fn export(format: &str, camera: &Camera, options: &CameraOptions) -> Result<ExportedCamera> {
+    crate::project::Project { cameras: vec![camera.clone()], ..crate::project::Project::default() }.validate()?;
+    match format {
+        "opencv" => opencv::write(camera, options),
+        "ros" => ros::write(camera, options),
+        "kalibr" => kalibr::write(camera, options),
+        "mrcal" => mrcal::write(camera, None, options),
+        "colmap" => colmap::write_camera(camera, options),
+        "agisoft-lens" => agisoft_lens::write(camera, options),
+        "micmac" => micmac::write(camera, options),
+        _ => Err(unknown(format, |known| known.export)),
+    }
+}
