@@ -52,7 +52,8 @@ impl Run {
     }
 }
 
-const SUITES: [Suite; 5] = [("native", native), ("wasm", wasm), ("face", face), ("types", types), ("page", browser)];
+const SUITES: [Suite; 6] =
+    [("native", native), ("wasm", wasm), ("face", face), ("types", types), ("page", browser), ("peers", peers)];
 
 /// `test [all] [suite ...]`.
 pub fn command(arguments: &[String]) -> Outcome {
@@ -64,7 +65,9 @@ pub fn command(arguments: &[String]) -> Outcome {
         let known = SUITES.map(|(suite, _)| suite).join(", ");
         return Err(format!("there is no suite {name}; the suites are {known}"));
     }
-    let wanted = |name: &str| names.is_empty() || names.iter().any(|wanted| wanted == name);
+    // Comparisons with other programs belong to the full extent, or are asked for.
+    let usual = |name: &str| names.is_empty() && (name != "peers" || extent == Extent::All);
+    let wanted = |name: &str| usual(name) || names.iter().any(|wanted| wanted == name);
     let profile = if extent == Extent::All { Profile::Release } else { Profile::Fast };
     let all = Run { extent, with_page: wanted("page"), products: Products::of(profile)?, built: OnceLock::new() };
     let wanted_suites = SUITES.into_iter().filter(|(name, _)| wanted(name));
@@ -173,6 +176,28 @@ fn types(all: &Run, out: &mut dyn Write) -> Outcome<Count> {
         |_| (),
     )?;
     Ok(Count { passed: usize::from(compiled), failed: usize::from(!compiled), skipped: 0 })
+}
+
+/// Files of other programs against these programs, in the Python that has them: `SIGHTLINE_PYTHON`, or the usual one. What is not installed
+/// there is skipped by name.
+fn peers(_: &Run, out: &mut dyn Write) -> Outcome<Count> {
+    let examples = build::examples()?;
+    let python = std::env::var("SIGHTLINE_PYTHON").unwrap_or_else(|_| "python3".into());
+    let numpy = std::process::Command::new(&python).args(["-c", "import numpy"]).output();
+    if !numpy.is_ok_and(|output| output.status.success()) {
+        let _ = writeln!(out, "skipped: {python} has no numpy");
+        return Ok(Count { skipped: 1, ..Count::default() });
+    }
+    let example = format!("{examples}/interchange");
+    counted(out, &mut program(&python, &["tests/peers/interchange.py", &example]), peers_count)
+}
+
+/// "32 passed, 0 failed, 1 skipped", the last line of `tests/peers/interchange.py`.
+fn peers_count(line: &str) -> Count {
+    let words: Vec<&str> = line.split([' ', ',']).filter(|word| !word.is_empty()).collect();
+    let [passed, "passed", failed, "failed", skipped, "skipped"] = words[..] else { return Count::default() };
+    let number = |word: &str| word.parse().unwrap_or(0);
+    Count { passed: number(passed), failed: number(failed), skipped: number(skipped) }
 }
 
 /// The page in a headless browser, against a server of dist/.
@@ -309,6 +334,8 @@ mod tests {
         assert_eq!(node_count("ℹ fail 2"), Count { failed: 2, ..Count::default() });
         assert_eq!(node_count("ℹ cancelled 1"), Count { failed: 1, ..Count::default() });
         assert_eq!(node_count("ℹ skipped 4"), Count { skipped: 4, ..Count::default() });
+        assert_eq!(peers_count("32 passed, 1 failed, 2 skipped"), Count { passed: 32, failed: 1, skipped: 2 });
+        assert_eq!(peers_count("ok  32 passed"), Count::default());
         let sum = Count { passed: 12, failed: 0, skipped: 1 };
         assert_eq!(
             (sum.to_string(), Count { skipped: 0, ..sum }.to_string()),

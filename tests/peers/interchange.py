@@ -1,0 +1,289 @@
+"""Files of other programs compared with these programs themselves: every camera images random points in their model and in ours.
+
+    python3 tests/peers/interchange.py PATH/TO/examples/interchange
+
+Needs numpy; opencv-python-headless, pycolmap, mrcal and PyYAML each for its own part, which is skipped by name where the package is missing.
+Prints a line a comparison and "N passed, M failed, K skipped"; the exit code says whether anything failed.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+PROGRAM = sys.argv[1]
+LIMIT = 1e-6
+DATA = os.environ.get("SIGHTLINE_DATA") or os.path.join(os.path.dirname(__file__), "../../../shared/data")
+passed, failed, skipped = [], [], []
+random = np.random.default_rng(1971)
+
+
+def ours(*words):
+    done = subprocess.run([PROGRAM, *words], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(done.stderr.strip())
+    return json.loads(done.stdout)
+
+
+def save(path, value):
+    with open(path, "w") as file:
+        json.dump(value, file)
+    return path
+
+
+def judge(name, theirs, here, limit=LIMIT):
+    theirs, here = np.asarray(theirs, float), np.asarray(here, float)
+    largest = np.abs(theirs - here).max() if theirs.shape == here.shape and theirs.size else np.inf
+    (passed if largest <= limit else failed).append(name)
+    print(f"{'ok' if largest <= limit else 'FAILED'}  {name}: {largest:.2e} px over {len(theirs)} points")
+
+
+def part(name, module):
+    """The package of a part; none where it is missing."""
+    try:
+        return __import__(module)
+    except ImportError:
+        skipped.append(name)
+        print(f"skipped  {name}: no package {module}")
+        return None
+
+
+def points(count=400, reach=0.42):
+    """Points in front of a camera, far off its axis in both directions; x right, y down, z forwards."""
+    z = random.uniform(0.5, 20, count)
+    return np.column_stack([random.uniform(-reach, reach, count) * z, random.uniform(-reach, reach, count) * z, z])
+
+
+def pixels(folder, camera, at):
+    return ours("pixels", save(f"{folder}/camera.json", camera), save(f"{folder}/points.json", at.tolist()))
+
+
+def opencv_camera():
+    """A camera of the document with everything unequal."""
+    u = random.uniform
+    return dict(id="lens", width=1280, height=960, model="opencv", fx=u(850, 950), fy=u(860, 940), cx=u(600, 690), cy=u(440, 520),
+                k1=u(-0.25, 0.1), k2=u(-0.05, 0.08), p1=u(1e-4, 2e-3), p2=u(-3e-3, -2e-4), k3=u(-0.02, 0.02))
+
+
+def brown_camera():
+    u = random.uniform
+    return dict(id="lens", width=3000, height=2000, pixel_pitch=[0.0078, 0.0078], model="brown", c=u(23, 26), x0=u(0.05, 0.3), y0=u(-0.3, -0.05),
+                k1=u(0.5e-4, 2e-4), k2=u(-3e-7, 1e-7), k3=0.0, p1=u(0.5e-5, 2e-5), p2=u(-3e-5, -1e-5), b1=u(1e-4, 5e-4), b2=u(-4e-4, -1e-4))
+
+
+def of_opencv(cv2, path, at):
+    file = cv2.FileStorage(path, cv2.FILE_STORAGE_READ)
+    k, d = file.getNode("camera_matrix").mat(), file.getNode("distortion_coefficients").mat()
+    # The centre of the first pixel is (0, 0) there.
+    return cv2.projectPoints(at, np.zeros(3), np.zeros(3), k, d)[0][:, 0] + 0.5
+
+
+def opencv():
+    cv2 = part("opencv", "cv2")
+    if not cv2:
+        return
+    for ending in ["yml", "xml", "json"]:
+        for count in [4, 5, 8]:
+            with tempfile.TemporaryDirectory() as folder:
+                path, u = f"{folder}/c.{ending}", random.uniform
+                k = np.array([[u(850, 950), 0, u(600, 690)], [0, u(860, 940), u(440, 520)], [0, 0, 1]])
+                # Eight coefficients whose denominator is 1: the engine's model exactly.
+                d = np.concatenate([[u(-0.2, 0.1), u(-0.05, 0.05), u(1e-4, 2e-3), u(-3e-3, -2e-4), u(-0.02, 0.02)], np.zeros(3)])[:count]
+                file = cv2.FileStorage(path, cv2.FILE_STORAGE_WRITE)
+                file.write("image_width", 1280), file.write("image_height", 960)
+                file.write("camera_matrix", k), file.write("distortion_coefficients", d.reshape(-1, 1))
+                file.release()
+                read = ours("read", "auto", path)
+                assert read["format"] == "opencv", read
+                at = points()
+                judge(f"opencv {ending} of OpenCV with {count} coefficients", of_opencv(cv2, path, at), pixels(folder, read["cameras"][0]["camera"], at))
+    for make in [opencv_camera, brown_camera]:
+        with tempfile.TemporaryDirectory() as folder:
+            camera, at = make(), points()
+            conversion = ours("write", "opencv", save(f"{folder}/lens.json", camera), folder)
+            difference = of_opencv(cv2, f"{folder}/camera.yml", at)
+            # A conversion is as far off as it says, over the picture.
+            here = np.array([p or [np.nan, np.nan] for p in pixels(folder, camera, at)])
+            inside = np.all((here >= 0) & (here <= [camera["width"], camera["height"]]), axis=1)
+            limit = LIMIT if conversion is None else conversion["max_px"] * 1.01 + 1e-6
+            judge(f"opencv written of {camera['model']}", difference[inside], here[inside], limit)
+    converted(cv2)
+
+
+def converted(cv2):
+    """Eight, twelve and fourteen coefficients: the difference is the one that is stated."""
+    for name, d in [("8", [0.31, 0.07, 4e-4, -3e-4, 0.01, 0.42, 0.08, 0.015]), ("12", [-0.1, 0.02, 4e-4, -3e-4, 0, 0, 0, 0, 2e-4, -1e-4, 1e-4, 3e-4]),
+                    ("14", [-0.1, 0.02, 4e-4, -3e-4, 0, 0, 0, 0, 2e-4, -1e-4, 1e-4, 3e-4, 0.002, -0.001])]:
+        with tempfile.TemporaryDirectory() as folder:
+            path = f"{folder}/c.yml"
+            k = np.array([[903.0, 0, 641.5], [0, 911.0, 472.25], [0, 0, 1]])
+            file = cv2.FileStorage(path, cv2.FILE_STORAGE_WRITE)
+            file.write("image_width", 1280), file.write("image_height", 960)
+            file.write("camera_matrix", k), file.write("distortion_coefficients", np.array(d).reshape(-1, 1))
+            file.release()
+            read, at = ours("read", "opencv", path)["cameras"][0], points(2000, 0.7)
+            theirs = of_opencv(cv2, path, at)
+            inside = np.all((theirs >= 0) & (theirs <= [1280, 960]), axis=1)
+            here = np.array([p or [np.nan, np.nan] for p in pixels(folder, read["camera"], at)])
+            print(f"    stated: {read['conversion']['max_px']:.4f} px at most, {read['conversion']['rms_px']:.4f} px rms to {read['conversion']['to']}")
+            judge(f"opencv with {name} coefficients, converted", theirs[inside], here[inside], read["conversion"]["max_px"] * 1.01 + 1e-6)
+
+
+def ros_and_kalibr():
+    """By OpenCV's projection of what PyYAML reads."""
+    cv2, yaml = part("ros and kalibr", "cv2"), part("ros and kalibr", "yaml")
+    if not cv2 or not yaml:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        camera, at = opencv_camera(), points()
+        assert ours("write", "ros", save(f"{folder}/lens.json", camera), folder) is None
+        info = yaml.safe_load(open(f"{folder}/camera_info.yaml"))
+        assert info["distortion_model"] == "plumb_bob", info
+        k, d = np.reshape(info["camera_matrix"]["data"], (3, 3)), np.array(info["distortion_coefficients"]["data"])
+        judge("ros written", cv2.projectPoints(at, np.zeros(3), np.zeros(3), k, d)[0][:, 0] + 0.5, pixels(folder, camera, at))
+        read = ours("read", "auto", f"{folder}/camera_info.yaml")
+        assert read["format"] == "ros", read
+        judge("ros read", pixels(folder, read["cameras"][0]["camera"], at), pixels(folder, camera, at))
+        camera["k3"] = 0.0
+        assert ours("write", "kalibr", save(f"{folder}/lens.json", camera), folder) is None
+        chain = yaml.safe_load(open(f"{folder}/camchain.yaml"))["cam0"]
+        fx, fy, cx, cy = chain["intrinsics"]
+        k, d = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]]), np.array(chain["distortion_coeffs"])
+        judge("kalibr written", cv2.projectPoints(at, np.zeros(3), np.zeros(3), k, d)[0][:, 0] + 0.5, pixels(folder, camera, at))
+        read = ours("read", "auto", f"{folder}/camchain.yaml")
+        assert read["format"] == "kalibr", read
+        judge("kalibr read", pixels(folder, read["cameras"][0]["camera"], at), pixels(folder, camera, at))
+
+
+def mrcal():
+    peer = part("mrcal", "mrcal")
+    if not peer:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        u = random.uniform
+        for count in [4, 5]:
+            values = np.concatenate([[u(850, 950), u(860, 940), u(600, 690), u(440, 520), u(-0.2, 0.1), u(-0.05, 0.05), u(1e-4, 2e-3), u(-3e-3, -2e-4)],
+                                     [u(-0.02, 0.02)][:count - 4]])
+            turn = np.array([0.3, -0.2, 0.5, 1.0, -2.0, 3.0])
+            model = peer.cameramodel(intrinsics=(f"LENSMODEL_OPENCV{count}", values), imagersize=(1280, 960))
+            (model.rt_cam_ref if hasattr(model, "rt_cam_ref") else model.extrinsics_rt_fromref)(turn)
+            model.write(f"{folder}/c.cameramodel")
+            read, at = ours("read", "auto", f"{folder}/c.cameramodel"), points()
+            assert read["format"] == "mrcal", read
+            judge(f"mrcal OPENCV{count} of mrcal", peer.project(at, *model.intrinsics()) + 0.5, pixels(folder, read["cameras"][0]["camera"], at))
+            # The pose: points of the reference into the camera.
+            found = read["cameras"][0]
+            from_ref = peer.transform_point_rt(turn, at)
+            judge(f"mrcal pose with OPENCV{count}", from_ref, moved(found["position"], found["rotation"], at), 1e-9)
+        camera = opencv_camera()
+        assert ours("write", "mrcal", save(f"{folder}/lens.json", camera), folder) is None
+        model = peer.cameramodel(f"{folder}/camera.cameramodel")
+        judge("mrcal written", peer.project(at, *model.intrinsics()) + 0.5, pixels(folder, camera, at))
+        for name in ["cam0.opencv8.cameramodel", "overpass-opencv8.cameramodel"]:
+            path = f"{DATA}/interchange/{name}"
+            if not os.path.exists(path):
+                skipped.append(name)
+                continue
+            model = peer.cameramodel(path)
+            if name.startswith("overpass"):
+                # Too wide a lens for a polynomial: said, not written into a project.
+                try:
+                    ours("read", "mrcal", path)
+                    failed.append(name)
+                except RuntimeError as error:
+                    (passed if "ConversionTooLarge" in str(error) else failed).append(name)
+                continue
+            read = ours("read", "mrcal", path)["cameras"][0]
+            width, height = model.imagersize()
+            region = np.array(read["conversion"]["region"])
+            grid = np.array([[x, y] for x in np.linspace(region[:, 0].min(), region[:, 0].max(), 40) for y in np.linspace(region[:, 1].min(), region[:, 1].max(), 40)])
+            at = peer.unproject(grid - 0.5, *model.intrinsics())
+            print(f"    stated: {read['conversion']['max_px']:.4f} px at most, {read['conversion']['rms_px']:.4f} px rms to {read['conversion']['to']} of {width} x {height}")
+            judge(f"mrcal {name}, converted", grid, pixels(folder, read["camera"], at), read["conversion"]["max_px"] * 1.02 + 1e-6)
+
+
+def moved(position, angles, at):
+    """Points in the frame of a photo of the document, y down, z forwards."""
+    (so, sp, sk), (co, cp, ck) = np.sin(angles), np.cos(angles)
+    m = np.array([[cp * ck, so * sp * ck + co * sk, -co * sp * ck + so * sk], [-cp * sk, -so * sp * sk + co * ck, co * sp * sk + so * ck], [sp, -so * cp, co * cp]])
+    return (at - position) @ (np.diag([1, -1, -1]) @ m).T
+
+
+def colmap():
+    peer = part("colmap", "pycolmap")
+    if not peer:
+        return
+    u = random.uniform
+    parameters = dict(
+        SIMPLE_PINHOLE=lambda: [u(850, 950), u(600, 690), u(440, 520)],
+        PINHOLE=lambda: [u(850, 950), u(850, 950), u(600, 690), u(440, 520)],
+        SIMPLE_RADIAL=lambda: [u(850, 950), u(600, 690), u(440, 520), u(-0.2, 0.1)],
+        RADIAL=lambda: [u(850, 950), u(600, 690), u(440, 520), u(-0.2, 0.1), u(-0.05, 0.05)],
+        OPENCV=lambda: [u(850, 950), u(850, 950), u(600, 690), u(440, 520), u(-0.2, 0.1), u(-0.05, 0.05), u(1e-4, 2e-3), u(-3e-3, -2e-4)],
+        FULL_OPENCV=lambda: [u(850, 950), u(850, 950), u(600, 690), u(440, 520), u(-0.2, 0.1), u(-0.05, 0.05), u(1e-4, 2e-3), u(-3e-3, -2e-4), u(-0.02, 0.02), 0, 0, 0])
+    for binary in [False, True]:
+        with tempfile.TemporaryDirectory() as folder:
+            scene = synthetic(peer, parameters)
+            os.mkdir(f"{folder}/theirs")
+            (scene.write_binary if binary else scene.write_text)(f"{folder}/theirs")
+            files = [f"{folder}/theirs/{name}" for name in sorted(os.listdir(f"{folder}/theirs"))]
+            project = ours("import", "auto", *files)
+            assert project["recognised"] == "colmap", project["recognised"]
+            here = {(photo, point): pixel for photo, point, pixel in ours("project", save(f"{folder}/p.json", project))}
+            kind = "binary" if binary else "text"
+            compare(peer, scene, here, f"colmap {kind} of pycolmap")
+            measured = {(str(i), str(p.point3D_id)): p.xy for i, image in scene.images.items() for p in image.points2D if p.has_point3D()}
+            found = {(o["photo"], o["point"]): (o["u"], o["v"]) for o in project["observations"]}
+            assert measured.keys() == found.keys(), "keypoints"
+            judge(f"colmap {kind} keypoints", [measured[k] for k in measured], [found[k] for k in measured], 1e-12)
+            ours("export", "colmap-binary" if binary else "colmap", f"{folder}/p.json", f"{folder}/ours")
+            back = peer.Reconstruction(f"{folder}/ours")
+            assert back.num_points3D() == scene.num_points3D() and back.num_images() == scene.num_images()
+            compare(peer, back, here, f"colmap {kind} written")
+            assert all(len(back.points3D[i].track.elements) == len(point.track.elements) for i, point in scene.points3D.items()), "tracks"
+            passed.append("tracks")
+
+
+def synthetic(peer, parameters):
+    """A scene of a camera of each model with points, keypoints that are their images, and keypoints of no point."""
+    scene = peer.Reconstruction()
+    at = random.uniform(-1, 1, (60, 3))
+    tracks = [peer.Track() for _ in at]
+    for number, (model, values) in enumerate(parameters.items(), 1):
+        camera = peer.Camera(model=model, width=1280, height=960, params=values(), camera_id=number)
+        scene.add_camera_with_trivial_rig(camera)
+        turn = random.normal(size=4)
+        rotation = peer.Rotation3d(turn / np.linalg.norm(turn))
+        pose = peer.Rigid3d(rotation, np.array([0.1, -0.2, 4.0]))
+        image = peer.Image(name=f"photo {number}.jpg", camera_id=number, image_id=number)
+        seen = [camera.img_from_cam(pose * p) for p in at]
+        image.points2D = peer.Point2DList([peer.Point2D(np.asarray(p).ravel()) for p in seen] + [peer.Point2D(np.array([5.0, 7.0]))])
+        scene.add_image_with_trivial_frame(image, pose)
+        for k, track in enumerate(tracks):
+            track.add_element(number, k)
+    for p, track in zip(at, tracks):
+        scene.add_point3D(p, track, np.array([1, 2, 3], np.uint8))
+    return scene
+
+
+def compare(peer, scene, here, name):
+    theirs, mine = [], []
+    for number, image in scene.images.items():
+        for i, point in scene.points3D.items():
+            pixel = scene.cameras[image.camera_id].img_from_cam(image.cam_from_world() * point.xyz)
+            theirs.append(np.asarray(pixel).ravel())
+            mine.append(here[(str(number), str(i))])
+    judge(name, theirs, mine)
+
+
+for run in [opencv, ros_and_kalibr, mrcal, colmap]:
+    try:
+        run()
+    except Exception as error:  # A part that stops has failed; the others still say what they have to say.
+        failed.append(run.__name__)
+        print(f"FAILED  {run.__name__}: {type(error).__name__}: {error}")
+print(f"{len(passed)} passed, {len(failed)} failed, {len(skipped)} skipped")
+sys.exit(1 if failed else 0)
