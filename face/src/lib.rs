@@ -19,6 +19,7 @@ use wasm_bindgen::prelude::*;
 use fault::thrown;
 use sightline::adjustment::{AdjustOptions, Iteration};
 use sightline::detection::{Channel, ColoursApart, DetectOptions};
+use sightline::exchange::foreign::CameraOptions;
 use sightline::experiments::ExperimentOptions;
 use sightline::image::{Grey, Samples};
 use sightline::network::Network;
@@ -464,7 +465,7 @@ pub fn import_project(
 ) -> Thrown {
     let read = || {
         let choices = value::options(&choices, &[])?;
-        exchange::import_with(&value::text(&format, "format")?, &value::files(&files)?, choices)
+        exchange::import_files(&value::text(&format, "format")?, &value::files(&files)?, &choices)
     };
     read().map(value::imported_object).map_err(|error| thrown(&error))
 }
@@ -484,12 +485,67 @@ pub fn export_project(
     #[wasm_bindgen(unchecked_param_type = "ExportFormat")] format: JsValue,
     #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
     #[wasm_bindgen(unchecked_optional_param_type = "Adjustment | null")] adjustment: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "ExportOptions | null")] options: JsValue,
 ) -> Thrown {
+    #[derive(Default, Serialize, serde::Deserialize)]
+    #[serde(default)]
+    struct Options {
+        convert: bool,
+    }
     let written = || {
+        let Options { convert } = value::options(&options, &[])?;
         let project = value::project(&project)?;
         let absent = adjustment.is_undefined() || adjustment.is_null();
         let adjustment = if absent { None } else { Some(value::read(&adjustment, "adjustment")?) };
-        exchange::export(&value::text(&format, "format")?, &project, adjustment.as_ref())
+        exchange::export_with(&value::text(&format, "format")?, &project, adjustment.as_ref(), convert)
     };
     written().map(|files| value::files_object(&files)).map_err(|error: Error| thrown(&error))
+}
+
+/// Reads cameras of other programs; a model that is not one of the document's is converted, with the difference that remains.
+#[wasm_bindgen(js_name = importCamera, unchecked_return_type = "ImportedCameras")]
+pub fn import_camera(
+    #[wasm_bindgen(unchecked_param_type = "CameraImportFormat")] format: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Record<string, Uint8Array | ArrayBuffer | string>")] files: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "CameraImportOptions | null")] options: JsValue,
+) -> Thrown {
+    #[derive(Default, Serialize, serde::Deserialize)]
+    #[serde(default)]
+    struct Options {
+        region: Option<Vec<[f64; 2]>>,
+        convert: bool,
+    }
+    let read = || {
+        let Options { region, convert } = value::options(&options, &[])?;
+        let options = CameraOptions { region, convert, covariance: None };
+        exchange::cameras::import(&value::text(&format, "format")?, &value::files(&files)?, &options)
+    };
+    read().map(|read| value::write(&read)).map_err(|error: Error| thrown(&error))
+}
+
+/// Writes a camera for another program, with the difference that the conversion of its model leaves.
+#[wasm_bindgen(js_name = exportCamera, unchecked_return_type = "ExportedCamera")]
+pub fn export_camera(
+    #[wasm_bindgen(unchecked_param_type = "CameraExportFormat")] format: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Camera")] camera: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "CameraExportOptions | null")] options: JsValue,
+) -> Thrown {
+    #[derive(Serialize)]
+    struct Rest {
+        conversion: Option<exchange::conversion::Conversion>,
+        covariance: Option<exchange::conversion::Covariance>,
+        ignored: Vec<exchange::foreign::Ignored>,
+    }
+    let written = || {
+        let options: CameraOptions = value::options(&options, &[])?;
+        let camera: Camera = value::read(&camera, "camera")?;
+        exchange::cameras::export(&value::text(&format, "format")?, &camera, &options)
+    };
+    let object = |written: exchange::foreign::ExportedCamera| {
+        let exchange::foreign::ExportedCamera { files, conversion, covariance, ignored } = written;
+        let object = value::write(&Rest { conversion, covariance, ignored });
+        value::set(object.unchecked_ref(), "files", &value::files_object(&files));
+        object
+    };
+    written().map(object).map_err(|error: Error| thrown(&error))
 }

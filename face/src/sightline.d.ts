@@ -1447,6 +1447,93 @@ export interface ImportChoices {
   axes?: "xy" | "yx" | null;
   /** Unit of the coordinates of a table whose heading has none. */
   unit?: Unit | null;
+  /** Accept a camera whose converted model differs by more than 1 px; default false. */
+  convert?: boolean;
+}
+
+/** Choices of writing. */
+export interface ExportOptions {
+  /** Accept a camera whose converted model differs by more than 1 px; default false. */
+  convert?: boolean;
+}
+
+/** A camera model fitted to another one by least squares over a region. */
+export interface Conversion {
+  camera: string;
+  /** Model that was given. */
+  from: string;
+  /** Model that was fitted. */
+  to: string;
+  /** Largest difference in the region, pixels. */
+  max_px: number;
+  rms_px: number;
+  /** The region, a polygon of pixels. */
+  region: [number, number][];
+  /** Whether the difference is larger than 0.05 px. */
+  warning: boolean;
+}
+
+/** Covariance of parameters. */
+export interface ParameterCovariance {
+  parameters: string[];
+  matrix: number[][];
+}
+
+/** Something that has no place in the document or in the file, by its name there. */
+export interface Ignored {
+  name: string;
+  count: number;
+}
+
+/** What a format leaves open and was taken for granted. */
+export type Assumed =
+  | "sigma_one_pixel"
+  | "image_size_from_principal_point"
+  | "image_size_from_measurements"
+  | "four_coefficients_radial_tangential"
+  | "unit_unknown"
+  | "system_of_chunk";
+
+export type CameraFormat = "opencv" | "ros" | "kalibr" | "mrcal" | "colmap" | "agisoft-lens" | "micmac";
+export type CameraImportFormat = "auto" | CameraFormat | "metashape" | "meshroom";
+export type CameraExportFormat = CameraFormat;
+
+export interface CameraImportOptions {
+  /** Part of the picture over which a model is converted, a polygon of pixels; null: the file's own, else all of it. */
+  region?: [number, number][] | null;
+  /** Accept a difference of more than 1 px; default false. */
+  convert?: boolean;
+}
+
+export interface CameraExportOptions extends CameraImportOptions {
+  /** Covariance of the camera's parameters, written converted as `camera.covariance.json`. */
+  covariance?: ParameterCovariance | null;
+}
+
+export interface ImportedCamera {
+  camera: Camera;
+  /** Absent where the model is the document's own. */
+  conversion?: Conversion;
+  covariance?: ParameterCovariance;
+  /** Part of the picture in which the file says it is valid. */
+  region?: [number, number][];
+  position?: [number, number, number];
+  rotation?: [number, number, number];
+}
+
+export interface ImportedCameras {
+  format: Exclude<CameraImportFormat, "auto">;
+  cameras: ImportedCamera[];
+  assumed: Assumed[];
+  ignored: Ignored[];
+}
+
+export interface ExportedCamera {
+  files: Record<string, Uint8Array>;
+  /** Null where the model is the document's own. */
+  conversion: Conversion | null;
+  covariance: ParameterCovariance | null;
+  ignored: Ignored[];
 }
 
 export type Unit = "mm" | "cm" | "m" | "µm" | "dm" | "km" | "in" | "ft" | "ft-us" | "yd";
@@ -1471,10 +1558,17 @@ export type Assumption =
 export interface Imported extends Project {
   /** File by file, for `control-csv`. */
   assumptions?: { file: string; assumptions: Assumption[] }[];
+  /** The format, for networks of other programs. */
+  recognised?: Exclude<ImportFormat, "auto">;
+  /** Cameras whose model was converted. */
+  conversions?: Conversion[];
+  assumed?: Assumed[];
+  /** What of the files is not kept. */
+  ignored?: Ignored[];
 }
 
-export type ImportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "photomodeler" | "aicon" | "dbat" | "comparator";
-export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "report" | "plots" | "csv" | "tsv" | "dxf" | "ply" | "gltf";
+export type ImportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "photomodeler" | "aicon" | "dbat" | "comparator" | "auto" | "colmap" | "metashape" | "bal" | "bundler" | "meshroom" | "vstars";
+export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "report" | "plots" | "csv" | "tsv" | "dxf" | "ply" | "gltf" | "colmap" | "colmap-binary" | "metashape" | "bal" | "bundler" | "meshroom" | "vstars" | "opencv";
 
 /** A parameter of a fit. */
 export interface Coefficient {

@@ -117,9 +117,23 @@ pub fn project_object(mut project: Project) -> JsValue {
 
 /// An imported document as plain objects, with what was taken for granted among its fields where the format leaves something open.
 pub fn imported_object(imported: Imported) -> JsValue {
-    let object = project_object(imported.project);
-    if !imported.assumptions.is_empty() {
-        set(object.unchecked_ref(), "assumptions", &write(&imported.assumptions));
+    let Imported { project, assumptions, recognised, conversions, notes } = imported;
+    let object = project_object(project);
+    let add = |name: &str, value: JsValue| set(object.unchecked_ref(), name, &value);
+    if !assumptions.is_empty() {
+        add("assumptions", write(&assumptions));
+    }
+    if let Some(format) = recognised {
+        add("recognised", format.into());
+    }
+    if !conversions.is_empty() {
+        add("conversions", write(&conversions));
+    }
+    if !notes.assumed.is_empty() {
+        add("assumed", write(&notes.assumed));
+    }
+    if !notes.ignored.is_empty() {
+        add("ignored", write(&notes.ignored));
     }
     object
 }

@@ -93,6 +93,7 @@ function calls() {
   const json = sightline.exportProject('sightline', document());
   const marks = sightline.exportProject('mark-points', project);
   const control = sightline.exportProject('control-csv', project);
+  const lens = sightline.exportCamera('opencv', project.cameras[0]);
   // The smallest of pictures: 2 x 2, grey, as a BMP.
   const bmp = Uint8Array.from(Buffer.from('424d4600000000000000360000002800000002000000020000000100180000000000100000000000000000000000000000000000000000000000ffffff000000808080ffffff0000', 'hex'));
   const form = { kind: 'plane', width: 2000, height: 1200, columns: 4, rows: 3, upright: true, diameter: 12 };
@@ -119,6 +120,8 @@ function calls() {
     measureFeatures: [[project, {}], 5],
     nearestNames: [[project, project, 0.1], 10],
     importProject: [['package', pack], 10],
+    importCamera: [['auto', lens.files], 10],
+    exportCamera: [['mrcal', project.cameras[0], { region: [[0, 0], [900, 0], [900, 700]], covariance: { parameters: ['c', 'k1'], matrix: [[1e-6, 0], [0, 1e-12]] } }], 5],
     exportProject: [['csv', project, adjustment], 10],
     simulate: [[paper()], 5],
     renderPhoto: [[paper(), 's0'], 2],
@@ -147,6 +150,11 @@ function calls() {
     ['importProject', ['dbat', json], 5],
     ['importProject', ['comparator', marks], 5],
     ...['sightline', 'package', 'mark-points', 'control-csv', 'dxf', 'ply', 'gltf', 'tsv'].map((format) => ['exportProject', [format, project, adjustment], 5]),
+    ...['colmap', 'colmap-binary', 'metashape', 'bal', 'bundler', 'meshroom'].flatMap((format) => [
+      ['exportProject', [format, project, adjustment, { convert: true }], 3],
+      ['importProject', ['auto', sightline.exportProject(format, project, adjustment)], 3],
+    ]),
+    ...['ros', 'kalibr', 'mrcal', 'colmap', 'agisoft-lens', 'micmac'].map((format) => ['importCamera', [format, sightline.exportCamera(format, project.cameras[0]).files], 3]),
     ['exportProject', ['report', project, adjustment], 0.2],
     ['exportProject', ['plots', project, adjustment], 0.2],
   ];

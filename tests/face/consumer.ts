@@ -8,6 +8,10 @@ const camera: Camera = { id: 1, width: 2272, height: 1704, pixel_pitch: null, mo
 const project: Project = { format: 'sightline', version: 1, cameras: [camera], datum: { kind: 'free' } };
 
 const imported: Project = sightline.importProject('photomodeler', { 'export.txt': readFileSync('export.txt') });
+const lenses: sightline.ImportedCameras = sightline.importCamera('auto', { 'camera.yml': '%YAML:1.0' }, { region: [[0, 0], [9, 0], [9, 9]] });
+const lens: sightline.ExportedCamera = sightline.exportCamera('mrcal', lenses.cameras[0]!.camera, { convert: true });
+const difference: number | undefined = lens.conversion?.max_px;
+export { difference };
 const files: Record<string, Uint8Array> = sightline.exportProject('csv', { ...project, points: imported.points ?? [] });
 console.log(sightline.version(), Object.keys(files));
 
