@@ -1,7 +1,7 @@
 //! Any bytes as a file that is read: project files, every foreign format, EXIF. Each must end in a result or an error, and what was
 //! read as a project can be written again in every format or is refused; what is written is read again.
 //!
-//! The first byte chooses the format: "0" to "7" as it stands below. `seeds/files` has a small text of each; archives and EXIF blocks,
+//! The first byte chooses the format: "0" to "=" in ASCII as they stand below, ">" to "E" for cameras by themselves. `seeds/files` has a small text of each; archives and EXIF blocks,
 //! which are no texts, are made here and then damaged. Further files of a job follow after a line "%%%".
 #![no_main]
 
@@ -11,13 +11,14 @@ use libfuzzer_sys::{fuzz_mutator, fuzz_target, fuzzer_mutate};
 use sightline::detect::detect;
 use sightline::detection::DetectOptions;
 use sightline::exchange::package::Package;
-use sightline::exchange::{Files, comparator, encoding, export, import, package};
+use sightline::exchange::foreign::CameraOptions;
+use sightline::exchange::{Files, cameras, comparator, encoding, export, import, package};
 use sightline::exif;
 use sightline::image::{GreyView, SamplesView};
 use sightline::project::{Camera, Interior, Observation, Photo, Point, Project, Sigma};
 
 /// Formats that are read, and names of a file that they look for.
-const READ: [(&str, &str); 8] = [
+const READ: [(&str, &str); 14] = [
     ("sightline", "a.json"),
     ("package", "a.sightline"),
     ("control-csv", "a.csv"),
@@ -26,10 +27,30 @@ const READ: [(&str, &str); 8] = [
     ("aicon", "a.obc"),
     ("dbat", "a.xml"),
     ("comparator", "a.csv"),
+    ("colmap", "cameras.txt"),
+    ("metashape", "a.xml"),
+    ("bal", "a.txt"),
+    ("bundler", "a.out"),
+    ("meshroom", "a.sfm"),
+    ("vstars", "a.csv"),
 ];
-const WRITTEN: [&str; 9] = ["sightline", "package", "control-csv", "mark-points", "csv", "tsv", "dxf", "ply", "gltf"];
-/// Names of the files after the first: a job of DBAT asks for them.
-const MORE: [&str; 3] = ["control.txt", "images.txt", "marks.txt"];
+/// Formats of cameras, after those in the order of the first byte.
+const CAMERAS: [(&str, &str); 8] = [
+    ("opencv", "a.yml"),
+    ("ros", "a.yaml"),
+    ("kalibr", "a.yaml"),
+    ("mrcal", "a.cameramodel"),
+    ("colmap", "cameras.bin"),
+    ("agisoft-lens", "a.xml"),
+    ("micmac", "a.xml"),
+    ("auto", "a"),
+];
+const WRITTEN: [&str; 16] = [
+    "sightline", "package", "control-csv", "mark-points", "csv", "tsv", "dxf", "ply", "gltf", "colmap", "colmap-binary", "metashape", "bal", "bundler",
+    "meshroom", "vstars",
+];
+/// Names of the files after the first: jobs of DBAT and COLMAP ask for them.
+const MORE: [&str; 4] = ["control.txt", "images.txt", "marks.txt", "points3D.txt"];
 const BETWEEN: &[u8] = b"\n%%%\n";
 
 /// A JPEG that ends after an EXIF block of this maker.
@@ -97,15 +118,34 @@ fn job(name: &str, mut rest: &[u8]) -> Files {
     files
 }
 
+/// A camera that is read is written in every format or refused, and read again.
+fn camera(format: &str, files: &Files) {
+    let Ok(read) = cameras::import(format, files, &CameraOptions { convert: true, ..CameraOptions::default() }) else { return };
+    for found in read.cameras.iter().take(3) {
+        for (format, _) in CAMERAS.iter().filter(|(format, _)| *format != "auto") {
+            let Ok(written) = cameras::export(format, &found.camera, &CameraOptions::default()) else { continue };
+            let again = cameras::import(format, &written.files, &CameraOptions::default());
+            assert!(again.is_ok(), "{format} is not read again: {again:?}");
+        }
+    }
+}
+
 fuzz_target!(|data: &[u8]| {
     let Some((choice, rest)) = data.split_first() else { return };
-    let (format, name) = READ[usize::from(*choice) % READ.len()];
+    let choice = usize::from(choice.wrapping_sub(b'0')) % (READ.len() + CAMERAS.len());
+    if let Some((format, name)) = choice.checked_sub(READ.len()).map(|choice| CAMERAS[choice]) {
+        camera(format, &Files::from([(name.to_owned(), rest.to_vec())]));
+        return;
+    }
+    let (format, name) = READ[choice];
     let files = if format == "package" { Files::from([(name.to_owned(), rest.to_vec())]) } else { job(name, rest) };
     if let Ok(project) = import(format, &files) {
         for format in WRITTEN {
-            let Ok(written) = export(format, &project, None) else { continue };
-            if matches!(format, "sightline" | "package") {
-                assert!(import(format, &written).is_ok(), "{format} is not read again");
+            let Ok(mut written) = export(format, &project, None) else { continue };
+            written.remove("interchange.json");
+            if matches!(format, "sightline" | "package" | "colmap" | "colmap-binary" | "bundler" | "meshroom") {
+                let again = import(format.trim_end_matches("-binary"), &written);
+                assert!(again.is_ok(), "{format} is not read again: {again:?}");
             }
         }
     }
