@@ -3,7 +3,7 @@
 //! Fields are separated by blanks, commas or semicolons, parentheses around coordinates are passed over:
 //! `POINT1 (12.5122, -2.2231, 3.4456); 0.0012, 0.0010, 0.0018`. The object system is right-handed; the unit is not in the file.
 //!
-//! Source: V-STARS manual, "XYZ files". Columns after the standard errors (offsets, rays, descriptions) are counted.
+//! Source: a description of V-STARS' XYZ files by its users ("What is XYZ File in aerial photogrammetry?"), whose records these are. Columns after the standard errors (offsets, rays, descriptions) are counted.
 
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
