@@ -41,6 +41,7 @@ pub mod conversion;
 pub mod dbat;
 mod dxf;
 pub mod encoding;
+pub mod epochs;
 pub mod foreign;
 mod gltf;
 mod kalibr;

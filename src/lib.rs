@@ -72,6 +72,7 @@ pub mod image;
 pub mod initial;
 pub mod limits;
 pub mod matching;
+pub mod monitoring;
 pub mod network;
 pub mod noise;
 pub mod orient;

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 pub use colours::{ColourDifferences, LensColour};
 pub use features::{CoordinateSystem, DrawnLine, End, Feature, FeatureKind, GivenPoint, Layer, SystemKind};
-use identifier::{identifier, identifier_option_list};
+pub(crate) use identifier::{identifier, identifier_option_list, identifiers};
 pub use parameter::{Interior, Parameter};
 pub use plan::{Form, Lens, Plan, PlanDistance, PlanFace, PlanStation, Region, Variant, Wanted};
 pub use report::{ColourShift, LengthLimit, Paper, PhotoColours, ReportLanguage, ReportSettings, Section};

@@ -22,6 +22,7 @@ use sightline::detection::{Channel, ColoursApart, DetectOptions};
 use sightline::exchange::foreign::CameraOptions;
 use sightline::experiments::ExperimentOptions;
 use sightline::image::{Grey, Samples};
+use sightline::monitoring::{self, Epoch};
 use sightline::network::Network;
 use sightline::project::{Camera, GivenPoint, Project};
 use sightline::sensor::{self, Shot};
@@ -385,6 +386,49 @@ pub fn measure_features(
 ) -> Thrown {
     let measured = || adjust::measured(&value::project(&project)?, &value::read(&adjustment, "adjustment")?);
     measured().map(|measured| value::write(&measured)).map_err(|error: Error| thrown(&error))
+}
+
+/// Compares epochs of one object: what has moved, by how much, and with which tests.
+#[wasm_bindgen(js_name = compareEpochs, unchecked_return_type = "Monitoring")]
+pub fn compare_epochs(#[wasm_bindgen(unchecked_param_type = "CompareOptions")] request: JsValue) -> Thrown {
+    let compared = || {
+        let epochs: Vec<Epoch> = value::read(&plain::field(&request, "epochs")?, "epochs")?;
+        let options: monitoring::Options = value::options(&request, &["epochs"])?;
+        monitoring::compare_epochs(&epochs, &options)
+    };
+    compared().map(|found| value::write(&found)).map_err(|error: Error| thrown(&error))
+}
+
+/// Reads a coordinate list with standard errors (id, X, Y, Z, sX, sY, sZ): the `points` of an epoch.
+#[wasm_bindgen(js_name = readCoordinates, unchecked_return_type = "CoordinateList")]
+pub fn read_coordinates(
+    #[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer | string")] text: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "ImportChoices | null")] choices: JsValue,
+) -> Thrown {
+    let read = || exchange::epochs::points(&text_of(&text)?, value::options(&choices, &[])?);
+    read().map(|list| value::write(&list)).map_err(|error: Error| thrown(&error))
+}
+
+/// Reads a covariance matrix as text, in full or as its lower triangle: the `covariance` of an epoch.
+#[wasm_bindgen(js_name = readCovariance, unchecked_return_type = "ListedCovariance")]
+pub fn read_covariance(
+    #[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer | string")] text: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "(string | number)[]")] points: JsValue,
+) -> Thrown {
+    let read = || {
+        let absent = points.is_undefined() || points.is_null();
+        let names: Vec<String> = if absent { Vec::new() } else { value::identifiers(&points, "points")? };
+        exchange::epochs::covariance(&text_of(&text)?, &names)
+    };
+    read().map(|matrix| value::write(&matrix)).map_err(|error: Error| thrown(&error))
+}
+
+/// Text, or bytes of a text file in any encoding that is read.
+fn text_of(text: &JsValue) -> sightline::Result<String> {
+    match text.as_string() {
+        Some(text) => Ok(text),
+        None => exchange::encoding::text(&plain::bytes(text, "text")?),
+    }
 }
 
 /// Pairs given coordinates with the one point within `radius` of each; points and coordinates in one system.

@@ -1618,6 +1618,227 @@ export interface SightlineError extends Error {
 /** The papers' experiments. */
 export type ExperimentName = "kang" | "film" | "lee-calibration" | "lee-structure" | "kim" | "sensor";
 
+/** A point of a coordinate list. */
+export interface ListedPoint {
+  id: string;
+  xyz: [number, number, number];
+  /** Standard errors; 0 on an axis: held there. */
+  sigma?: [number, number, number] | null;
+}
+
+/** Covariance matrix of points, three rows each, squared unit, including σ0². */
+export interface ListedCovariance {
+  points: string[];
+  /** All rows in full, or the lower triangle with the diagonal. */
+  matrix: number[][];
+}
+
+/** What `readCoordinates` gives. */
+export interface CoordinateList {
+  points: ListedPoint[];
+  /** Where the heading or the caller names one. */
+  unit: string | null;
+  assumptions: Assumption[];
+}
+
+/** An epoch: a project, or a list of points from another program. */
+export interface Epoch {
+  /** Unique among the epochs. */
+  name: string;
+  /** ISO 8601: `2026-03-14`, `2026-03-14T09:30`, `2026-03-14T09:30:00+09:00`. */
+  date?: string | null;
+  /** °C; reported, not used. */
+  temperature?: number | null;
+  project?: Project | null;
+  /** Null: the project is adjusted with the default options. Without the covariance of all points it is adjusted again. */
+  adjustment?: Adjustment | null;
+  /**
+   * Control points of a project: `released` (default) adjusts it as a free network, since given coordinates are the same in every epoch; `kept`
+   * says that they were measured anew for this epoch.
+   */
+  control?: "released" | "kept";
+  points?: (Omit<ListedPoint, "id"> & { id: string | number })[] | null;
+  covariance?: (Omit<ListedCovariance, "points"> & { points: (string | number)[] }) | null;
+  /** Standard deviation of unit weight behind a list. */
+  sigma0?: number | null;
+  /** Its redundancy; null: the standard errors count as certain. */
+  redundancy?: number | null;
+  /** Unit of a list; null: that of the other epochs. */
+  unit?: string | null;
+  /** Whether a list has a scale of its own; null: it has. */
+  scale?: boolean | null;
+}
+
+/** Movement of a group: translation and rotation; scale too; homogeneous strain too. */
+export type GroupModel = "rigid" | "similarity" | "affine";
+
+/** Lengths of displacement from which a state is reported. */
+export interface MonitoringLimits {
+  warning: number;
+  alarm: number;
+}
+
+/** What `compareEpochs` takes. */
+export interface CompareOptions {
+  /** Two or more, in time. */
+  epochs: Epoch[];
+  /** Null: the control points, else the datum points of the projects, else all common points that are not numbered automatically. */
+  reference?: (string | number)[] | null;
+  ignored?: (string | number)[];
+  /** `joint`: the stable reference points of a pair get one set of coordinates, cameras are one per epoch. */
+  method?: "coordinates" | "joint";
+  /** 0.05. */
+  significance?: number;
+  /** Correction for the number of object points. */
+  correction?: "holm" | "bonferroni" | "none";
+  /** Probability with which a detectable displacement is found: 0.80. */
+  power?: number;
+  /** `estimated`: pooled where the variance factors are equal; `separate`: one each; `given`: σ0 = 1 with infinitely many degrees of freedom. */
+  variance?: "estimated" | "separate" | "given";
+  /** `given`: the epochs are in one system and nothing is transformed. */
+  datum?: "reference" | "given";
+  groups?: { name: string; points: (string | number)[]; model?: GroupModel }[];
+  thresholds?: (MonitoringLimits & { points?: Record<string, MonitoringLimits>; groups?: Record<string, MonitoringLimits> }) | null;
+  /** Names of one of these prefixes and digits are numbers that a program gave, matched by position: ["u", "TARGET"]. */
+  automatic?: string[];
+}
+
+/** A test: passed where the statistic does not exceed the limit. */
+export interface MonitoringTest {
+  statistic: number;
+  f1: number;
+  /** Null: infinitely many. */
+  f2: number | null;
+  /** Corrected for the number of tests where they are corrected. */
+  limit: number;
+  /** Not corrected. */
+  p: number;
+  passed: boolean;
+}
+
+/** Displacement of a point, later minus earlier, in the system of the first epoch. */
+export interface Displacement {
+  id: string;
+  /** Name in the later epoch, where it was matched by position under another one. */
+  later_id?: string;
+  role: "reference" | "object";
+  difference: [number, number, number];
+  sigma: [number, number, number];
+  /** xx, xy, xz, yy, yz, zz. */
+  covariance: [number, number, number, number, number, number];
+  length: number;
+  length_sigma: number | null;
+  /** Null without a stable group, and of a point held in both epochs. */
+  test: MonitoringTest | null;
+  moved: boolean;
+  /** Confidence ellipsoid at 1 - significance. */
+  ellipsoid: { semi_axes: [number, number, number]; directions: [[number, number, number], [number, number, number], [number, number, number]] } | null;
+  /** Smallest detectable displacement along X, Y, Z and along the least favourable direction. */
+  detectable: { axes: [number | null, number | null, number | null]; worst: number } | null;
+}
+
+/** Parameters with standard errors, tested against 0. */
+export interface TestedParameters {
+  value: number[];
+  sigma: number[];
+  test: MonitoringTest;
+}
+
+/** Movement of a group about its centroid in the earlier epoch. */
+export interface GroupMovement {
+  name: string;
+  model: GroupModel;
+  points: string[];
+  missing: string[];
+  centre: [number, number, number] | null;
+  translation: TestedParameters | null;
+  /** Rotation vector, radians. */
+  rotation: TestedParameters | null;
+  /** Change of scale. */
+  scale: TestedParameters | null;
+  /** xx, xy, xz, yy, yz, zz. */
+  strain: TestedParameters | null;
+  /** Whether it moved. */
+  test: MonitoringTest | null;
+  /** Whether it moved as its model says. */
+  fit: MonitoringTest | null;
+  residuals: { id: string; difference: [number, number, number]; sigma: [number, number, number] }[];
+  /** Null without thresholds. */
+  state: "quiet" | "warning" | "alarm" | null;
+  error?: { code: "too_few_points"; needed: number; given: number } | { code: "undetermined" } | { code: "no_stable_group" };
+}
+
+/** Why a point took no part in a pair. */
+export type LeftOutOfPair =
+  | { code: "only_in" | "no_sigma" | "no_counterpart" | "no_identity"; epoch: string }
+  | { code: "ambiguous"; epoch: string; candidates: string[] }
+  | { code: "ignored" | "held" };
+
+/** What a reader of a pair must know. */
+export type PairNote =
+  | { code: "variances_differ" | "scale_differs" | "no_stable_group" }
+  | { code: "sigmas_too_small"; factor: number }
+  | { code: "no_majority"; stable: number; reference: number }
+  | { code: "another_group" | "second_opinion_differs" | "weakly_controlled"; points: string[] };
+
+/** Comparison of two epochs. */
+export interface EpochPair {
+  from: string;
+  to: string;
+  /** Two-sided, later over earlier: the limit is that on the side of the statistic. */
+  variance_test: MonitoringTest | null;
+  variance: "pooled" | "separate" | "given";
+  /** Null where each epoch has its own. */
+  sigma0: number | null;
+  /** Null: infinite. */
+  redundancy: number | null;
+  reference_from: "named" | "control" | "datum" | "common";
+  /** Lengths of the later epoch over those of the earlier one; null where one has no scale. */
+  scale: { value: number; sigma: number; test: MonitoringTest } | null;
+  global_test: MonitoringTest | null;
+  /** Backward elimination; `test` is that of the remaining points. */
+  steps: { removed: string; contribution: number; test: MonitoringTest }[];
+  outcome: "congruent" | "stable_group" | "no_stable_group";
+  stable: string[];
+  unstable: string[];
+  /** The datum of smallest displacements, as a second opinion. */
+  robust_datum: { stable: string[]; unstable: string[] };
+  points: Displacement[];
+  groups: GroupMovement[];
+  left_out: { id: string; reason: LeftOutOfPair }[];
+  notes: PairNote[];
+}
+
+/** What `compareEpochs` gives. */
+export interface Monitoring {
+  method: "coordinates" | "joint";
+  unit: string | null;
+  epochs: {
+    name: string;
+    date: string | null;
+    temperature: number | null;
+    sigma0: number | null;
+    redundancy: number | null;
+    points: number;
+    scaled: boolean;
+    notes: ({ code: "no_covariance" | "no_redundancy" } | { code: "control_released"; points: string[] })[];
+  }[];
+  /** Every epoch with the first, then every one with its predecessor. */
+  pairs: EpochPair[];
+  series: {
+    id: string;
+    values: { epoch: string; difference: [number, number, number]; sigma: [number, number, number] }[];
+    /** Unit per day; null below three dated epochs, and without a common datum. */
+    velocity: [number, number, number] | null;
+    velocity_sigma: [number, number, number] | null;
+    velocity_test: MonitoringTest | null;
+    /** By the length of the last displacement; null without thresholds. */
+    state: "quiet" | "warning" | "alarm" | null;
+  }[];
+  /** Reference points stable in all pairs with the first epoch; empty where fewer than four are. */
+  series_datum: string[];
+}
+
 /** What may be varied; what is left out has the paper's value. */
 export interface ExperimentOptions {
   /** Seed of all noise. */

@@ -31,6 +31,22 @@ pub fn read<T: DeserializeOwned>(value: &JsValue, name: &str) -> Result<T> {
     of_json(&plain::json(value, name, &[])?, name)
 }
 
+/// A list of texts or numbers, as texts.
+pub fn identifiers(value: &JsValue, name: &str) -> Result<Vec<String>> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Identifier {
+        Text(String),
+        Number(serde_json::Number),
+    }
+    let list: Vec<Identifier> = read(value, name)?;
+    let text = |one| match one {
+        Identifier::Text(text) => text,
+        Identifier::Number(number) => number.to_string(),
+    };
+    Ok(list.into_iter().map(text).collect())
+}
+
 fn of_json<T: DeserializeOwned>(text: &str, name: &str) -> Result<T> {
     serde_path_to_error::deserialize(&mut serde_json::Deserializer::from_str(text)).map_err(|error| {
         let path = error.path().to_string().replace(".?", "");

@@ -73,6 +73,25 @@ reasons! {
     CommonDiameter { value: Number } => "target_diameter is {value}; a finite number above 0 is expected";
     DiameterBeyondPoints { value: Number, extent: Number } => "target_diameter is {value}, but all points lie within {extent}; give it in their unit";
 
+    // Epochs compared
+    EpochsCount { given: usize, limit: usize } => "epochs given: {given}; from 2 to {limit} are compared";
+    EpochSource { name: String } => "epoch \"{name}\" needs either a project or a list of points, and not both";
+    EpochNotConverged { name: String } => "the adjustment of epoch \"{name}\" did not converge: correct the project until it does, then compare";
+    EpochNoSigmas { name: String } => "epoch \"{name}\" has no standard errors, without which no movement can be tested: give sigma for its points, or a covariance matrix";
+    EpochUnit { name: String, unit: String, expected: String } => "epoch \"{name}\" is in {unit} and the epochs before it are in {expected}: convert it to {expected}";
+    EpochUnitRatio { name: String, ratio: Number } => "lengths of epoch \"{name}\" are {ratio} times those of the first epoch: give both in one unit, or mark one as having no scale of its own";
+    EpochMirrored { name: String } => "epoch \"{name}\" is a mirror image of the first: exchange two of its axes, or the sign of one";
+    EpochUnlike { name: String, share: Number } => "the points of epoch \"{name}\" do not lie like those of the first epoch (median deviation over extent: {share}): check that the same names mean the same points";
+    EpochNoCommon { name: String, first: String } => "epochs \"{first}\" and \"{name}\" have no point in common that is not numbered automatically: give at least four points the same names in both";
+    EpochReference { name: String, given: usize, needed: usize } => "reference points common to epoch \"{name}\" and the one it is compared with: {given}, needed: {needed}; name more reference points, or measure those named in both epochs";
+    EpochReferenceLine => "the reference points lie on one line and determine no rotation: name one apart from it";
+    EpochReferenceMany { given: usize, limit: usize } => "reference points: {given}, at most {limit} are tested together: name those that are thought to be stable";
+    EpochMatrix { rows: usize, expected: usize } => "the covariance matrix has {rows} rows, or rows of another length than {expected}: three rows and columns for each point, or the lower triangle, are expected";
+    EpochNotCovariance => "this is not a covariance matrix: it is symmetric, and no combination of coordinates has a negative variance";
+    EpochDate { text: String } => "\"{text}\" is not a date: write it as 2026-03-14 or 2026-03-14T09:30";
+    MonitoringProbability { name: String, value: Number } => "{name} is {value}; a probability above 0 is expected, for the significance at most 0.5";
+    MonitoringThresholds => "thresholds are lengths above 0, and warning is at most alarm";
+
     // Measuring on the result
     FeaturePoints { needed: usize, given: usize } => "points that this adjustment determines: {given}, needed: {needed}; add points, or measure them in more photos";
     FeaturePointMissing { name: String } => "point \"{name}\" is not determined by this adjustment: measure it in two photos or more";
@@ -309,6 +328,8 @@ words! {
         Feature = "feature" => "feature";
         System = "system" => "coordinate system";
         Layer = "layer" => "layer";
+        Epoch = "epoch" => "epoch";
+        Group = "group" => "group";
         ScaleBar = "scale bar" => "scale bar";
     }
 }

@@ -49,6 +49,15 @@ mod experiments {
     mod published;
 }
 
+/// Epochs of one object: what moved, and how often the tests are right.
+mod monitoring {
+    mod damage;
+    mod projects;
+    mod properties;
+    mod published;
+    mod simulated;
+}
+
 /// From names to initial values.
 mod orient {
     mod left_out;
@@ -91,6 +100,7 @@ mod support {
     pub mod conditions;
     pub mod data;
     pub mod dense;
+    pub mod epochs;
     pub mod extent;
     pub mod grid_fit;
     pub mod networks;

@@ -84,6 +84,14 @@ const plate =
 
 const grey = Uint8Array.from({ length: 64 * 48 }, (_, k) => ((k % 64) - 30) ** 2 + (Math.floor(k / 64) - 22) ** 2 < 60 ? 220 : 30);
 
+/** Two epochs of a cube, one of them a network. */
+function epochs() {
+  const points = network().points.map(({ id, xyz }, k) => ({ id, xyz: xyz.map((x, axis) => x + 1e-3 * Math.sin(7 * k + axis)), sigma: [0.001, 0.001, 0.001] }));
+  const groups = [{ name: 'g', points: ['0', '1', '2', '4'], model: 'rigid' }];
+  const list = { name: 'list', date: '2026-03-14', points, sigma0: 1, redundancy: 20 };
+  return { epochs: [list, { ...list, name: 'later', date: '2026-04-14' }, { name: 'photos', project: network() }], reference: ['0', '1', '2', '3', '4'], groups, thresholds: { warning: 0.1, alarm: 1 } };
+}
+
 /** Sound arguments of every function that is not asynchronous, and how often it is called beside the others. */
 function calls() {
   const project = network();
@@ -119,6 +127,9 @@ function calls() {
     applyAdjustment: [[project, adjustment], 10],
     measureFeatures: [[project, {}], 5],
     nearestNames: [[project, project, 0.1], 10],
+    compareEpochs: [[epochs()], 10],
+    readCoordinates: [['a,1,2,3,0.1,0.1,0.1\nb,4,5,6,0.1,0.1,0.1', {}], 10],
+    readCovariance: [['1\n0 1\n0 0 1', ['a']], 10],
     importProject: [['package', pack], 10],
     importCamera: [['auto', lens.files], 10],
     exportCamera: [['mrcal', project.cameras[0], { region: [[0, 0], [900, 0], [900, 700]], covariance: { parameters: ['c', 'k1'], matrix: [[1e-6, 0], [0, 1e-12]] } }], 5],

@@ -118,7 +118,26 @@ test('every field that the engine returns is declared, and every declared field 
   const longer = { red: { parameters: { c: 1.6 } } };
   const allRed = sightline.adjust({ ...project, cameras: [{ ...project.cameras[0], colours: longer }], photos: project.photos.map((photo) => ({ ...photo, colour: 'red' })) });
   assert.ok(Math.abs(allRed.cameras[0].c + 1.6 - adjustments[0].cameras[0].c) < 1e-4, `${allRed.cameras[0].c}`);
+  const listed = (phase) => project.points.map(({ id, xyz }, k) => ({ id, xyz: xyz.map((x, axis) => x + 1e-3 * Math.sin(7 * k + axis + phase)), sigma: [0.001, 0.001, 0.001] }));
+  const lists = [0, 1, 2].map((k) => ({ name: `list ${k}`, date: `2026-0${k + 1}-01`, points: listed(k), sigma0: 1, redundancy: 40, unit: 'mm' }));
+  lists[2].points[4].xyz = lists[2].points[4].xyz.map((x) => x + 0.05);
+  lists[1].points = lists[1].points.filter(({ id }) => id !== 'p8');
+  const request = {
+    epochs: [...lists, { name: 'photos', project, date: null }],
+    groups: ['rigid', 'similarity', 'affine'].map((model) => ({ name: model, points: all, model })),
+    thresholds: { warning: 0.01, alarm: 0.02, points: { p1: { warning: 1, alarm: 2 } } },
+  };
+  const monitoring = sightline.compareEpochs(request);
+  assert.deepEqual([monitoring.pairs.length, monitoring.series.length, monitoring.pairs[1].unstable.join()], [5, 9, 'p4']);
+  assert.deepEqual(monitoring.pairs[0].left_out, [{ id: 'p8', reason: { code: 'only_in', epoch: 'list 0' } }]);
+  const refusal = thrown(() => sightline.compareEpochs({ ...request, epochs: [lists[0], { ...lists[1], unit: 'm' }] }));
+  assert.deepEqual([refusal.code, refusal.where.field, refusal.data.reason.kind], ['invalid', 'epochs[1].unit', 'epoch_unit']);
+  assert.equal(thrown(() => sightline.compareEpochs({ ...request, referencs: [] })).data.reason.kind, 'no_such_option');
   const literals = [
+    literal('request', 'S.CompareOptions', request),
+    literal('monitoring', 'S.Monitoring', monitoring),
+    literal('coordinates', 'S.CoordinateList', sightline.readCoordinates('a,1,2,3,0.1,0.1,0.1\nb,4,5,6,0.1,0.1,0.1\n')),
+    literal('matrix', 'S.ListedCovariance', sightline.readCovariance('1\n0 1\n0 0 1\n', ['a'])),
     literal('colours', 'NonNullable<S.Camera["colours"]>', colours),
     literal('apart', 'S.ColoursApart', apart),
     literal('inRed', 'S.Project', inRed),

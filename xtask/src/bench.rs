@@ -8,13 +8,14 @@ use crate::{Outcome, build, suites};
 /// A part: its name on the command line and how it runs.
 type Part = (&'static str, fn() -> Outcome);
 
-const PARTS: [Part; 7] = [
+const PARTS: [Part; 8] = [
     ("detect", detect),
     ("codes", codes),
     ("border", || script("border")),
     ("growth", || script("growth")),
     ("field", suites::field),
     ("estimation", estimation),
+    ("epochs", epochs),
     ("orient", orient),
 ];
 
@@ -24,7 +25,7 @@ pub fn command(names: &[String]) -> Outcome {
         let known = PARTS.map(|(part, _)| part).join(", ");
         return Err(format!("there is no part {name}; the parts are {known}"));
     }
-    if names.is_empty() || names.iter().any(|name| name != "estimation") {
+    if names.is_empty() || names.iter().any(|name| !["estimation", "epochs"].contains(&name.as_str())) {
         install::node()?;
         Products::of(Profile::Release)?.build_pkg()?;
     }
@@ -48,6 +49,11 @@ fn detect() -> Outcome {
 /// Seeded networks adjusted natively against their truth.
 fn estimation() -> Outcome {
     run(&mut cargo(&["bench", "--package", "sightline", "--bench", "estimation"]))
+}
+
+/// Time of comparing epochs, natively.
+fn epochs() -> Outcome {
+    run(&mut cargo(&["bench", "--package", "sightline", "--bench", "epochs"]))
 }
 
 /// Seeded networks and bare dots, natively.

@@ -29,7 +29,7 @@ cargo xtask <command>
   test [all] [suite ...]
                        run every suite, or only those named: native wasm face types page; the daily extent, on modules that are
                        compiled fast. With `all` the full extent, on the modules that are handed out: see CONTRIBUTING.md
-  bench [part ...]     measure the engine, or only the parts named: detect codes border growth estimation orient field;
+  bench [part ...]     measure the engine, or only the parts named: detect codes border growth estimation epochs orient field;
                        field takes in 100 large photos, makes a million damaged calls of the face and kills the page 200 times
   check                licences of the dependency tree, invariants of the code, the code map; works offline";
 

@@ -71,6 +71,78 @@ pub fn reason(reason: &Reason) -> String {
         }
 
         R::OtherAdjustment => "결과가 프로젝트의 다른 상태에 속합니다. 다시 조정하십시오",
+        R::EpochsCount { given, limit } => {
+            return format!("시기 {given}개를 주었습니다. 2개부터 {limit}개까지 비교합니다");
+        }
+        R::EpochSource { name } => {
+            return format!("시기 \"{name}\"에는 프로젝트나 점 목록 가운데 하나만 있어야 합니다");
+        }
+        R::EpochNotConverged { name } => {
+            return format!("시기 \"{name}\"의 조정이 수렴하지 않았습니다. 수렴하도록 프로젝트를 고친 뒤 비교하십시오");
+        }
+        R::EpochNoSigmas { name } => {
+            return format!(
+                "시기 \"{name}\"에 표준오차가 없어 변위를 검정할 수 없습니다. 점의 표준오차나 공분산 행렬을 주십시오"
+            );
+        }
+        R::EpochUnit { name, unit, expected } => {
+            return format!(
+                "시기 \"{name}\"의 단위는 {unit}이고 앞선 시기의 단위는 {expected}입니다. 단위를 맞추십시오"
+            );
+        }
+        R::EpochUnitRatio { name, ratio } => {
+            return format!(
+                "시기 \"{name}\"의 길이가 첫 시기의 {ratio}배입니다. 같은 단위로 주거나, 축척이 없는 시기로 표시하십시오"
+            );
+        }
+        R::EpochMirrored { name } => {
+            return format!(
+                "시기 \"{name}\"의 좌표는 첫 시기의 거울상입니다. 두 축을 맞바꾸거나 한 축의 부호를 바꾸십시오"
+            );
+        }
+        R::EpochUnlike { name, share } => {
+            return format!(
+                "시기 \"{name}\"의 점 배치가 첫 시기와 다릅니다(편차의 중앙값/크기: {share}). 같은 이름이 같은 점인지 확인하십시오"
+            );
+        }
+        R::EpochNoCommon { name, first } => {
+            return told(
+                "시기 \"{first}\"{first:과|와} 시기 \"{name}\"에 자동 번호가 아닌 공통점이 없습니다. 네 점 이상에 같은 이름을 주십시오",
+                &[("first", first), ("name", name)],
+            );
+        }
+        R::EpochReference { name, given, needed } => {
+            return told(
+                "시기 \"{name}\"{name:과|와} 비교 시기의 공통 기준점이 {given}개이며 {needed}개 이상 필요합니다. 기준점을 더 지정하거나 두 시기에서 모두 측정하십시오",
+                &[("name", name), ("given", given), ("needed", needed)],
+            );
+        }
+        R::EpochReferenceLine => {
+            "기준점이 한 직선 위에 있어 회전을 결정할 수 없습니다. 직선에서 벗어난 점을 기준점으로 지정하십시오"
+        }
+        R::EpochReferenceMany { given, limit } => {
+            return format!(
+                "기준점이 {given}개입니다. 한 번에 {limit}개까지 검정하므로 안정하다고 보는 점만 지정하십시오"
+            );
+        }
+        R::EpochMatrix { rows, expected } => {
+            return format!(
+                "공분산 행렬의 행이 {rows}개이거나 행의 길이가 {expected}와 다릅니다. 점마다 행과 열이 셋씩인 행렬이나 그 하삼각이 필요합니다"
+            );
+        }
+        R::EpochNotCovariance => {
+            "공분산 행렬이 아닙니다. 대칭이어야 하고, 좌표의 어떤 조합도 분산이 음수일 수 없습니다"
+        }
+        R::EpochDate { text } => {
+            return told(
+                "\"{text}\"{text:은|는} 날짜가 아닙니다. 2026-03-14 또는 2026-03-14T09:30과 같이 쓰십시오",
+                &[("text", text)],
+            );
+        }
+        R::MonitoringProbability { name, value } => {
+            return format!("{name}의 값이 {value}입니다. 0보다 큰 확률이어야 하며 유의수준은 0.5 이하입니다");
+        }
+        R::MonitoringThresholds => "한계값은 0보다 큰 길이이고, 주의 한계는 경보 한계를 넘을 수 없습니다",
         R::DatumPoints => "기준계에는 한 직선 위에 있지 않은 점이 셋 이상 필요합니다",
         R::NoImage => "점의 상이 생기지 않는 곳에서 반복이 끝났습니다. 초기값을 개선하십시오",
         R::StandardErrorsApart { value, usual } => {
@@ -449,6 +521,8 @@ pub fn thing(thing: Thing) -> &'static str {
         Thing::System => "좌표계",
         Thing::ScaleBar => "축척 막대",
         Thing::Layer => "레이어",
+        Thing::Epoch => "시기",
+        Thing::Group => "그룹",
     }
 }
 

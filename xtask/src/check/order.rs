@@ -44,6 +44,7 @@ const ORDERS: [Order; 3] = [
             "features",
             "plausibility",
             "adjust",
+            "monitoring",
             "matching",
             "orient",
             "noise",
