@@ -79,8 +79,9 @@ pub fn eliminated(references: &References, all: &Weights) -> Eliminated {
     result
 }
 
-/// Another congruent group with a point that was removed: of all groups at most one point smaller than the stable one where they can
-/// be counted, else the removed points by themselves. The largest, then that of the smallest statistic.
+/// Another congruent group with a point that was removed: of all groups as large as the stable one, or one point smaller where that has
+/// less than two thirds of the points; of too many for that, the removed points by themselves. The largest, then that of the smallest
+/// statistic.
 fn another(references: &References, all: &Weights, stable: &[usize], removed: &[usize]) -> Option<Vec<usize>> {
     let d = differences(references.earlier, references.later, stable, references.defect)?;
     let statistic = |weights: &Weights| -> Option<f64> {
@@ -88,7 +89,8 @@ fn another(references: &References, all: &Weights, stable: &[usize], removed: &[
         (weights.rank > 0 && test.passed).then_some(test.statistic)
     };
     let r = all.points.len();
-    let smallest = LEAST.max(stable.len() - 1);
+    // Against a clear majority only a group as large speaks; else one point fewer is as likely.
+    let smallest = LEAST.max(if 3 * stable.len() >= 2 * r { stable.len() } else { stable.len() - 1 });
     let deepest = r - smallest;
     let mut groups = 1.0;
     let mut count = 1.0;

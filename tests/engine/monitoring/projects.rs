@@ -132,7 +132,7 @@ fn merged(projects: &[Project; 2], stable: &[String]) -> Project {
             ..p
         }));
         let known: Vec<String> = all.points.iter().map(|p| p.id.clone()).collect();
-        let points = project.points.iter().cloned().map(|p| Point { id: own(k, &p.id), ..p });
+        let points = project.points.iter().map(|p| Point { id: own(k, &p.id), ..p.clone() });
         all.points.extend(points.filter(|p| !known.contains(&p.id)));
         let observed = project.observations.iter().cloned();
         all.observations.extend(observed.map(|o| Observation { photo: name(&o.photo), point: own(k, &o.point), ..o }));

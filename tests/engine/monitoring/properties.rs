@@ -14,7 +14,8 @@ fn pair_of(seed: u64) -> ([Epoch; 2], Options) {
     let object = object(500 + seed, 8, 6);
     let mut noise = Noise::new(seed, 5);
     let mut far = |k: usize, sigmas: f64| (k, direction(&mut noise) * sigmas * SIGMA);
-    let moved = if seed % 3 == 0 { vec![] } else { vec![far(seed as usize % 8, 25.0), far(9, 40.0), far(11, 6.0)] };
+    let moved =
+        if seed.is_multiple_of(3) { vec![] } else { vec![far(seed as usize % 8, 25.0), far(9, 40.0), far(11, 6.0)] };
     let first = epoch("0", &object, &[], &Made { turned: false, ..Made::new(7000 + 2 * seed) });
     let second = epoch("1", &object, &moved, &Made { turned: false, ..Made::new(7001 + 2 * seed) });
     let models = [GroupModel::Rigid, GroupModel::Similarity, GroupModel::Affine];
