@@ -156,7 +156,7 @@ pub enum NotEstimated {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct AdjustOptions {
-    /// Largest number of steps taken; steps that are tried and refused are not counted.
+    /// Largest number of iterations.
     pub max_iterations: usize,
     /// Which statistics are computed.
     pub statistics: StatisticsChoice,

@@ -426,7 +426,7 @@ export interface StepState {
 }
 
 export interface AdjustOptions {
-  /** Largest number of steps taken; refused steps are not counted [50]. */
+  /** [50] */
   max_iterations?: number;
   /** ["full"] */
   statistics?: "none" | "precision" | "full";

@@ -27,8 +27,6 @@ use super::retest::unit;
 const ALPHA: f64 = 1e-3;
 /// Minimum number of agreeing control points: with four, one wrong point can be identified; three fit any error.
 const FEWEST: usize = 4;
-/// Number of points that determine position, rotation and scale.
-const THREE: usize = 3;
 /// Points freed of their coordinates at most, each an adjustment.
 const MOST_FREED: usize = 12;
 /// Standard error, in those of the point as the photos see it, of given coordinates that the document holds: small enough to hold
@@ -135,8 +133,7 @@ pub fn compare(project: &Project, numbering: &Numbering, options: &AdjustOptions
     // A point whose measurements were mostly set aside is judged by all of them.
     let (most_aside, used): (Vec<usize>, Vec<usize>) = used.into_iter().partition(|&k| mostly_aside(project, k));
     aside.extend(&most_aside);
-    // Of four, the three that agree show where the fourth is.
-    if used.len() < THREE || used.len() + aside.len() < FEWEST {
+    if used.len() < FEWEST {
         return None;
     }
     let options =
@@ -163,7 +160,7 @@ pub fn compare(project: &Project, numbering: &Numbering, options: &AdjustOptions
         let held = seen.iter().filter(|s| s.held);
         let left = held.clone().count();
         let worst = held.max_by(|a, b| a.own().total_cmp(&b.own()));
-        let worst = worst.filter(|s| s.own() > limit && left > THREE && freed < MOST_FREED.min(used.len() / 2));
+        let worst = worst.filter(|s| s.own() > limit && left > 3 && freed < MOST_FREED.min(used.len() / 2));
         let Some(k) = worst.map(|s| s.point) else { break seen };
         let place = worst.map(|s| s.xyz.into());
         work = adjusted;

@@ -51,7 +51,7 @@ pub struct Setting<'a> {
     pub pins: &'a [usize],
     /// n - u + d.
     pub redundancy: usize,
-    /// Largest number of steps taken; steps that are tried and refused are not counted, so that one at a time leads on, too.
+    /// Largest number of iterations.
     pub max_iterations: usize,
     /// Steps shorter than this part of the standard errors end the iteration.
     pub negligible: f64,
@@ -88,16 +88,12 @@ pub fn iterate(setting: &Setting<'_>, normal: &mut Normal, log: &mut dyn FnMut(I
         return outcome(state, Termination::Diverged, singular);
     }
     let mut looked = f64::INFINITY;
-    let mut taken = 0;
-    for count in 0.. {
-        if taken == max_iterations {
-            break;
-        }
+    for count in 0..max_iterations {
         if ready == Ready::No && !normal.build(context.at(&state), lambda, pins) {
             return outcome(state, Termination::Diverged, singular);
         }
         let before = normal.cost;
-        if usize::is_multiple_of(count, LOOK_BACK) {
+        if count.is_multiple_of(LOOK_BACK) {
             if before > (1.0 - LEAST_GAIN) * looked {
                 return outcome(state, Termination::Diverged, singular);
             }
@@ -158,7 +154,6 @@ pub fn iterate(setting: &Setting<'_>, normal: &mut Normal, log: &mut dyn FnMut(I
         if gain > 1e-3 || flat {
             behind = after.map_or(behind, |(_, now)| now);
             state = trial;
-            taken += 1;
             length = Some(solution.decrement.max(0.0).sqrt()).filter(|length| lambda == 0.0 && *length > 0.0);
             // The sum no longer tells steps apart; a few more are taken for the unknowns' own digits.
             flat_steps += usize::from(flat && lambda == 0.0);
