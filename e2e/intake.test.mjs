@@ -69,7 +69,7 @@ test('photos, marks and control dropped together go where they belong', { skip: 
   try {
     await photos(page, [...files(join(folder, 'photos'), '.jpg').slice(0, 3), join(folder, 'markpts.txt'), join(folder, 'camcal-fixed.txt')]);
     await page.waitForSelector('.notice');
-    assert.match(await notice(page), /camcal-fixed\.txt holds control points.*markpts\.txt holds marks/);
+    assert.match(await notice(page), /camcal-fixed\.txt holds control points.*markpts\.txt holds image measurements/);
     assert.equal(await page.locator('.tile').count(), 3);
     await go(page, 'identities');
     assert.match(await page.textContent('.panel.marks'), /markpts\.txt/);
