@@ -192,7 +192,8 @@ for (const locale of ['en-US', 'ko-KR']) {
         await route.continue();
       });
       await page.reload({ waitUntil: 'commit' });
-      await page.waitForFunction(() => [...document.querySelectorAll('#static h1')].some((h) => h.offsetParent), undefined, { timeout: 10_000 });
+      // The page is parsed in pieces: its language is chosen when all of it is there.
+      await page.waitForFunction((language) => document.querySelector(`#static [lang=${language}] h1`)?.offsetParent, locale.slice(0, 2), { timeout: 10_000 });
       const shown = async (where) => page.$$eval(`${where} .invitation h1, ${where} .invitation p:first-of-type`, (all) => all.filter((one) => one.offsetParent).map((one) => one.textContent.trim()));
       const before = await shown('#static');
       release();
