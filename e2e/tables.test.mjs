@@ -114,7 +114,7 @@ test('rows are marked, typed into, excluded, renamed, filled and pasted, and eve
     assert.equal(await shown(page), before - 2);
     await page.keyboard.press('Control+z');
     assert.equal(await shown(page), before);
-    for (const name of ['Photos', 'Cameras', 'Distances', 'Control', 'Point names']) {
+    for (const name of ['Photos', 'Cameras', 'Distances', 'Control', 'Identities']) {
       await table(page, name);
       assert.ok((await page.locator('.sheet th').count()) > 3, name);
     }
