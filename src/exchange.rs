@@ -220,7 +220,7 @@ pub fn import_files(format: &str, files: &Files, choices: &Choices) -> Result<Im
     network.and_then(|network| network.into_imported(format, choices.convert)).map_err(in_only)
 }
 
-/// The format of files that can be told by their content; none for tables and what is not known.
+/// Recognises the format of files by their content; `None` for tables and unknown formats.
 pub fn recognised(files: &Files) -> Option<&'static str> {
     if colmap::recognises(files) {
         return Some("colmap");
@@ -328,7 +328,7 @@ pub fn export(format: &str, project: &Project, adjustment: Option<&Adjustment>) 
 }
 
 /// The same; `convert` accepts that a camera differs by more than 1 px in the other program's model. Networks of other programs have
-/// `interchange.json` beside them: differences of converted cameras, what has no place in the format, names of what is numbered there.
+/// `interchange.json` beside them: differences of converted cameras, items that the format cannot hold, and the identifiers behind its numbers.
 ///
 /// # Errors
 /// As [`export`], and [`Reason::ConversionTooLarge`].

@@ -182,7 +182,7 @@ pub const WRITES: Models<'static> = (&[&SNAVELY], principal_point);
 
 fn principal_point(camera: &Camera) -> Lens {
     let mut lens = Lens::default();
-    // Without a principal distance there is no lens, which is said where it is written.
+    // A camera without a principal distance cannot be converted; `write` returns the error.
     if let Ok(own) = super::foreign::undistorted(camera) {
         (lens.terms[CX], lens.terms[CY]) = (own.terms[CX], own.terms[CY]);
     }

@@ -295,7 +295,7 @@ pub struct Fitted {
     pub rms_px: f64,
 }
 
-/// Fits a model to directions of pixels over a region, from initial values; none where the model or the directions do not reach over it.
+/// Fits a model to directions of pixels over a region, from initial values; `None` if the model or the directions are not defined over all of it.
 pub fn fit(
     side: &Side,
     start: &[f64],

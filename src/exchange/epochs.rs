@@ -46,7 +46,7 @@ pub fn points(text: &str, choices: Choices) -> Result<CoordinateList> {
 /// Reads a covariance matrix of points, three rows each in their order; a heading of the text overrides `names`.
 ///
 /// # Errors
-/// [`Error::Invalid`] with the line of a field that is no number, or where the rows are no matrix of the points.
+/// [`Error::Invalid`] with the line of a field that is not a number, or if the number of rows does not match the points.
 pub fn covariance(text: &str, names: &[String]) -> Result<ListedCovariance> {
     let mut rows = text::rows(text);
     let mut points = names.to_vec();

@@ -89,7 +89,7 @@ fn turned_over(m: &Matrix3<f64>) -> Matrix3<f64> {
 }
 
 impl Pose {
-    /// From a rotation object to camera and the translation t of x_camera = R X + t; none where R is no rotation to a thousandth.
+    /// From a rotation object to camera and the translation t of x_camera = R X + t; `None` if R Rᵀ differs from the identity by 0.001 or more.
     pub fn new(rotation: Matrix3<f64>, translation: [f64; 3]) -> Option<Self> {
         let translation = nalgebra::Vector3::from(translation);
         let finite = rotation.iter().chain(translation.iter()).all(|value| value.is_finite());
@@ -97,7 +97,7 @@ impl Pose {
         if !finite || !(error < 1e-3) || rotation.determinant() < 0.0 {
             return None;
         }
-        // What a file rounds is no rotation to the last digit, and angles have no room for more.
+        // Files round R, so that it is not exactly orthogonal; the three angles need the nearest rotation.
         let rotation = if error > 1e-13 { rotation::nearest(&rotation) } else { rotation };
         Some(Self { rotation, position: (-(rotation.transpose() * translation)).into() })
     }

@@ -397,8 +397,8 @@ pub fn write(project: &Project, network: &OutgoingNetwork) -> Result<Files> {
             r[(2, 2)]
         );
     }
-    // The unit is an exact number of metres, or has no meaning.
-    let metres = crate::units::factor(&project.unit, "m").unwrap_or(1.0);
+    // The file states its unit in metres: lengths in an unknown unit are refused, not written as metres.
+    let metres = crate::units::factor(&project.unit, "m")?;
     let reference = format!(
         "    <reference>LOCAL_CS[\"Local Coordinates ({})\",LOCAL_DATUM[\"Local Datum\",0],UNIT[\"{}\",{metres:?}]]</reference>\n",
         escaped(&project.unit),
