@@ -502,3 +502,17 @@ fn vstars_points() {
         assert_eq!(error.place().line, Some(line), "{wrong}: {error}");
     }
 }
+
+#[test]
+fn lengths_in_an_unknown_unit_are_not_written_as_metres() {
+    let mut project = network(&mut ChaCha8Rng::seed_from_u64(9), false);
+    for (unit, metres) in [("mm", "0.001"), ("ft", "0.3048"), ("m", "1.0")] {
+        project.unit = unit.into();
+        let written = exchange::export("metashape", &project, None).expect("a known unit");
+        let text = String::from_utf8(written["cameras.xml"].clone()).expect("text");
+        assert!(text.contains(&format!(",{metres}]]</reference>")), "{unit}");
+    }
+    project.unit = "span".into();
+    let refused = exchange::export("metashape", &project, None).expect_err("an unknown unit").to_string();
+    assert!(refused.contains("span") && refused.contains("mm"), "{refused}");
+}
