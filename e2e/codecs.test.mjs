@@ -8,7 +8,7 @@ import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
 import { dist, open } from './browser.mjs';
-import { detect, drop, idle, photos, sample } from './desk.mjs';
+import { afresh, detect, drop, idle, photos, sample } from './desk.mjs';
 
 let writtenTo;
 /** A folder with photo.heic and photo.dng, written once. */
@@ -33,7 +33,7 @@ test('HEIC and RAW are opened and measured, and without one no decoder is fetche
     assert.ok(await page.evaluate(async () => Boolean((await navigator.serviceWorker.ready).active)));
     assert.deepEqual(decoders(), [], 'PNG photos need none');
     await page.click('.mark');
-    await page.reload();
+    await afresh(page);
     await photos(page, [join(folder, 'photo.heic')]);
     assert.equal(await page.locator('.tile').count(), 1);
     assert.equal(await page.locator('.problems li').count(), 0);
@@ -71,7 +71,7 @@ test('HEIC and RAW are opened and measured, and without one no decoder is fetche
       const all = await Promise.all((await caches.keys()).map(async (key) => (await (await caches.open(key)).keys()).map(({ url }) => url)));
       return all.flat().some((url) => url.endsWith('sightline-codecs_bg.wasm'));
     });
-    await page.reload();
+    await afresh(page);
     await page.waitForSelector('.desk');
     assert.ok(await page.evaluate(() => Boolean(navigator.serviceWorker.controller)), 'the service worker is in charge');
     await page.evaluate(async () => (await fetch(`${sightlineBase}sightline-codecs_bg.wasm`)).arrayBuffer());

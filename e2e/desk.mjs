@@ -43,6 +43,18 @@ export async function drop(page, paths) {
   });
 }
 
+/** Loads the page anew at its start: from any other place it would return to the project that is open. */
+export async function afresh(page) {
+  await page.evaluate(() => history.replaceState(null, '', '#start'));
+  return page.reload();
+}
+
+/** Downloads the project file by the menu of files, with the photos in it or without. */
+export async function save(page, photos = true) {
+  await page.click('[data-action=file]');
+  await page.click(`[data-file=${photos ? 'save-all' : 'save'}]`);
+}
+
 /** Waits until everything is in the browser's storage. */
 export const written = (page) => page.waitForFunction(() => /^saved \d/.test(document.querySelector('.project span')?.textContent), undefined, { timeout: 60_000 });
 
@@ -111,6 +123,7 @@ export async function idle(page, timeout = 300_000) {
 /** Detects targets with the options given by the values of their choices. */
 export async function detect(page, options) {
   await go(page, 'targets');
+  await page.$eval('details.options', (options) => (options.open = true));
   for (const [name, label] of Object.entries(options)) await page.selectOption(`select[name=${name}]`, { label });
   await page.click('[data-action=detect]');
   await idle(page);

@@ -7,17 +7,17 @@ import { compare } from '../tests/face/compare.mjs';
 import { sightline } from '../tests/face/engine.mjs';
 import { tiff } from '../tests/face/tiff.mjs';
 import { open } from './browser.mjs';
-import { data, detect, downloads, files, go, idle, photos, sample, scratch, unzipped } from './desk.mjs';
+import { data, detect, downloads, files, go, idle, photos, sample, save, scratch, unzipped } from './desk.mjs';
 
 /** Opens the page with so many cores, lets `work` fill it, and hands back the project file that it saves, as entries. */
-async function saved(cores, button, work) {
+async function saved(cores, photos, work) {
   const { page, errors, close } = await open({ cores });
   let workers = 0;
   const engines = () => page.workers().filter((worker) => worker.url().endsWith('/worker.js')).length;
   page.on('worker', () => (workers = Math.max(workers, engines())));
   try {
     await work(page);
-    const given = await downloads(page, 1, () => page.getByRole('button', { name: button, exact: true }).click());
+    const given = await downloads(page, 1, () => save(page, photos));
     await idle(page);
     assert.deepEqual(errors, []);
     assert.equal(workers, cores, 'workers at the same time');
@@ -41,7 +41,7 @@ function sameInNode(found, bytes, options) {
 test('the photos of the sample, which the page renders itself', { timeout: 600_000 }, async () => {
   let first;
   for (const cores of [1, 4]) {
-    const entries = await saved(cores, 'Save with photos', sample);
+    const entries = await saved(cores, true, sample);
     const names = Object.keys(entries).filter((name) => name.startsWith('photos/')).sort();
     assert.equal(names.length, 8);
     const pictures = names.map((name) => entries[name]);
@@ -60,7 +60,7 @@ for (const { name, ending, folder, choices, options, least } of [
     const paths = files(place, ending).slice(0, 4);
     const bytes = paths.map((path) => readFileSync(path));
     for (const cores of [1, 4]) {
-      const entries = await saved(cores, 'Save', async (page) => {
+      const entries = await saved(cores, false, async (page) => {
         await photos(page, paths);
         await detect(page, choices);
       });
@@ -79,7 +79,7 @@ function disc(u, v) {
 
 test('a click measures one target, before any detection, in one photo after the other', async () => {
   const places = [[205.3, 148.6], [190.8, 155.2]];
-  const entries = await saved(1, 'Save', async (page) => {
+  const entries = await saved(1, false, async (page) => {
     await photos(page, places.map(([u, v], i) => scratch(`disc${i}.tif`, tiff(400, 300, disc(u, v)))));
     await go(page, 'identities');
     // A second click on a target finds it in the list.

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { open } from './browser.mjs';
-import { adjust, downloads, go, notice, sample, unzipped } from './desk.mjs';
+import { adjust, downloads, go, notice, sample, save, unzipped } from './desk.mjs';
 
 const longer = { timeout: 600_000 };
 
@@ -15,7 +15,7 @@ async function type(page, selector, value) {
 
 /** The project as a saved file has it. */
 async function project(page) {
-  const saved = await downloads(page, 1, () => page.getByRole('button', { name: 'Save', exact: true }).click());
+  const saved = await downloads(page, 1, () => save(page, false));
   return JSON.parse(unzipped(Object.values(saved)[0])['project.json']);
 }
 

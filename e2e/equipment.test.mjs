@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { open } from './browser.mjs';
-import { downloads, drop, go, idle, notice, photos, sample, scratch, unzipped } from './desk.mjs';
+import { afresh, downloads, drop, go, idle, notice, photos, sample, save, scratch, unzipped } from './desk.mjs';
 
 const longer = { timeout: 900_000 };
 const undoName = (page) => page.getAttribute('.tools .icon-button', 'aria-label');
@@ -35,8 +35,8 @@ test('a calibration is kept, survives a reload, and is held, observed or a start
     await page.click('[data-keep]');
     assert.equal(await page.locator('[data-known-camera] .calibration').count(), 1);
     await page.waitForTimeout(300);
-    await page.reload();
-    await page.waitForSelector('.desk');
+    await afresh(page);
+    await page.click('[data-open=equipment]');
     await page.waitForSelector('[data-known-camera]');
 
     // The sample again: its photos say which camera took them.
@@ -77,7 +77,7 @@ test('a scale bar gives its distance by itself where its codes are read, and onc
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
     await sample(page);
-    const saved = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+    const saved = await downloads(page, 1, () => save(page));
     await idle(page);
     const entries = unzipped(Object.values(saved)[0]);
     const names = Object.keys(entries).filter((name) => name.startsWith('photos/')).sort();
@@ -106,7 +106,7 @@ test('a scale bar gives its distance by itself where its codes are read, and onc
 
     // In a project of photos alone: codes are read, and the distance is there.
     await page.waitForTimeout(300);
-    await page.reload();
+    await afresh(page);
     await photos(page, paths);
     await go(page, 'targets');
     await page.click('[data-action=detect]');

@@ -110,6 +110,7 @@ test('inputs change the network and date the figures, a run can be cancelled, th
     const expected = sightline.adjust(sightline.runExperiment('kang', { network: '1.4-2A', image_sigma_um: 5, rounds: 50 }).project);
     assert.equal(await figure(page, 'sigma0'), Number(expected.sigma0.toFixed(3)));
     // Back where it was: nothing has to be run again.
+    await page.click('[data-action=file]');
     await page.click('.to-experiments');
     assert.equal(await page.locator('.outcome .keys').count(), 1);
     assert.deepEqual(errors, []);
@@ -171,6 +172,7 @@ test('plates of one\'s own go from readings to coordinates, from files and from 
     await drop(page, [scratch('scans.json', JSON.stringify(project))]);
     await page.waitForFunction(() => location.hash === '#photos');
     await idle(page);
+    await page.click('[data-action=file]');
     await page.click('.to-experiments');
     await page.getByRole('button', { name: 'Measured in the scans' }).click();
     await page.waitForSelector('[data-table=own-fiducials] tbody tr');

@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { crc32, deflateSync } from 'node:zlib';
 
 import { open } from './browser.mjs';
-import { downloads, drop, go, idle, notice, scratch, unzipped } from './desk.mjs';
+import { downloads, drop, go, idle, notice, save, scratch, unzipped } from './desk.mjs';
 
 const longer = { timeout: 300_000 };
 const shots = process.env.SIGHTLINE_SHOTS;
@@ -72,7 +72,7 @@ const tiles = (page) => page.locator('.tile').count();
 
 async function saved(page) {
   await page.setViewportSize({ width: 1366, height: 768 });
-  const files = await downloads(page, 1, () => page.getByRole('button', { name: 'Save', exact: true }).click());
+  const files = await downloads(page, 1, () => save(page, false));
   return JSON.parse(unzipped(Object.values(files)[0])['project.json']);
 }
 

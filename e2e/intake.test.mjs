@@ -14,7 +14,7 @@ test('what cannot be read is told on the start page', { timeout: 120_000 }, asyn
   try {
     await drop(page, [scratch('letter.jpg', 'Dear Sir or Madam')]);
     await page.waitForSelector('.problems li');
-    assert.match(await page.textContent('.problems'), /letter\.jpg.*JPEG, PNG, TIFF or BMP/);
+    assert.match(await page.textContent('.problems'), /letter\.jpg.*JPEG, HEIC, camera RAW, PNG, TIFF or BMP/);
     assert.equal(await page.evaluate(() => location.hash), '#start');
     // It goes when something else is dropped.
     await drop(page, [scratch('nothing.jpg', '')]);
@@ -43,8 +43,9 @@ test('texts are sorted by what is in them, and only what can be both is asked', 
     await go(page, 'photos');
     await drop(page, [scratch('control.txt', utf16)]);
     await page.waitForSelector('.preview tr.new');
-    assert.equal(await page.evaluate(() => location.hash), '#control');
-    assert.equal(await page.locator('.preview tr.new').count(), 3);
+    // A list is answered where it was dropped.
+    assert.equal(await page.evaluate(() => location.hash), '#photos');
+    assert.equal(await page.locator('.import-over .preview tr.new').count(), 3);
     await page.getByRole('button', { name: 'Discard' }).click();
     await go(page, 'results');
     await drop(page, [scratch('marks.txt', 'sample-1,A,100.5,200.5,0.1\nsample-2,A,120.5,220.5,0.1\nsample-2,B,10.5,22.5,0.1\n')]);

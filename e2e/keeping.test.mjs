@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { open } from './browser.mjs';
-import { downloads, drop, go, idle, notice, sample, scratch, unzipped } from './desk.mjs';
+import { afresh, downloads, drop, go, idle, notice, sample, scratch, unzipped } from './desk.mjs';
 
 const written = (page) => page.waitForFunction(() => /^saved \d/.test(document.querySelector('.project span')?.textContent), undefined, { timeout: 60_000 });
 const figure = (page, step) => page.textContent(`[data-step=${step}] .figure`);
@@ -26,7 +26,7 @@ test('a reloaded page has the project as it was, with its result, its photos and
     await page.fill('.project-name', 'Panel');
     await page.press('.project-name', 'Enter');
     await written(page);
-    await page.reload();
+    await afresh(page);
     await page.waitForSelector('[data-project]');
     const row = await page.textContent('[data-project]');
     assert.match(row, /Panel.*8.*out of date/s);
@@ -99,7 +99,7 @@ test('projects are listed, renamed, duplicated, downloaded, deleted and got back
     await waitFor(['First', 'One (copy)', 'Two']);
     await verb('Two', 'Delete');
     await waitFor(['First', 'One (copy)']);
-    await page.reload();
+    await afresh(page);
     await waitFor(['First', 'One (copy)']);
     await goOn(page, 'One (copy)');
     assert.equal(await page.inputValue('.project-name'), 'One (copy)');
@@ -149,7 +149,7 @@ test('a browser that keeps nothing says so, and asks before anything is lost', {
   const { page, context, close } = await open({ width: 1366, height: 768, serviceWorkers: 'block' });
   try {
     await context.route('**/storage.js', (route) => route.abort());
-    await page.reload();
+    await afresh(page);
     await page.waitForFunction(() => /keeps nothing here/.test(document.querySelector('.foot .storage')?.textContent));
     // A sample that nobody has worked on is no work.
     await sample(page);

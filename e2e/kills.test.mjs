@@ -7,7 +7,7 @@ import { existsSync } from 'node:fs';
 import { test } from 'node:test';
 
 import { killRenderers, open, plainHttp } from './browser.mjs';
-import { drop, go, named, owns, sample, scratch, verb } from './desk.mjs';
+import { afresh, drop, go, named, owns, sample, save, scratch, verb } from './desk.mjs';
 
 const KILLS = Number(process.env.SIGHTLINE_KILLS ?? 12);
 /** What was done so long before the kill has to be there. */
@@ -68,7 +68,7 @@ const WORK = {
   async saving(page, seen) {
     const saved = page.waitForEvent('download');
     saved.catch(() => {});
-    await page.getByRole('button', { name: 'Save with photos', exact: true }).click();
+    await save(page);
     await saved;
     seen.ended = true;
   },
@@ -323,7 +323,7 @@ for (const [way, address] of [['loopback', () => undefined], ['plain HTTP', plai
       },
       async reload(page, w) {
         opened.delete(w);
-        await page.reload();
+        await afresh(page);
         await page.waitForSelector('.sample', { timeout: 20_000 });
       },
     };

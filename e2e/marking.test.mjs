@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { before, test } from 'node:test';
 
 import { open } from './browser.mjs';
-import { clickPhoto, downloads, figure, go, idle, photos, places, sample, scratch, unzipped } from './desk.mjs';
+import { clickPhoto, downloads, figure, go, idle, photos, places, sample, save, scratch, unzipped } from './desk.mjs';
 
 const longer = { timeout: 900_000 };
 let paths, project;
@@ -13,7 +13,7 @@ before(async () => {
   const { page, close } = await open({ width: 1366, height: 768 });
   try {
     await sample(page);
-    const saved = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+    const saved = await downloads(page, 1, () => save(page));
     await idle(page);
     const entries = unzipped(Object.values(saved)[0]);
     const names = Object.keys(entries).filter((name) => name.startsWith('photos/')).sort();
@@ -47,6 +47,7 @@ const untilShown = (page, photo) => page.waitForFunction((photo) => document.que
 async function withoutCodes(page) {
   await photos(page, paths);
   await go(page, 'targets');
+  await page.$eval('details.options', (options) => (options.open = true));
   await page.selectOption('select[name=codes]', { label: 'none' });
   await page.click('[data-action=detect]');
   await idle(page);
@@ -74,7 +75,7 @@ test('eight photos without codes are named by hand and adjusted in at most 60 cl
     }
     await untilShown(page, 1);
     assert.equal(await page.locator('.columns tr.data').count(), points.length);
-    await page.getByRole('button', { name: 'Match uncoded targets' }).click();
+    await page.click('[data-action=match]');
     await idle(page);
     await go(page, 'adjust');
     await page.click('.action .button');

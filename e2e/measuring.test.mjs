@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { open } from './browser.mjs';
-import { choosePoint, clickPhoto, downloads, drop, figure, go, idle, notice, photos, places, sample, scratch, showPhoto, unzipped } from './desk.mjs';
+import { afresh, choosePoint, clickPhoto, downloads, drop, figure, go, idle, notice, photos, places, sample, save, scratch, showPhoto, unzipped } from './desk.mjs';
 
 const longer = { timeout: 600_000 };
 
@@ -102,7 +102,7 @@ test('keys act where the focus is', longer, async () => {
 /** The photos of the sample, as files on the disk. */
 async function samplePhotos(page) {
   await sample(page);
-  const saved = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+  const saved = await downloads(page, 1, () => save(page));
   await idle(page);
   const entries = unzipped(Object.values(saved)[0]);
   const names = Object.keys(entries).filter((name) => name.startsWith('photos/')).sort();
@@ -114,9 +114,10 @@ test('a click before detection measures, typing names, Alt-click and the button 
   try {
     const { project, paths } = await samplePhotos(page);
     const place = (point) => project.observations.find((o) => o.photo === 'sample-1' && o.point === point);
-    await page.reload();
+    await afresh(page);
     await photos(page, paths.slice(0, 2));
     await go(page, 'targets');
+    await page.$eval('details.options', (options) => (options.open = true));
     await page.selectOption('select[name=codes]', { label: 'Schneider / AICON 14 bit' });
     await showPhoto(page, '1');
     assert.match(await page.textContent('.legend'), /Click measures, Alt-click places freely/);

@@ -20,6 +20,8 @@ test('points are chosen in space and in tables alike, features have their sigmas
   try {
     await sample(page);
     assert.equal(await fetched(page), false);
+    // The table begins at its top: of the points there the one that stands most alone in space is clicked.
+    const atTop = await page.$$eval('.c1 tr[data-key]', (all) => all.slice(0, 10).map((row) => row.dataset.key));
     await object(page);
     assert.equal(await fetched(page), true);
     const counts = await view(page, () => document.querySelector('.space-host').view.counts());
@@ -38,10 +40,15 @@ test('points are chosen in space and in tables alike, features have their sigmas
       }
     }
     const box = await page.locator('.space-host').boundingBox();
-    const place = await view(page, () => document.querySelector('.space-host').view.place(5));
+    const [alone, place] = await page.evaluate((names) => {
+      const { view } = document.querySelector('.space-host');
+      const all = Array.from({ length: view.counts().points }, (_, k) => view.place(k));
+      const room = (at) => all.map(([x, y]) => Math.hypot(x - at[0], y - at[1])).sort((a, b) => a - b)[1];
+      return names.map((name) => [name, view.place(name)]).sort((a, b) => room(b[1]) - room(a[1]))[0];
+    }, atTop);
     await page.mouse.click(box.x + place[0], box.y + place[1]);
     const chosen = await page.inputValue('[name=chosen-points]');
-    assert.ok(chosen.length > 0);
+    assert.equal(chosen, alone);
     assert.equal(await page.textContent('.foot .chosen b'), chosen);
     await page.click('.object-bar .back');
     await page.waitForSelector('.results');
@@ -201,6 +208,44 @@ test('points are chosen in space and in tables alike, features have their sigmas
   }
 });
 
+test('the object stands beside the numbers, and a form that its points do not make says so', async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await sample(page);
+    // A point that is clicked in the drawing is chosen in the table.
+    await page.waitForSelector('.results .o .overview .dots.given');
+    const [x, y] = await page.$eval('.results .o .overview .dots.given', (path) => {
+      const point = path.ownerSVGElement.createSVGPoint();
+      [point.x, point.y] = path.getAttribute('d').slice(1).split(/[ h]/).map(Number);
+      const at = point.matrixTransform(path.getScreenCTM());
+      return [at.x, at.y];
+    });
+    await page.mouse.click(x, y);
+    await page.waitForSelector('.overview circle.chosen');
+    assert.equal(await page.textContent('.overview text.chosen'), await page.textContent('.foot .chosen b'));
+
+    // A plane through points on the ground and points above it fits none of them.
+    const heights = await page.$$eval('.c1 tr[data-key]', (all) => all.map((row) => [row.dataset.key, Number(row.cells[4].textContent.replace('−', '-'))]));
+    const low = [['1'], ['3'], ['9'], ['7']];
+    const high = heights.filter(([, z]) => z > 100).slice(0, 2);
+    assert.equal(high.length, 2, JSON.stringify(heights));
+    await object(page);
+    const plane = async (points) => {
+      await page.fill('[name=chosen-points]', points.map(([name]) => name).join(' '));
+      await page.press('[name=chosen-points]', 'Enter');
+      await page.click('[data-make=plane]');
+    };
+    await plane([...low, ...high]);
+    assert.match(await page.textContent('[data-feature=A] [data-misfit]'), /hardly form a plane: rms [\d.]+ mm, \d+ %/);
+    await plane(low);
+    await page.waitForSelector('[data-feature=B] .value, [data-feature=B] .quantity');
+    assert.equal(await page.locator('[data-feature=B] [data-misfit]').count(), 0);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
 test('each side is looked at straight, and differences at control and check points are drawn', async () => {
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
@@ -274,9 +319,10 @@ test('memory is back after the view is left, and without WebGL the object is sho
       };
     });
     await page.click('[data-action=object]');
-    await page.waitForSelector('.object-plan circle');
+    await page.waitForSelector('.no-space .overview .dots');
     assert.match(await page.textContent('.no-space'), /WebGL/);
-    assert.ok((await page.$$('.object-plan circle')).length > 20);
+    const dots = await page.$$eval('.no-space .overview .dots', (all) => all.map((path) => path.getAttribute('d')).join('').split('M').length - 1);
+    assert.ok(dots > 20, `${dots} points`);
   } finally {
     await close();
   }

@@ -9,7 +9,7 @@ import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
 import { dist, open } from './browser.mjs';
-import { adjust, detect, downloads, drop, go, idle, photos, rows, sample, scratch, unzipped } from './desk.mjs';
+import { adjust, detect, downloads, drop, go, idle, photos, rows, sample, save, scratch, unzipped } from './desk.mjs';
 
 const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.png': 'image/png', '.webmanifest': 'application/manifest+json' };
 
@@ -32,7 +32,7 @@ const ready = (page) => page.evaluate(async () => Boolean((await navigator.servi
 async function fromDropToExport(page) {
   await sample(page);
   const wanted = await page.textContent('[data-result=sigma0]');
-  const saved = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+  const saved = await downloads(page, 1, () => save(page));
   const files = Object.entries(unzipped(Object.values(saved)[0])).filter(([name]) => name.startsWith('photos/'));
   assert.equal(files.length, 8);
   await page.click('.mark');

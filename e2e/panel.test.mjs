@@ -27,7 +27,7 @@ test('8 photos become coordinates', { skip: folder ? false : 'skipped, no data',
     await page.click('.distance-form button');
     await adjust(page);
     await go(page, 'identities');
-    await page.getByRole('button', { name: 'Match uncoded targets' }).click();
+    await page.click('[data-action=match]');
     await idle(page);
     await adjust(page);
 

@@ -54,10 +54,12 @@ export async function printed(page, { figures = [], points = [], without = [] })
   for (const language of ['en', 'ko']) {
     await page.selectOption('[name=report-language]', language);
     await page.waitForFunction((tag) => document.querySelector('.paper').shadowRoot.querySelector('.report').lang === tag, language);
+    await page.waitForSelector('.paper[data-ready=true]');
     for (const paper of ['a4', 'letter']) {
       await page.selectOption('[name=paper]', paper);
       const size = paper === 'a4' ? 'a4' : 'letter';
       await page.waitForFunction((name) => [...document.adoptedStyleSheets].some((sheet) => [...sheet.cssRules].some((rule) => rule.cssText.toLowerCase().includes(`size: ${name}`))), size);
+      await page.waitForSelector('.paper[data-ready=true]');
       const file = join(folder, `${language}-${paper}.pdf`);
       await page.pdf({ path: file, preferCSSPageSize: true, printBackground: true });
       const pages = boxes(file);

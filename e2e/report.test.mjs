@@ -50,6 +50,7 @@ test('the sample prints whole in both languages and sizes', { skip: unreadable, 
     const chooser = page.waitForEvent('filechooser');
     await page.getByRole('button', { name: 'Choose logo' }).click();
     await (await chooser).setFiles(scratch('logo.png', LOGO));
+    await page.waitForFunction(() => document.querySelector('.paper').shadowRoot?.querySelector('header img.logo')?.naturalWidth === 1);
     for (const [name, value] of [['limit-constant', '0.02'], ['limit-per', '100000']]) {
       await page.fill(`[name=${name}]`, value);
       await page.press(`[name=${name}]`, 'Tab');
@@ -58,6 +59,8 @@ test('the sample prints whole in both languages and sizes', { skip: unreadable, 
       const { shadowRoot } = document.querySelector('.paper');
       return shadowRoot.querySelector('header img.logo')?.naturalWidth === 1 && shadowRoot.querySelector('[data-section=lengths] tr.bad');
     });
+    // The first of the two fields has made pages of its own; those that are printed say both.
+    await page.waitForSelector('.paper[data-ready=true]');
     const folder = await printed(page, { figures: [...shown, 'Class 4b', '0.02 mm + L / 100 000'], points });
     assert.match(execFileSync('pdfimages', ['-list', join(folder, 'en-a4.pdf')], { encoding: 'utf8' }), /^ +1 +0 image +1 +1 /m);
     // One file, the same words.
@@ -85,7 +88,7 @@ test('plots are drawn in three themes and both languages, and saved', { timeout:
       await page.getByRole('button', { name: /Theme: switch/ }).click();
     }
     assert.equal(colours.size, 3, [...colours].join(' '));
-    const saved = await downloads(page, 1, () => page.locator('.drawings .link').first().click());
+    const saved = await downloads(page, 1, () => page.locator('.drawings figcaption .link').first().click());
     const [[name, bytes]] = Object.entries(saved);
     assert.match(name, /\.svg$/);
     assert.match(bytes.toString('utf8'), /^<svg [^>]*xmlns=/);

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { killRenderers, open, openPrivately, plainHttp } from './browser.mjs';
-import { downloads, drop, go, idle, notice, sample, scratch, unzipped, verb, waitForList } from './desk.mjs';
+import { afresh, downloads, drop, go, idle, notice, sample, save, scratch, unzipped, verb, waitForList } from './desk.mjs';
 
 const written = (page) => page.waitForFunction(() => /^saved \d/.test(document.querySelector('.project span')?.textContent), undefined, { timeout: 60_000 });
 const figure = (page, step) => page.textContent(`[data-step=${step}] .figure`).then((text) => text.trim());
@@ -27,7 +27,7 @@ async function openWith(prelude) {
     const answer = await route.fetch();
     await route.fulfill({ response: answer, body: `${prelude}\n${await answer.text()}` });
   });
-  await opened.page.reload();
+  await afresh(opened.page);
   return opened;
 }
 
@@ -80,7 +80,7 @@ test('without a private file system the database keeps everything, also when the
       await page.click('.tools .icon-button');
     }
     assert.equal(await figure(page, 'results'), results);
-    const files = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+    const files = await downloads(page, 1, () => save(page));
     assert.equal(Object.keys(unzipped(Object.values(files)[0])).filter((name) => name.startsWith('photos/')).length, 8);
     assert.deepEqual(errors, []);
   } finally {
@@ -107,14 +107,14 @@ test('a full disk is told, the file is the way out, and what waited is written w
     await storageLine(page, 'full.*Save the project');
     await rename(page, 'The last name');
     // Everything is in the file.
-    const files = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+    const files = await downloads(page, 1, () => save(page));
     const inside = unzipped(Object.values(files)[0]);
     assert.equal(JSON.parse(inside['project.json']).name, 'The last name');
     assert.equal(Object.keys(inside).filter((name) => name.startsWith('photos/')).length, 8);
     // Someone makes room: nothing has to be done for what waited.
     await session.send('Storage.overrideQuotaForOrigin', { origin });
     await written(page);
-    await page.reload();
+    await afresh(page);
     await goOn(page);
     assert.equal(await page.inputValue('.project-name'), 'The last name');
     assert.equal(await figure(page, 'photos'), '8');
@@ -168,7 +168,7 @@ test('photos that do not fit are told, and stay in use', { timeout: 600_000 }, a
     await rename(page, 'Room');
     await page.waitForFunction(() => !/not copied|is full/.test(document.querySelector('.foot .storage')?.textContent), undefined, { timeout: 60_000 });
     await written(page);
-    await page.reload();
+    await afresh(page);
     await goOn(page);
     assert.equal(await page.inputValue('.project-name'), 'Room');
     assert.equal(await figure(page, 'photos'), '8');
@@ -187,7 +187,7 @@ for (const [kind, prelude] of [['files', ''], ['database', 'delete StorageManage
     try {
       // Photos of one's own: their files are at hand still.
       await sample(page);
-      const files = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+      const files = await downloads(page, 1, () => save(page));
       await page.click('.mark');
       await drop(page, [scratch('own.sightline', Object.values(files)[0])]);
       await page.waitForFunction(() => location.hash === '#results');
@@ -203,11 +203,11 @@ for (const [kind, prelude] of [['files', ''], ['database', 'delete StorageManage
       assert.match(await notice(page), /photos and all/);
       await written(page);
       // The way out: everything is in the file, photos from where they came.
-      const saved = unzipped(Object.values(await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click()))[0]);
+      const saved = unzipped(Object.values(await downloads(page, 1, () => save(page)))[0]);
       assert.equal(JSON.parse(saved['project.json']).name, 'After');
       assert.equal(Object.keys(saved).filter((name) => name.startsWith('photos/')).length, 8);
       await page.waitForTimeout(2000);
-      await page.reload();
+      await afresh(page);
       await goOn(page);
       assert.equal(await page.inputValue('.project-name'), 'After');
       assert.equal(await figure(page, 'photos'), '8');
@@ -244,7 +244,7 @@ test('storage cleared under two windows is stored again by both, whichever is cl
     }
     await second.close();
     await first.waitForTimeout(1000);
-    await first.reload();
+    await afresh(first);
     await first.waitForSelector('[data-project]');
     const names = await first.$$eval('[data-project]', (all) => all.map((row) => row.textContent));
     assert.equal(names.length, 2, names.join());
@@ -264,7 +264,7 @@ test('storage that was cleared since the last visit is told', { timeout: 300_000
     await page.waitForSelector('[data-project]');
     const session = await context.newCDPSession(page);
     await session.send('Storage.clearDataForOrigin', { origin: new URL(url).origin, storageTypes: 'file_systems,indexeddb' });
-    await page.reload();
+    await afresh(page);
     await page.waitForFunction(() => /cleared its storage: 1 project/.test(document.querySelector('.notices')?.textContent ?? ''), undefined, { timeout: 30_000 });
   } finally {
     await close();
@@ -279,10 +279,10 @@ test('a private window keeps what it can, and says that it may go', { timeout: 6
     await storageLine(page, 'may clear it|keeps nothing');
     await rename(page, 'Private');
     await written(page);
-    await page.reload();
+    await afresh(page);
     await goOn(page);
     assert.equal(await page.inputValue('.project-name'), 'Private');
-    const files = await downloads(page, 1, () => page.getByRole('button', { name: 'Save with photos', exact: true }).click());
+    const files = await downloads(page, 1, () => save(page));
     assert.equal(JSON.parse(unzipped(Object.values(files)[0])['project.json']).name, 'Private');
     assert.deepEqual(errors, []);
   } finally {
@@ -317,13 +317,13 @@ test('the journal of a long session is condensed, and nothing of it is lost', { 
     }
     assert.ok(generation > 1, `never condensed: ${most} bytes after 560 edits of a document of ${whole}`);
     assert.ok(most < 12e6, `${most} bytes`);
-    await page.reload();
+    await afresh(page);
     await goOn(page);
     assert.equal(await page.inputValue('.project-name'), 'Large 7 69');
     // What was done after condensing is kept as well.
     await rename(page, 'The end');
     await written(page);
-    await page.reload();
+    await afresh(page);
     await goOn(page);
     assert.equal(await page.inputValue('.project-name'), 'The end');
     assert.deepEqual(errors, []);
@@ -393,7 +393,7 @@ test('a copy whose card could not be written is listed by its own name', { timeo
       return taken;
     });
     assert.equal(taken, 1);
-    await page.reload();
+    await afresh(page);
     await page.waitForSelector('[data-project]');
     await page.waitForTimeout(500);
     assert.deepEqual((await page.$$eval('[data-project] .name', (all) => all.map((one) => one.textContent.trim()))).sort(), ['Origin', 'Origin (copy)']);
@@ -429,11 +429,11 @@ for (const [kind, address] of [['files', () => undefined], ['database', plainHtt
           await written(page);
         }
         await page.click('.mark');
-        await page.reload();
+        await afresh(page);
         await page.waitForSelector('[data-project]');
         const frames = await harmJournal(page, harm);
         assert.ok(frames >= 12, `${frames} frames`);
-        await page.reload();
+        await afresh(page);
         await page.waitForSelector('[data-project]');
         if (harm === 'first') {
           // What everything after it builds on is gone: that is said, and the journal can be downloaded, once however often it is opened.
@@ -443,7 +443,7 @@ for (const [kind, address] of [['files', () => undefined], ['database', plainHtt
             await page.waitForTimeout(500);
             const files = await downloads(page, 1, () => verb(page, 'Edit 11', 'Download damaged file'));
             assert.ok(Object.values(files)[0].length > 500);
-            await page.reload();
+            await afresh(page);
             await page.waitForSelector('[data-project]');
           }
           continue;
@@ -462,7 +462,7 @@ for (const [kind, address] of [['files', () => undefined], ['database', plainHtt
         // It is stored anew, and goes on.
         await rename(page, `Saved ${harm}`);
         await written(page);
-        await page.reload();
+        await afresh(page);
         await page.waitForSelector('[data-project]');
         await goOn(page);
         assert.equal(await page.inputValue('.project-name'), `Saved ${harm}`);
@@ -497,7 +497,7 @@ test('one button deletes everything that the page keeps, and not while another w
     };
     await wipe(second);
     await second.waitForSelector('.notice:has-text("open in another window")');
-    await page.reload();
+    await afresh(page);
     await page.waitForSelector('[data-project]');
     await second.close();
     await page.evaluate(() => localStorage.setItem('sightline.theme', 'dark'));

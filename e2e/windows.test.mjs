@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import { open, plainHttp } from './browser.mjs';
-import { drop, go, goOn, idle, listed, named, notice, owns, rename, sample, verb, waitForList, written } from './desk.mjs';
+import { afresh, drop, go, goOn, idle, listed, named, notice, owns, rename, sample, verb, waitForList, written } from './desk.mjs';
 
 const WAYS = [['loopback', () => undefined], ['plain HTTP', plainHttp]];
 
@@ -44,14 +44,14 @@ for (const [way, address] of WAYS) {
       await waitForList(page, ['Two']);
       const second = await another(opened);
       await waitForList(second, ['Two']);
-      await second.reload();
+      await afresh(second);
       await waitForList(second, ['Two']);
       // It can be got back there, too.
       assert.equal(await second.locator('[data-deleted]').count(), 1);
       await page.bringToFront();
       await page.locator('.notice').getByRole('button', { name: 'Undo' }).click();
       await waitForList(page, ['One', 'Two']);
-      await second.reload();
+      await afresh(second);
       await waitForList(second, ['One', 'Two']);
       assert.equal(await second.locator('[data-deleted]').count(), 0);
       await goOn(second, 'One');
@@ -59,11 +59,11 @@ for (const [way, address] of WAYS) {
       await start(page);
       await verb(page, 'Two', 'Delete');
       await waitForList(page, ['One']);
-      await second.reload();
+      await afresh(second);
       await second.waitForSelector('[data-deleted]');
       await second.locator('[data-deleted]').getByRole('button', { name: 'Put back' }).click();
       await waitForList(second, ['One', 'Two']);
-      await page.reload();
+      await afresh(page);
       await waitForList(page, ['One', 'Two']);
       assert.deepEqual(errors, []);
     } finally {
@@ -88,7 +88,7 @@ for (const [way, address] of WAYS) {
       await page.bringToFront();
       await rename(page, 'One more');
       await written(page);
-      await second.reload();
+      await afresh(second);
       await waitForList(second, ['One more']);
       // Where it is open it is deleted, with what was done last, and comes back with it.
       await rename(page, 'One at last');
@@ -112,7 +112,7 @@ for (const [way, address] of WAYS) {
       await verb(page, 'One', 'Delete');
       await waitForList(page, []);
       for (const window of [page, await another(opened)]) {
-        await window.reload();
+        await afresh(window);
         await window.waitForSelector('[data-deleted]');
         assert.doesNotMatch(await window.textContent('.notices'), /cleared/);
       }
@@ -207,7 +207,7 @@ for (const [way, address] of WAYS) {
         await written(page);
       }
       // Renaming cannot be undone, so that the last stored name is what tells whether everything was written.
-      await page.reload();
+      await afresh(page);
       await waitForList(page, ['Round 3 and on']);
       await goOn(page, 'Round 3 and on');
       // If the worker cannot be started again, the page says so in red and keeps trying.
@@ -293,10 +293,10 @@ for (const [way, address] of WAYS) {
       for (const harm of ['nothing', 'list', 'types', 'newer', 'none', 'noise']) {
         await start(page);
         await waitForList(page, ['One', 'Two', 'Three']);
-        await page.reload();
+        await afresh(page);
         await waitForList(page, ['One', 'Two', 'Three']);
         await harmCard(page, 'Two', harm);
-        await page.reload();
+        await afresh(page);
         await waitForList(page, ['One', 'Two', 'Three']);
         await goOn(page, 'Two');
         // The next change writes a card again.

@@ -7,12 +7,16 @@
 //! interchange import FORMAT FILE...          a network as a document
 //! interchange export FORMAT PROJECT FOLDER   a document as files
 //! interchange project PROJECT                pixels of all points in all photos
+//! interchange uncertainty PROJECT OPTIONS    projection uncertainty of an adjustment of the project
 //! ```
 
 use std::error::Error;
 use std::path::Path;
 
 use nalgebra::Vector3;
+use sightline::adjust::adjust;
+use sightline::adjustment::AdjustOptions;
+use sightline::calibration::{UncertaintyOptions, projection_uncertainty};
 use sightline::camera::pixel_from_camera_point;
 use sightline::exchange::foreign::CameraOptions;
 use sightline::exchange::{self, Choices, Files, cameras};
@@ -59,6 +63,12 @@ fn main() -> Outcome {
         ["export", format, project, folder] => {
             save(&exchange::export(format, &json::<Project>(project)?, None)?, folder)?;
             serde_json::Value::Null
+        }
+        ["uncertainty", project, options] => {
+            let (project, options) = (json::<Project>(project)?, json::<UncertaintyOptions>(options)?);
+            let adjustment = adjust(&project, &AdjustOptions::default(), &mut |_| true)?;
+            let found = projection_uncertainty(&project, &adjustment, &options)?;
+            serde_json::json!({ "sigma0": adjustment.sigma0, "uncertainty": found })
         }
         ["project", project] => serde_json::to_value(projected(&json::<Project>(project)?))?,
         _ => return Err("see the head of examples/interchange.rs".into()),

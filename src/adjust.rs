@@ -3,7 +3,7 @@
 //! The rooms, each using only those before it: `linear` (tiles and small factors), `problem` (the numbered document, its
 //! values, what is known of it beforehand), `equations` (collinearity, Schur complement, ordering), `datum`, `statistics`
 //! (cofactors), `diagnosis` (rank defect, advice), `solve` (iteration, session), `gross_errors` (snooping, robust weights),
-//! `variance_components`, `report`, `outside` (what took no part) and `inside` (equations and iterations laid open).
+//! `variance_components`, `patterns` (systematic residuals), `report`, `outside` (what took no part) and `inside` (equations and iterations laid open).
 
 mod datum;
 mod diagnosis;
@@ -12,6 +12,7 @@ mod gross_errors;
 mod inside;
 mod linear;
 mod outside;
+mod patterns;
 mod problem;
 mod report;
 mod solve;
@@ -20,12 +21,13 @@ mod variance_components;
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use nalgebra::Matrix3;
+use nalgebra::{DMatrix, Matrix3};
 
 use crate::adjustment::{
-    AdjustOptions, AdjustedPoint, Adjustment, Advice, Iteration, Measured, ResidualPlace, StatisticsChoice, Termination,
+    AdjustOptions, AdjustedCamera, AdjustedPoint, Adjustment, Advice, Iteration, Measured, ResidualPlace,
+    StatisticsChoice, Termination,
 };
-use crate::error::{Defect, Result};
+use crate::error::{Defect, Error, Place, Reason, Result};
 use crate::features::{self, Function};
 use crate::project::{Datum, DatumKind, Parameter, Project, Role};
 
@@ -45,6 +47,10 @@ pub use inside::normal_equations::{Block, BlockKind, FillIn, Motion, NormalEquat
 pub use inside::sparse::{SparseMatrix, npy};
 pub use inside::stepping::{Adjuster, StepState, start_adjustment};
 pub use problem::unmodelled::estimate as unmodelled;
+
+/// Variance factors of the parameters of one camera are one factor; equations at the adjusted values repeat it to rounding and the last
+/// step of the iteration, those of another document miss it by much more.
+const SAME_FACTOR: f64 = 1e-3;
 
 /// Adjusts the project; `on_iteration` sees every iteration and stops the work by returning false.
 ///
@@ -103,6 +109,14 @@ pub fn adjust(
         adjustment.global_test = None;
     }
     adjustment.advice = questions::questions(document, session.network.bars.len(), &adjustment);
+    if solution.cofactors.is_some()
+        && options.statistics == StatisticsChoice::Full
+        && termination == Termination::Converged
+    {
+        adjustment.patterns = patterns::patterns(&mut session, options.residuals, solution.cost);
+        let named = named_pattern(&adjustment);
+        adjustment.advice.extend(named);
+    }
     adjustment.advice.extend(judgement(&adjustment, unmodelled::estimate(document, &adjustment)));
     adjustment.advice.extend(advice::advice(project, &session.network, &session.state, &adjustment));
     if !searching && matches!(termination, Termination::IterationLimit | Termination::Diverged) {
@@ -124,6 +138,15 @@ pub fn adjust(
     adjustment.gross_errors = record;
     adjustment.covariance = solution.covariance;
     tell_of_what_is_outside(document, &session, &left_out, &mut adjustment);
+    // Wrong coordinates, axes or units bend the photos' fit: they are the cause of what looks like a lens.
+    if adjustment.patterns.iter().any(|pattern| pattern.named) && adjustment.advice.iter().any(questions::bends) {
+        adjustment.advice.retain(|advice| !matches!(advice, Advice::ResidualPattern { .. }));
+        adjustment.patterns.iter_mut().for_each(|pattern| pattern.named = false);
+        // What the pattern had explained of the standard errors is open again.
+        let again = judgement(&adjustment, unmodelled::estimate(document, &adjustment));
+        let new: Vec<Advice> = again.into_iter().filter(|advice| !adjustment.advice.contains(advice)).collect();
+        adjustment.advice.extend(new);
+    }
     // Wrong axes or units make single points misfit: they are the cause.
     adjustment.advice.sort_by_key(|advice| !questions::is_cause(advice));
     if !document.features.is_empty() || !document.systems.is_empty() {
@@ -137,6 +160,14 @@ pub fn adjust(
         (adjustment.features, adjustment.systems) = (features, systems);
     }
     Ok(adjustment)
+}
+
+/// The advice about the pattern that is named.
+fn named_pattern(adjustment: &Adjustment) -> Option<Advice> {
+    let pattern = adjustment.patterns.iter().find(|pattern| pattern.named)?;
+    let adjusted = adjustment.cameras.iter().find(|adjusted| adjusted.camera.id == pattern.camera)?;
+    let estimated: Vec<Parameter> = adjusted.sigma.keys().copied().collect();
+    Some(patterns::advice(pattern, &adjusted.camera, &estimated))
 }
 
 /// Lists what took no part, with its size, and compares control with the photos where anything speaks against it.
@@ -330,6 +361,50 @@ pub(crate) fn predict_numbered(project: &Project, numbering: &Numbering) -> Resu
     adjustment.advice = advice::advice(project, &session.network, &session.state, &adjustment);
     adjustment.options = options;
     Ok(adjustment)
+}
+
+/// Covariance of a camera's estimated parameters, in the order of its correlations, and of the mean turn and shift of its photos: see
+/// `src/adjust/solve/session/calibration.rs`. The equations are those of the document at the adjustment's values, without the observations
+/// that took no part in it; they are scaled to its standard errors.
+///
+/// # Errors
+/// [`Error::Invalid`] where they do not give the adjustment's standard errors; as [`adjust`].
+pub(crate) fn calibration(
+    project: &Project,
+    adjustment: &Adjustment,
+    adjusted: &AdjustedCamera,
+) -> Result<DMatrix<f64>> {
+    let another = || Error::Invalid { reason: Reason::EquationsOfAnother, at: Place::camera(&adjusted.camera.id) };
+    let mut applied = apply(project, adjustment);
+    if applied.observations.len() != adjustment.observations.len() {
+        return Err(another());
+    }
+    for (observation, row) in applied.observations.iter_mut().zip(&adjustment.observations) {
+        observation.enabled = row.enabled;
+    }
+    applied.set_aside.clear();
+    let options = AdjustOptions { statistics: StatisticsChoice::Precision, ..adjustment.options.clone() };
+    inside::stepping::with_session(&applied, &options, |mut session| {
+        session.adopt(adjustment);
+        session.shift = eccentric::shifts(session.project, &session.network, &session.state);
+        let own = |(k, _): &(usize, &problem::network::InteriorBlock)| {
+            let block = &session.network.interiors[*k];
+            let photo = block.photo.map(|p| session.project.photos[session.network.photos[p].index].id.as_str());
+            session.project.cameras[block.camera].id == adjusted.camera.id && photo == adjusted.photo.as_deref()
+        };
+        let interior = session.network.interiors.iter().enumerate().find(own).map(|(k, _)| k).ok_or_else(another)?;
+        let estimated = &session.network.interiors[interior].estimated;
+        let sigmas: Option<Vec<f64>> = estimated.iter().map(|e| adjusted.sigma.get(&e.parameter).copied()).collect();
+        let names = estimated.iter().map(|e| e.parameter.name());
+        let sigmas = sigmas.filter(|_| names.eq(adjusted.correlation.names.iter().map(String::as_str)));
+        let sigmas = sigmas.filter(|sigmas| !sigmas.is_empty()).ok_or_else(another)?;
+        session.finish(&options, false)?;
+        let cofactors = session.calibration(interior)?;
+        let factors: Vec<f64> = sigmas.iter().enumerate().map(|(k, s)| s * s / cofactors[(k, k)]).collect();
+        let factor = factors[0];
+        let alike = |f: &f64| *f > 0.0 && (f / factor - 1.0).abs() < SAME_FACTOR;
+        if factors.iter().all(alike) { Ok(cofactors * factor) } else { Err(another()) }
+    })
 }
 
 /// The groups that [`Defect::NotTied`] of a prediction has by the names of their photos, by their places in the document.

@@ -8,11 +8,12 @@ pub(crate) mod criteria;
 mod features;
 mod given;
 mod left_out;
+mod patterns;
 mod questions;
 
 use serde::{Deserialize, Serialize};
 
-use crate::project::{Camera, Interior, Parameter};
+use crate::project::{Camera, Parameter};
 
 pub use camera::AdjustedCamera;
 pub use criteria::Criteria;
@@ -20,6 +21,7 @@ pub(crate) use criteria::is_distortion;
 pub use features::{FeatureResidual, Measured, MeasuredFeature, MeasuredSystem, Quantity, SystemPoint};
 pub use given::{Given, GivenObservation, GrossError, GrossErrorAction};
 pub use left_out::{LeftOutBy, LeftOutItem, LeftOutKind, LeftOutReason};
+pub use patterns::{PatternKind, Remedy, ResidualPattern};
 pub use questions::{
     CameraDoubt, Exchange, ImplausibleCamera, MirroredControl, OneStation, UndecidedAxes, UnitOf, UnitRatio,
 };
@@ -245,9 +247,9 @@ pub enum PhotoUnit {
 impl PhotoUnit {
     /// Unit of a camera's residuals, and width and height of a pixel in it.
     pub fn of(camera: &Camera) -> (Self, [f64; 2]) {
-        match (&camera.interior, camera.pixel_pitch) {
-            (Interior::Brown { .. }, Some(pitch)) => (Self::Millimetre, pitch),
-            _ => (Self::Pixel, [1.0; 2]),
+        match camera.pixel_pitch.filter(|_| camera.interior.model().in_photo_units) {
+            Some(pitch) => (Self::Millimetre, pitch),
+            None => (Self::Pixel, [1.0; 2]),
         }
     }
 }
@@ -449,6 +451,25 @@ pub enum Advice {
     GrossErrorsUnsettled,
     /// The estimation of variance components came to no end.
     VarianceComponentsUnsettled,
+    /// The residuals of a camera are systematic: they follow a pattern that a cause explains. Told before anything that takes them as noise.
+    ResidualPattern {
+        /// Camera identifier.
+        camera: String,
+        /// What they depend on.
+        pattern: PatternKind,
+        /// Photos that it is about; empty: all.
+        photos: Vec<String>,
+        /// Probability of such residuals without a cause.
+        p_value: f64,
+        /// Root mean square length of the pattern, pixels.
+        rms_px: f64,
+        /// Its largest length.
+        max_px: f64,
+        /// σ0 without the pattern.
+        sigma0: f64,
+        /// What to do.
+        remedy: Remedy,
+    },
     /// The residuals are larger than the standard errors of the image coordinates say: σ0 is beyond [`Criteria::sigma0`] and
     /// its test failed.
     SigmasTooSmall {
@@ -625,6 +646,10 @@ pub struct Adjustment {
     /// Variance components; empty unless asked for.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub variance_components: Vec<VarianceComponent>,
+    /// Tests of the image residuals for patterns, a row a camera and kind; empty without full statistics, and where the iteration did
+    /// not converge.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub patterns: Vec<ResidualPattern>,
     /// What the network is weak in.
     #[serde(default)]
     pub advice: Vec<Advice>,

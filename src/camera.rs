@@ -3,27 +3,40 @@
 //! | model | sense | residual = projection minus measurement |
 //! | --- | --- | --- |
 //! | [`Brown`] | a correction is added to the measured coordinates | at the corrected place or in the measurement, photo units |
-//! | [`Opencv`] | the ideal coordinates are distorted | in the measurement, pixels |
+//! | [`Opencv`], [`Rational`] | the ideal coordinates are distorted | in the measurement, pixels |
+//! | [`Fisheye`] | the angle off the axis is distorted | in the measurement, pixels |
 //!
 //! A camera-frame point has its z axis towards the viewer, so that points in front of the camera have negative z.
 
 mod brown;
 mod colours;
+mod fisheye;
 mod opencv;
+mod rational;
 mod units;
 
 use nalgebra::Vector3;
 
 pub use brown::Brown;
 pub use colours::colour_differences;
+pub use fisheye::Fisheye;
 pub use opencv::Opencv;
+pub use rational::Rational;
 pub use units::{parameter_unit, photo_unit};
 
 use crate::adjustment::ResidualPlace;
 use crate::project::{Camera, Interior};
 
-/// Number of parameters of either model, in the order of [`Interior::parameters`].
-pub const PARAMETERS: usize = 10;
+/// Largest number of parameters of a model, in the order of [`Interior::parameters`].
+pub const PARAMETERS: usize = 13;
+
+/// Derivatives by the parameters of a model that has fewer of them: the rest is zero.
+#[inline(always)]
+fn padded<const N: usize>(row: [f64; N]) -> [f64; PARAMETERS] {
+    let mut all = [0.0; PARAMETERS];
+    all[..N].copy_from_slice(&row);
+    all
+}
 
 /// A residual with its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,7 +45,7 @@ pub struct Linearised {
     pub residual: [f64; 2],
     /// Derivatives by the camera-frame point, one row a coordinate.
     pub by_point: [[f64; 3]; 2],
-    /// Derivatives by the parameters of the model, one row a coordinate.
+    /// Derivatives by the parameters of the model, one row a coordinate; zero beyond its last.
     pub by_parameter: [[f64; PARAMETERS]; 2],
 }
 
@@ -43,6 +56,10 @@ pub enum Model {
     Brown(Brown),
     /// Distortion of the ideal image.
     Opencv(Opencv),
+    /// The same with a rational radial distortion.
+    Rational(Rational),
+    /// Distortion of the angle off the axis.
+    Fisheye(Fisheye),
 }
 
 impl Model {
@@ -51,48 +68,83 @@ impl Model {
         match interior {
             Interior::Brown { .. } => Brown::new(interior).map(Self::Brown),
             Interior::Opencv { .. } => Opencv::new(interior).map(Self::Opencv),
+            Interior::OpencvRational { .. } => Rational::new(interior).map(Self::Rational),
+            Interior::OpencvFisheye { .. } => Fisheye::new(interior).map(Self::Fisheye),
         }
     }
 
-    /// Residual of a measurement (photo units for brown, pixels for opencv) of the camera-frame point `p`, and its
-    /// derivatives; none where the point lies in the plane of the projection centre or where the distortion cannot be
-    /// inverted. Points behind the camera follow the same equations: whether that is allowed is for the caller to say.
+    /// Residual of a measurement (photo units for brown, pixels for the others) of the camera-frame point `p`, and its
+    /// derivatives; none where the point has no direction that the equations hold for, or where the distortion cannot be
+    /// inverted. Points behind a camera that is not [wide](Self::is_wide) follow the same equations: whether that is allowed is
+    /// for the caller to say.
     #[inline]
     pub fn linearise(&self, measured: [f64; 2], p: [f64; 3], place: ResidualPlace) -> Option<Linearised> {
         match (self, place) {
             (Self::Brown(brown), ResidualPlace::Corrected) => brown.linearise(measured, p),
             (Self::Brown(brown), ResidualPlace::Measured) => brown.linearise_measured(measured, p),
             (Self::Opencv(opencv), _) => opencv.linearise(measured, p),
+            (Self::Rational(rational), _) => rational.linearise(measured, p),
+            (Self::Fisheye(fisheye), _) => fisheye.linearise(measured, p),
         }
+    }
+
+    /// Whether points beside and behind the camera can have an image.
+    pub fn is_wide(&self) -> bool {
+        matches!(self, Self::Fisheye(_))
+    }
+
+    /// Pixel of a camera-frame point of this camera, whose model it is. None where it has no image.
+    pub fn pixel(&self, camera: &Camera, p: [f64; 3]) -> Option<[f64; 2]> {
+        let pixel = match self {
+            Self::Brown(brown) => camera.pixel_from_photo(brown.project(p)?),
+            Self::Opencv(opencv) => opencv.project(p)?,
+            Self::Rational(rational) => rational.project(p)?,
+            Self::Fisheye(fisheye) => fisheye.project(p)?,
+        };
+        pixel.iter().all(|d| d.is_finite()).then_some(pixel)
+    }
+
+    /// Ray of a pixel in the camera frame: (x, y, -1), or for a wide camera of unit length. None where the distortion has no
+    /// inverse.
+    pub fn ray(&self, camera: &Camera, pixel: [f64; 2]) -> Option<[f64; 3]> {
+        let forwards = |[x, y]: [f64; 2]| [x, y, -1.0];
+        let ray = match self {
+            Self::Brown(brown) => forwards(brown.ideal(camera.photo_from_pixel(pixel))),
+            Self::Opencv(opencv) => forwards(opencv.ideal(pixel)?),
+            Self::Rational(rational) => forwards(rational.ideal(pixel)?),
+            Self::Fisheye(fisheye) => fisheye.ray(pixel)?,
+        };
+        ray.iter().all(|d| d.is_finite()).then_some(ray)
     }
 }
 
-/// Measurement in the units of the camera's residuals: photo coordinates (brown) or pixels (opencv).
+/// Measurement in the units of the camera's residuals: photo coordinates (brown) or pixels (the others).
 pub fn measurement_from_pixel(camera: &Camera, pixel: [f64; 2]) -> [f64; 2] {
-    match camera.interior {
-        Interior::Brown { .. } => camera.photo_from_pixel(pixel),
-        Interior::Opencv { .. } => pixel,
-    }
+    if camera.interior.model().in_photo_units { camera.photo_from_pixel(pixel) } else { pixel }
+}
+
+/// Ray of a pixel in the camera frame, as [`Model::ray`]. None while the principal distance is unknown or where the distortion
+/// has no inverse.
+pub fn ray_from_pixel(camera: &Camera, pixel: [f64; 2]) -> Option<[f64; 3]> {
+    Model::new(&camera.interior)?.ray(camera, pixel)
 }
 
 /// Direction of a pixel: distortion-free image coordinates divided by the principal distance, so that the ray in the
-/// camera frame is (x, y, -1). None while the principal distance is unknown or where the distortion has no inverse.
+/// camera frame is (x, y, -1). None while the principal distance is unknown, where the distortion has no inverse, and for
+/// rays of 90 degrees or more off the axis, which have no such coordinates.
 pub fn ideal_from_pixel(camera: &Camera, pixel: [f64; 2]) -> Option<[f64; 2]> {
-    let direction = match Model::new(&camera.interior)? {
-        Model::Brown(brown) => brown.ideal(camera.photo_from_pixel(pixel)),
-        Model::Opencv(opencv) => opencv.ideal(pixel)?,
-    };
-    direction.iter().all(|d| d.is_finite()).then_some(direction)
+    let [x, y, z] = ray_from_pixel(camera, pixel)?;
+    if z == -1.0 {
+        return Some([x, y]);
+    }
+    // a ray of 90 degrees comes out of its sine and cosine with a z of about 1e-16 of either sign
+    (z < -1e-12).then(|| [-x / z, -y / z])
 }
 
-/// Pixel of a camera-frame point, distortion included. None behind the camera, while the principal distance is
-/// unknown, or where the brown correction has no inverse.
+/// Pixel of a camera-frame point, distortion included. None behind the camera (unless it images what is there), while the
+/// principal distance is unknown, or where the distortion has no image of it.
 pub fn pixel_from_camera_point(camera: &Camera, p: Vector3<f64>) -> Option<[f64; 2]> {
-    let pixel = match Model::new(&camera.interior)? {
-        Model::Brown(brown) => camera.pixel_from_photo(brown.project(p.into())?),
-        Model::Opencv(opencv) => opencv.project(p.into())?,
-    };
-    pixel.iter().all(|d| d.is_finite()).then_some(pixel)
+    Model::new(&camera.interior)?.pixel(camera, p.into())
 }
 
 /// Newton's iteration for `f(x) = target` in two dimensions with step halving, from `start`; `f` gives value and
@@ -141,6 +193,9 @@ fn invert(
     }
     (length <= 1e-12 * (scale + target[0].abs() + target[1].abs())).then_some((x, derivative))
 }
+
+#[cfg(test)]
+mod battery;
 
 #[cfg(test)]
 mod tests {

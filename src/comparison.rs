@@ -6,9 +6,17 @@
 //! d = x₂ - x₁        ratio = max over the axes of |d| / max(σ₁, σ₂)
 //! ```
 //!
-//! How the two results are correlated is not known. Where one was found from part of the other's observations, the variance of
-//! d is the difference of the two variances and never more than the larger one (J. A. Hausman 1978), so that a ratio tells rather too
-//! little than too much; where they share nothing it is the sum, and a ratio is too large by at most √2.
+//! How the two results are correlated is not known where they share observations. Where one was found from part of the other's, the
+//! variance of d is the difference of the two variances and never more than the larger one (J. A. Hausman 1978), so that a ratio tells
+//! rather too little than too much. Where both have observations and share none ([`Comparison::independent`]) the variances add up,
+//! and a point with its covariance in both is tested as a vector:
+//!
+//! ```text
+//! C = s²·R·C₁·Rᵀ + C₂        T = dᵀ·C⁻¹·d        ratio = √T · w / √χ²₃(α)
+//! ```
+//!
+//! with the limit w of a single test at its level α, so that a ratio is beyond w exactly where T is beyond the limit of χ² with three
+//! degrees of freedom at that level.
 //!
 //! Coordinates of two networks can be set beside each other only in one system. Under control that is the system of the control
 //! points, as long as three of them kept their coordinates. Otherwise it hangs on the initial values and on which points take part:
@@ -21,13 +29,14 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::adjustment::{AdjustedCamera, Adjustment, PhotoUnit};
+use crate::adjustment::{AdjustedCamera, AdjustedPoint, Adjustment, PhotoUnit};
 use crate::initial::Spread;
 use crate::initial::similarity::{self, Similarity};
-use crate::project::{DatumKind, Parameter, Project, Role};
+use crate::project::{DatumKind, Parameter, Point, Project, Role};
+use crate::statistics::fisher::Fisher;
 
 /// A point agrees with its earlier self where its ratio is below so many times the limit of a single test. Standard errors of two
 /// sittings are too small by two or three where both leave the same out; a majority beyond that has no part that stayed, and what a
@@ -88,10 +97,14 @@ pub struct Moved {
     pub id: String,
     /// Later minus earlier, in the later system and in the project's unit.
     pub difference: [f64; 3],
-    /// The larger standard error per axis; none where neither has one.
+    /// Standard error per axis. Independent results: square root of the sum of the variances; otherwise the larger of the two. `None` if neither is known.
     pub sigma: Option<[f64; 3]>,
-    /// Largest |difference| over its standard error; none without, or where every standard error is 0.
+    /// Largest |difference| over its standard error; of independent results with covariances that of the vector test, on the same limit.
+    /// None without standard errors, or where every one is 0.
     pub ratio: Option<f64>,
+    /// dᵀC⁻¹d of independent results, χ² with three degrees of freedom where the point has not moved; none otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub statistic: Option<f64>,
 }
 
 impl Moved {
@@ -114,7 +127,7 @@ pub struct ParameterChange {
     pub before: f64,
     /// The later value.
     pub after: f64,
-    /// The larger standard error; none where it was held both times.
+    /// Standard error. Independent results: square root of the sum of the variances; otherwise the larger of the two. `None` if held in both.
     pub sigma: Option<f64>,
     /// |after - before| over its standard error.
     pub ratio: Option<f64>,
@@ -147,6 +160,9 @@ pub struct Comparison {
     pub sigma0: [Option<f64>; 2],
     /// Redundancies, earlier and later.
     pub redundancy: [usize; 2],
+    /// Whether both have observations and share none: no photo, weighted control coordinate or distance.
+    #[serde(default)]
+    pub independent: bool,
 }
 
 /// Compares two adjustments, each with the project it was made from.
@@ -157,21 +173,24 @@ pub fn compare(before: (&Project, &Adjustment), after: (&Project, &Adjustment)) 
     let places: HashMap<&str, usize> = earlier.points.iter().enumerate().map(|(k, p)| (p.id.as_str(), k)).collect();
     let pairs: Vec<(usize, usize)> =
         later.points.iter().enumerate().filter_map(|(k, p)| Some((*places.get(p.id.as_str())?, k))).collect();
-    let (alignment, transform) = aligned(before, after, &pairs);
+    let independent = independent(before.0, after.0);
+    let joined = Joined { independent, limit: later.criteria.w };
+    let (alignment, transform) = aligned(before, after, &pairs, joined);
     let mut points = Vec::new();
     let mut photos = Vec::new();
     if let Some(transform) = &transform {
         points.extend(pairs.iter().map(|&(i, k)| {
             let (p, q) = (&earlier.points[i], &later.points[k]);
-            moved(&q.id, (p.xyz, p.sigma), (q.xyz, q.sigma), transform)
+            moved(&q.id, Placed::of(p), Placed::of(q), transform, joined)
         }));
         let centres: HashMap<&str, _> =
-            earlier.photos.iter().map(|p| (p.id.as_str(), (p.position, p.sigma_position))).collect();
+            earlier.photos.iter().map(|p| (p.id.as_str(), Placed::bare(p.position, p.sigma_position))).collect();
         photos.extend(later.photos.iter().filter_map(|q| {
-            Some(moved(&q.id, *centres.get(q.id.as_str())?, (q.position, q.sigma_position), transform))
+            let now = Placed::bare(q.position, q.sigma_position);
+            Some(moved(&q.id, *centres.get(q.id.as_str())?, now, transform, joined))
         }));
     }
-    let (parameters, unlike_cameras) = parameters(&earlier.cameras, &later.cameras);
+    let (parameters, unlike_cameras) = parameters(&earlier.cameras, &later.cameras, independent);
     let ids = |a: &Adjustment| a.points.iter().map(|p| p.id.clone()).collect::<BTreeSet<_>>();
     let (old, present) = (ids(earlier), ids(later));
     let limit = later.criteria.w;
@@ -189,6 +208,7 @@ pub fn compare(before: (&Project, &Adjustment), after: (&Project, &Adjustment)) 
         limit,
         sigma0: [earlier.sigma0, later.sigma0],
         redundancy: [earlier.redundancy, later.redundancy],
+        independent,
     }
 }
 
@@ -197,6 +217,7 @@ fn aligned(
     (old, earlier): (&Project, &Adjustment),
     (new, later): (&Project, &Adjustment),
     pairs: &[(usize, usize)],
+    joined: Joined,
 ) -> (Alignment, Option<Similarity>) {
     if old.unit != new.unit {
         return (Alignment::Units { before: old.unit.clone(), after: new.unit.clone() }, None);
@@ -216,8 +237,8 @@ fn aligned(
     let agreement = |transform: &Similarity, mirrored: bool| {
         let moved = pairs.iter().map(|&(i, k)| {
             let (p, q) = (&earlier.points[i], &later.points[k]);
-            let [x, y, z] = p.xyz;
-            moved(&q.id, ([if mirrored { -x } else { x }, y, z], p.sigma), (q.xyz, q.sigma), transform)
+            let before = if mirrored { Placed::of(p).mirrored() } else { Placed::of(p) };
+            moved(&q.id, before, Placed::of(q), transform, joined)
         });
         Agreement::of(moved, AGREEING * later.criteria.w, AGREEING_SHARE * extent)
     };
@@ -283,32 +304,115 @@ fn has_scale(project: &Project, adjustment: &Adjustment) -> bool {
         || project.distances.iter().any(|d| !d.check && used(d.from.as_str(), d.to.as_str()))
 }
 
-type Placed = ([f64; 3], Option<[f64; 3]>);
+/// Whether both have observations and share none. A photo is the same by the digest of its file, without one by identifier and name.
+fn independent(old: &Project, new: &Project) -> bool {
+    let photos = |p: &Project| -> Vec<(String, String, String)> {
+        let measured: BTreeSet<&str> = p.observations.iter().filter(|o| o.enabled).map(|o| o.photo.as_str()).collect();
+        let used = p.photos.iter().filter(|photo| photo.enabled && measured.contains(photo.id.as_str()));
+        used.map(|photo| (photo.sha256.clone(), photo.id.clone(), photo.file.clone())).collect()
+    };
+    let (before, after) = (photos(old), photos(new));
+    let same = |a: &(String, String, String), b: &(String, String, String)| match (a.0.is_empty(), b.0.is_empty()) {
+        (false, false) => a.0 == b.0,
+        _ => a.1 == b.1 && a.2 == b.2,
+    };
+    let shared = before.iter().any(|a| after.iter().any(|b| same(a, b)));
+    let weighted = |p: &Point| p.sigma.iter().flatten().flatten().any(|s| *s > 0.0);
+    let control = |p: &Project| -> Vec<(String, Option<[f64; 3]>)> {
+        let by_control = p.datum.kind == DatumKind::Control;
+        let given = p.points.iter().filter(|point| by_control && point.role == Role::Control && weighted(point));
+        given.map(|point| (point.id.clone(), point.xyz)).collect()
+    };
+    let (given, again) = (control(old), control(new));
+    let distances = |p: &Project| -> Vec<(String, String, f64)> {
+        p.distances.iter().filter(|d| !d.check).map(|d| (d.from.clone(), d.to.clone(), d.length)).collect()
+    };
+    let (bars, bars_again) = (distances(old), distances(new));
+    let other = given.iter().any(|g| again.contains(g)) || bars.iter().any(|bar| bars_again.contains(bar));
+    !before.is_empty() && !after.is_empty() && !shared && !other
+}
 
-/// A point's movement, its earlier place and standard errors brought into the later system.
-fn moved(id: &str, (before, sigma_before): Placed, (after, sigma_after): Placed, transform: &Similarity) -> Moved {
-    let place = transform.point(&Vector3::from(before));
-    let difference: [f64; 3] = std::array::from_fn(|axis| after[axis] - place[axis]);
-    // Turned without what the axes have in common, which a result holds for few points only: Σ R²σ².
-    let turned = sigma_before.map(|sigma| -> [f64; 3] {
+/// How two results are joined: whether they share nothing, and the limit of a single test.
+#[derive(Clone, Copy)]
+struct Joined {
+    independent: bool,
+    limit: f64,
+}
+
+/// A place with what is known of its errors.
+#[derive(Clone, Copy)]
+struct Placed {
+    xyz: [f64; 3],
+    sigma: Option<[f64; 3]>,
+    covariance: Option<Matrix3<f64>>,
+}
+
+impl Placed {
+    fn of(point: &AdjustedPoint) -> Self {
+        let matrix = |[xx, xy, xz, yy, yz, zz]: [f64; 6]| Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        Self { xyz: point.xyz, sigma: point.sigma, covariance: point.covariance.map(matrix) }
+    }
+
+    fn bare(xyz: [f64; 3], sigma: Option<[f64; 3]>) -> Self {
+        Self { xyz, sigma, covariance: None }
+    }
+
+    /// Its mirror image in the plane of Y and Z.
+    fn mirrored(mut self) -> Self {
+        self.xyz[0] = -self.xyz[0];
+        if let Some(c) = &mut self.covariance {
+            for (i, j) in [(0, 1), (1, 0), (0, 2), (2, 0)] {
+                c[(i, j)] = -c[(i, j)];
+            }
+        }
+        self
+    }
+}
+
+/// A point's movement, its earlier place and errors brought into the later system.
+fn moved(id: &str, before: Placed, after: Placed, transform: &Similarity, joined: Joined) -> Moved {
+    let place = transform.point(&Vector3::from(before.xyz));
+    let difference: [f64; 3] = std::array::from_fn(|axis| after.xyz[axis] - place[axis]);
+    // Turned without what the axes have in common, where only standard errors are known: Σ R²σ².
+    let turned = before.sigma.map(|sigma| -> [f64; 3] {
         std::array::from_fn(|axis| {
             let squares = (0..3).map(|k| (transform.rotation[(axis, k)] * sigma[k]).powi(2));
             transform.scale * squares.sum::<f64>().sqrt()
         })
     });
-    let sigma = match (turned, sigma_after) {
-        (Some(a), Some(b)) => Some(std::array::from_fn(|axis| a[axis].max(b[axis]))),
-        (one, other) => one.or(other),
+    let both = before.covariance.zip(after.covariance).filter(|_| joined.independent);
+    let sum = both.map(|(a, b)| transform.rotation * a * transform.rotation.transpose() * transform.scale.powi(2) + b);
+    let sigma = match (sum, turned, after.sigma) {
+        (Some(sum), ..) => Some(std::array::from_fn(|axis| sum[(axis, axis)].max(0.0).sqrt())),
+        (None, Some(a), Some(b)) if joined.independent => Some(std::array::from_fn(|axis| a[axis].hypot(b[axis]))),
+        (None, Some(a), Some(b)) => Some(std::array::from_fn(|axis| a[axis].max(b[axis]))),
+        (None, one, other) => one.or(other),
     };
-    let ratio = sigma.and_then(|sigma| {
-        let ratios = (0..3).filter(|&axis| sigma[axis] > 0.0).map(|axis| difference[axis].abs() / sigma[axis]);
-        ratios.reduce(f64::max)
+    let statistic = sum.and_then(Matrix3::try_inverse).map(|inverse| {
+        let d = Vector3::from(difference);
+        d.dot(&(inverse * d))
     });
-    Moved { id: id.to_owned(), difference, sigma, ratio }
+    let statistic = statistic.filter(|t| t.is_finite() && *t >= 0.0);
+    let ratio = match statistic {
+        Some(statistic) => {
+            let alpha = Fisher::new(1, None).tails(joined.limit * joined.limit)[1];
+            let limit = (3.0 * Fisher::new(3, None).limit(alpha)).sqrt();
+            Some(statistic.sqrt() * joined.limit / limit)
+        }
+        None => sigma.and_then(|sigma: [f64; 3]| {
+            let ratios = (0..3).filter(|&axis| sigma[axis] > 0.0).map(|axis| difference[axis].abs() / sigma[axis]);
+            ratios.reduce(f64::max)
+        }),
+    };
+    Moved { id: id.to_owned(), difference, sigma, ratio: ratio.filter(|ratio| ratio.is_finite()), statistic }
 }
 
 /// Parameters that both adjustments have, and the cameras that cannot be compared.
-fn parameters(earlier: &[AdjustedCamera], later: &[AdjustedCamera]) -> (Vec<ParameterChange>, Vec<String>) {
+fn parameters(
+    earlier: &[AdjustedCamera],
+    later: &[AdjustedCamera],
+    independent: bool,
+) -> (Vec<ParameterChange>, Vec<String>) {
     let key = |c: &AdjustedCamera| (c.camera.id.clone(), c.photo.clone());
     let before: BTreeMap<_, _> = earlier.iter().map(|c| (key(c), c)).collect();
     let mut changes = Vec::new();
@@ -327,7 +431,7 @@ fn parameters(earlier: &[AdjustedCamera], later: &[AdjustedCamera]) -> (Vec<Para
             if before == after && !estimated {
                 continue;
             }
-            let sigma = sigmas.into_iter().flatten().reduce(f64::max);
+            let sigma = sigmas.into_iter().flatten().reduce(if independent { f64::hypot } else { f64::max });
             let ratio = sigma.filter(|sigma| *sigma > 0.0).map(|sigma| (after - before).abs() / sigma);
             let (camera, photo) = key(now);
             changes.push(ParameterChange { camera, photo, parameter, before, after, sigma, ratio });

@@ -148,7 +148,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let character = Character::of(&plane, &levels);
     let mut processed = character.is_processed(&levels);
     levels.developed = processed && !character.is_clipped();
-    let mut picture = report(&levels, &character);
+    let mut picture = report(&levels, &character, options.method);
     let mut passed = pass::pass(plane, levels, options, processed && character.is_compressed(), None, &[]);
     if !processed && !levels.stairs {
         // Dots too small for flat sides of a row's steps show in their own rims what was done to the picture.
@@ -223,7 +223,7 @@ fn is_same(one: &Target, other: &Target) -> bool {
     apart < near * one.minor.min(other.minor) && one.major < ratio * other.major && other.major < ratio * one.major
 }
 
-fn report(levels: &Levels, character: &Character) -> PictureReport {
+fn report(levels: &Levels, character: &Character, method: Method) -> PictureReport {
     let [clipped_dark, clipped_bright] = character.clipped;
     PictureReport {
         clipped_dark,
@@ -231,6 +231,7 @@ fn report(levels: &Levels, character: &Character) -> PictureReport {
         compression: character.blocks,
         noise: levels.noise,
         noise_correlation: 1.0,
+        white_noise_assumed: method != Method::LeastSquares,
         ..PictureReport::default()
     }
 }

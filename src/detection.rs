@@ -202,7 +202,8 @@ pub enum CodeNote {
     Disturbed,
     /// A sector lies between light and dark.
     BetweenLevels,
-    /// The sectors may be those of another family, or dots that stand around the target.
+    /// The sectors may be those of another family, or dots that stand around the target: so of every ring whose arcs all end on a coarser grid,
+    /// as those of a code of 8 sectors do on one of 16, unless a photo has mostly codes of the finer one.
     OtherFamily,
     /// Nothing speaks against it alone, but much is near its limit, or it is small, blurred or a single arc: it may be one by chance.
     Uncertain,
@@ -378,6 +379,9 @@ pub struct PictureReport {
     pub noise: f64,
     /// Standard error of centres relative to what white noise of the same size would do: sqrt of the mean factor of their variances.
     pub noise_correlation: f64,
+    /// Whether the standard errors take the noise of neighbouring samples as independent, as those of all methods but least squares do:
+    /// of a compressed picture they are too small (by 1.5 to 9 times in `tests/engine/detect/light.rs`).
+    pub white_noise_assumed: bool,
     /// Whether the picture was searched and measured softened as well, for what it would have hidden otherwise.
     pub softened: bool,
 }

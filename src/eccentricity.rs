@@ -40,10 +40,35 @@ pub fn ideal(circle: &Circle) -> Option<[f64; 2]> {
 
 /// The same in pixels (u right, v down), with the camera's distortion: subtract it from a measured ellipse centre.
 pub fn pixels(camera: &Camera, circle: &Circle) -> Option<[f64; 2]> {
+    if camera.interior.model().is_wide {
+        return of_rim(camera, circle);
+    }
     let centre = image_centre(circle)?;
     let [u, v] = pixel_from_camera_point(camera, Vector3::new(centre[0], centre[1], -1.0))?;
     let [u0, v0] = pixel_from_camera_point(camera, circle.centre)?;
     Some([u - u0, v - v0])
+}
+
+/// The same from the ellipse through the image of the rim: a wide camera has no image plane that all rays meet.
+fn of_rim(camera: &Camera, circle: &Circle) -> Option<[f64; 2]> {
+    let n = circle.normal.try_normalize(0.0)?;
+    let [u0, v0] = pixel_from_camera_point(camera, circle.centre)?;
+    // Seen edge-on there is no ellipse.
+    if !(n.dot(&circle.centre).abs() > 1e-3 * circle.centre.norm() && circle.diameter >= 0.0) {
+        return None;
+    }
+    let across = if n.x.abs() < 0.8 { Vector3::x() } else { Vector3::y() };
+    let e1 = n.cross(&across).normalize();
+    let e2 = n.cross(&e1);
+    let mut rim = Vec::with_capacity(24);
+    for k in 0..24 {
+        let (s, c) = (f64::from(k) * std::f64::consts::TAU / 24.0).sin_cos();
+        let [u, v] = pixel_from_camera_point(camera, circle.centre + (e1 * c + e2 * s) * (circle.diameter / 2.0))?;
+        rim.push([u - u0, v - v0, 1.0]);
+    }
+    let ellipse = conic::fit(&rim)?;
+    let eccentricity = [ellipse.u, ellipse.v];
+    eccentricity.iter().all(|e| e.is_finite()).then_some(eccentricity)
 }
 
 /// Centre of the image ellipse as the ray (x, y, -1).

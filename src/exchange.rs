@@ -4,7 +4,7 @@
 //! | --- | --- | --- |
 //! | `sightline` | the document as JSON | `project.json` |
 //! | `package` | a project file (zip) with document, targets, photos | the same, without photos |
-//! | `control-csv` | control points: id, X, Y, Z and sigmas | `control.csv` |
+//! | `control-csv` | lists of points: tables (id, X, Y, Z, sigmas), Leica GSI, Sokkia SDR, JobXML, LandXML, ODM ([`lists`]) | `control.csv` |
 //! | `mark-points` | image measurements: photo, point, u, v, sigma | `marks.txt` |
 //! | `photomodeler` | a text export of PhotoModeler | |
 //! | `aicon` | a list of target coordinates of AICON | |
@@ -14,6 +14,9 @@
 //! | `plots` | | every plot as SVG |
 //! | `dxf`, `ply`, `gltf` | | `drawing.dxf` for CAD; `points.ply`, `ellipsoids.ply`, `cameras.ply`; `scene.glb` |
 //! | `csv`, `tsv` | | points, cameras, photos, observations with their statistics |
+//! | `spreadsheet`, `spreadsheet-cp949` | | the same to the digits of their standard errors, in UTF-8 with a mark or in CP949 |
+//! | `dxf-2010`, `landxml` | | `drawing.dxf` in UTF-8 with its unit; `points.xml` |
+//! | `calibration` | | parameters of cameras, standard errors, correlations: `calibration.json`, `calibration.csv` |
 //! | `colmap`, `colmap-binary` | cameras, images, points of COLMAP, text or binary | the same |
 //! | `metashape` | cameras and markers of Agisoft Metashape, XML | `cameras.xml`, `markers.xml` |
 //! | `bal`, `bundler` | problems of "Bundle Adjustment in the Large", results of Bundler | `problem.txt`; `bundle.out`, `list.txt` |
@@ -33,19 +36,23 @@ mod agisoft_lens;
 pub mod aicon;
 mod bal;
 mod bundler;
+mod calibration;
 pub mod cameras;
 mod colmap;
 pub mod comparator;
 pub mod control_csv;
 pub mod conversion;
 pub mod dbat;
+pub mod displacements;
 mod dxf;
+mod dxf2010;
 pub mod encoding;
 pub mod epochs;
 pub mod foreign;
 mod gltf;
 mod kalibr;
 mod lens;
+pub mod lists;
 pub mod mark_points;
 mod meshroom;
 mod metashape;
@@ -58,11 +65,13 @@ pub mod photomodeler;
 mod ply;
 pub mod results;
 mod ros;
+pub mod sorting;
 mod spatial;
 mod text;
 mod tree;
 mod vstars;
 
+pub use network::stated;
 pub(crate) use text::disarmed;
 pub use text::{Row, pasted, quoted, rows};
 
@@ -73,7 +82,7 @@ use serde::{Deserialize, Serialize};
 use crate::adjustment::Adjustment;
 use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
 use crate::limits;
-use crate::project::{DatumKind, Photo, Point, Project};
+use crate::project::{DatumKind, Origin, Photo, Point, Project};
 
 /// Files by name.
 pub type Files = BTreeMap<String, Vec<u8>>;
@@ -90,7 +99,7 @@ pub struct Format {
 }
 
 /// The formats.
-pub const FORMATS: [Format; 23] = [
+pub const FORMATS: [Format; 28] = [
     Format { name: "sightline", import: true, export: true },
     Format { name: "package", import: true, export: true },
     Format { name: "control-csv", import: true, export: true },
@@ -102,10 +111,15 @@ pub const FORMATS: [Format; 23] = [
     Format { name: "report", import: false, export: true },
     Format { name: "plots", import: false, export: true },
     Format { name: "dxf", import: false, export: true },
+    Format { name: "dxf-2010", import: false, export: true },
+    Format { name: "landxml", import: false, export: true },
     Format { name: "ply", import: false, export: true },
     Format { name: "gltf", import: false, export: true },
     Format { name: "csv", import: false, export: true },
     Format { name: "tsv", import: false, export: true },
+    Format { name: "spreadsheet", import: false, export: true },
+    Format { name: "spreadsheet-cp949", import: false, export: true },
+    Format { name: "calibration", import: false, export: true },
     Format { name: "colmap", import: true, export: true },
     Format { name: "colmap-binary", import: false, export: true },
     Format { name: "metashape", import: true, export: true },
@@ -126,7 +140,7 @@ pub struct FileAssumptions {
 }
 
 /// Choices for what files leave open.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Choices {
     /// Of tables of control points.
@@ -154,6 +168,20 @@ pub struct Imported {
     /// What was assumed, and what of the files is not kept.
     #[serde(flatten)]
     pub notes: foreign::Notes,
+}
+
+impl Imported {
+    /// With the record in the project of where it comes from.
+    fn with_origin(mut self, files: &Files) -> Self {
+        self.project.origin = Some(Box::new(Origin {
+            format: self.recognised.unwrap_or_default().to_owned(),
+            files: files.keys().cloned().collect(),
+            assumed: self.notes.assumed.clone(),
+            ignored: self.notes.ignored.clone(),
+            conversions: self.conversions.clone(),
+        }));
+        self
+    }
 }
 
 /// Reads a project, or the part of one that the format holds.
@@ -197,7 +225,7 @@ pub fn import_files(format: &str, files: &Files, choices: &Choices) -> Result<Im
         _ => error,
     };
     let network = match format {
-        "control-csv" => return control_tables(files, choices.tables),
+        "control-csv" => return control_tables(files, &choices.tables),
         "vstars" => {
             let mut notes = foreign::Notes::default();
             let (name, bytes) = only(files)?;
@@ -205,7 +233,8 @@ pub fn import_files(format: &str, files: &Files, choices: &Choices) -> Result<Im
             let project = control_project(points.map_err(|error| error.in_file(name))?);
             project.validate().map_err(|error| error.in_file(name))?;
             notes.assume(foreign::Assumed::UnitUnknown);
-            return Ok(Imported { project, notes, recognised: Some(format), ..Imported::default() });
+            let imported = Imported { project, notes, recognised: Some(format), ..Imported::default() };
+            return Ok(imported.with_origin(files));
         }
         "colmap" => colmap::read(files),
         "metashape" => metashape::read(files),
@@ -217,7 +246,8 @@ pub fn import_files(format: &str, files: &Files, choices: &Choices) -> Result<Im
         }),
         other => return whole(other, files).map(|project| Imported { project, ..Imported::default() }),
     };
-    network.and_then(|network| network.into_imported(format, choices.convert)).map_err(in_only)
+    let imported = network.and_then(|network| network.into_imported(format, choices.convert)).map_err(in_only)?;
+    Ok(imported.with_origin(files))
 }
 
 /// Recognises the format of files by their content; `None` for tables and unknown formats.
@@ -262,12 +292,11 @@ pub fn recognised(files: &Files) -> Option<&'static str> {
 }
 
 /// Points of control tables, in the unit of the first one that names its unit.
-fn control_tables(files: &Files, choices: control_csv::Choices) -> Result<Imported> {
+fn control_tables(files: &Files, choices: &control_csv::Choices) -> Result<Imported> {
     let mut assumptions = Vec::new();
     let mut tables = Vec::new();
     for (name, bytes) in files {
-        let text = encoding::text(bytes).map_err(|error| error.in_file(name))?;
-        let table = control_csv::parse_with(&text, choices);
+        let (_, table) = lists::table(bytes, choices).map_err(|error| error.in_file(name))?;
         assumptions.push(FileAssumptions { file: name.clone(), assumptions: table.assumptions.clone() });
         let unit = table.unit;
         tables.push((
@@ -366,10 +395,15 @@ pub fn export_with(format: &str, project: &Project, adjustment: Option<&Adjustme
             Ok(plots.into_iter().map(|plot| (format!("{}.svg", plot.name), plot.file().into_bytes())).collect())
         }
         "dxf" => Ok(one("drawing.dxf", dxf::write(project, adjustment).into_bytes())),
+        "dxf-2010" => Ok(one("drawing.dxf", dxf2010::write(project, adjustment).into_bytes())),
+        "landxml" => Ok(one("points.xml", lists::landxml(project, adjustment)?.into_bytes())),
         "ply" => Ok(ply::write(project, adjustment)),
         "gltf" => Ok(one("scene.glb", gltf::write(project, adjustment))),
         "csv" => results::write(project, adjustment, results::Separator::Comma),
         "tsv" => results::write(project, adjustment, results::Separator::Tab),
+        "spreadsheet" => results::spreadsheet(project, adjustment, encoding::Encoding::Utf8),
+        "spreadsheet-cp949" => results::spreadsheet(project, adjustment, encoding::Encoding::Cp949),
+        "calibration" => calibration::write(project, adjustment),
         "colmap" => colmap::write(&network(colmap::WRITES)?, false),
         "colmap-binary" => colmap::write(&network(colmap::WRITES)?, true),
         "metashape" => metashape::write(&network::adjusted(project, adjustment), &network(metashape::WRITES)?),

@@ -54,6 +54,7 @@
 
 pub mod adjust;
 pub mod adjustment;
+pub mod calibration;
 pub mod camera;
 pub mod comparison;
 pub mod decode;
@@ -88,6 +89,7 @@ pub mod scene;
 pub mod sensor;
 pub mod sheets;
 pub mod statistics;
+pub mod teaching;
 pub mod tiles;
 pub mod units;
 

@@ -34,6 +34,7 @@ mod system;
 
 use std::collections::{BTreeSet, HashMap};
 
+pub use date::days;
 pub use request::{
     ControlUse, Correction, DatumChoice, Epoch, Group, GroupModel, Limits, ListedCovariance, ListedPoint, Method,
     Options, Thresholds, VarianceChoice,
@@ -74,8 +75,31 @@ fn state_of(length: f64, limits: &Limits) -> State {
 /// mirrored or unlike the first; fewer than four common reference points, or all on a line; options out of range. [`Error::Unknown`] for
 /// named points that no epoch has, [`Error::Duplicate`] for names that occur twice.
 pub fn compare_epochs(epochs: &[Epoch], options: &Options) -> Result<Monitoring> {
+    compare_epochs_watched(epochs, options, &mut |_, _| true)
+}
+
+/// As [`compare_epochs`]. `progress` gets the steps done and their number, an epoch or a pair each; it returns false to cancel.
+///
+/// # Errors
+/// As [`compare_epochs`]; [`Error::Cancelled`].
+pub fn compare_epochs_watched(
+    epochs: &[Epoch],
+    options: &Options,
+    progress: &mut dyn FnMut(usize, usize) -> bool,
+) -> Result<Monitoring> {
     checked(epochs, options)?;
-    let mut all = epochs.iter().enumerate().map(|(k, epoch)| prepared(k, epoch)).collect::<Result<Vec<_>>>()?;
+    // Every epoch, every pair with the first, every pair with the predecessor, and the series.
+    let total = 3 * epochs.len() - 2;
+    let mut done = 0;
+    let mut step = || {
+        done += 1;
+        if progress(done, total) { Ok(()) } else { Err(Error::Cancelled) }
+    };
+    let mut all = Vec::new();
+    for (k, epoch) in epochs.iter().enumerate() {
+        all.push(prepared(k, epoch)?);
+        step()?;
+    }
     let unit = one_unit(&all)?;
     known_points(&all, options)?;
     let (reference, reference_from) = reference_of(&all, options);
@@ -96,8 +120,13 @@ pub fn compare_epochs(epochs: &[Epoch], options: &Options) -> Result<Monitoring>
         let to = (to, &all[to]);
         pair::compared(Input { from: &all[from], to, reference, options, renamed: &renamed, left_out })
     };
-    let pairs = with_first.chain(with_predecessor).map(one).collect::<Result<Vec<_>>>()?;
+    let mut pairs = Vec::new();
+    for pair in with_first.chain(with_predecessor) {
+        pairs.push(one(pair)?);
+        step()?;
+    }
     let (series, series_datum) = series::series(&all, &pairs, options);
+    step()?;
     let epochs = all.into_iter().map(|epoch| epoch.used).collect();
     Ok(Monitoring { method: options.method, unit, epochs, pairs, series, series_datum })
 }

@@ -3,8 +3,10 @@
 //! Every view, file and test reads this one document. Fields may be added, never renamed or given another meaning.
 
 mod colours;
+mod epoch;
 mod features;
 mod identifier;
+mod origin;
 mod parameter;
 mod plan;
 mod report;
@@ -16,9 +18,11 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 pub use colours::{ColourDifferences, LensColour};
+pub use epoch::EpochOf;
 pub use features::{CoordinateSystem, DrawnLine, End, Feature, FeatureKind, GivenPoint, Layer, SystemKind};
 pub(crate) use identifier::{identifier, identifier_option_list, identifiers};
-pub use parameter::{Interior, Parameter};
+pub use origin::{Assumed, Conversion, Ignored, Origin};
+pub use parameter::{CameraModel, Interior, Parameter};
 pub use plan::{Form, Lens, Plan, PlanDistance, PlanFace, PlanStation, Region, Variant, Wanted};
 pub use report::{ColourShift, LengthLimit, Paper, PhotoColours, ReportLanguage, ReportSettings, Section};
 pub use scaling::scaled;
@@ -77,6 +81,12 @@ pub struct Project {
     /// What was planned before the photos were taken.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Box<Plan>>,
+    /// The project whose later epoch this is: no input of the adjustment.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub epoch: Option<EpochOf>,
+    /// Files of another program that the project was read from: what was assumed, left out and converted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub origin: Option<Box<Origin>>,
 }
 
 fn default_unit() -> String {
@@ -103,6 +113,8 @@ impl Default for Project {
             layers: Vec::new(),
             report: ReportSettings::default(),
             plan: None,
+            epoch: None,
+            origin: None,
         }
     }
 }
@@ -378,6 +390,25 @@ impl Camera {
     pub fn pixel_from_photo(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [px, py] = self.pitch();
         [x / px + f64::from(self.width) / 2.0, f64::from(self.height) / 2.0 - y / py]
+    }
+
+    /// Width and height of a pixel in the unit of the measurements and residuals: photo units (brown) or pixels.
+    pub fn residual_pitch(&self) -> [f64; 2] {
+        if self.interior.model().in_photo_units { self.pitch() } else { [1.0, 1.0] }
+    }
+
+    /// Principal distance in pixels along u, as it stands; none while it is unknown.
+    pub fn principal_distance_px(&self) -> Option<f64> {
+        let model = self.interior.model();
+        let distance = self.interior.get(model.distance)?;
+        Some(if model.in_photo_units { distance / self.pitch()[0] } else { distance })
+    }
+
+    /// Sets the principal distance in pixels along u; the ratio of two focal lengths stays.
+    pub fn set_principal_distance_px(&mut self, px: f64) {
+        let model = self.interior.model();
+        let value = if model.in_photo_units { px * self.pitch()[0] } else { px };
+        self.interior.set(model.distance, value);
     }
 
     /// Parameters that the adjustment estimates: the free and the observed ones, in the model's order, each once.

@@ -6,6 +6,7 @@
 //! Nothing in it is fetched or run: no script, no inline style, no font, no picture but the document's own logo.
 
 mod context;
+pub mod epochs;
 mod html;
 pub mod names;
 pub mod number;

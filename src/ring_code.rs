@@ -146,6 +146,20 @@ pub fn smallest_rotation(code: u32, bits: u32) -> u32 {
     (0..bits).map(|turn| (code << turn | code >> (bits - turn)) & mask).min().unwrap_or(code)
 }
 
+/// Number of sectors of the coarser grid on which every arc of a ring of `bits` sectors ends: the largest m below `bits` that
+/// divides it and in whose sectors, from some sector on, the bits are alike. No picture tells such a ring from one of m sectors, which other
+/// programs print (8 and 10). None where some arc ends between them; 1 where all or none are set.
+pub fn coarser_grid(code: u32, bits: u32) -> Option<u32> {
+    // where the level changes between a sector and the one before it
+    let mask = (1u32 << bits) - 1;
+    let changes = (code ^ (code << 1 | code >> (bits - 1))) & mask;
+    (1..bits).rev().filter(|m| bits.is_multiple_of(*m)).find(|m| {
+        let width = bits / m;
+        let ends = (0..bits).step_by(width as usize).fold(0u32, |ends, k| ends | 1 << k);
+        (0..width).any(|turn| changes & !(ends << turn) & mask == 0)
+    })
+}
+
 /// Whether a code has even parity, a pair of opposite set bits and one that is not set.
 fn is_valid(code: u32, bits: u32) -> bool {
     code.count_ones().is_multiple_of(2) && code & code >> (bits / 2) != 0 && code.count_ones() < bits
@@ -214,6 +228,35 @@ mod tests {
         assert_eq!(valid_codes(14)[0], 0b00_0000_1000_0001);
         // Of more than two bits the smallest from 64 on: 67 = 64 + 3 has three.
         assert_eq!(metashape_codes(12)[..3], [0b100_0111, 0b100_1011, 0b100_1101]);
+    }
+
+    #[test]
+    fn rings_on_a_coarser_grid_are_those_of_repeated_bits() {
+        for family in Family::ALL {
+            let bits = family.bits();
+            let repeated = |m: u32| {
+                let width = bits / m;
+                let widen = move |code: u32| (0..bits).fold(0u32, |wide, k| wide | (code >> (k / width) & 1) << k);
+                (0..1u32 << m).map(move |code| smallest_rotation(widen(code), bits))
+            };
+            let all: std::collections::BTreeSet<u32> =
+                (1..bits).filter(|m| bits.is_multiple_of(*m)).flat_map(repeated).collect();
+            for code in family.codes() {
+                let turned = (code << 5 | code >> (bits - 5)) & ((1 << bits) - 1);
+                assert_eq!(coarser_grid(*code, bits).is_some(), all.contains(code), "{family:?} {code:b}");
+                assert_eq!(coarser_grid(*code, bits), coarser_grid(turned, bits));
+            }
+        }
+        assert_eq!(coarser_grid(0b1100_0011_0011_1100, 16), Some(8));
+        assert_eq!(coarser_grid(0b11111_00000_11111_00000, 20), Some(4));
+        assert_eq!(coarser_grid(0b1100_0011_0011_1000, 16), None);
+    }
+
+    #[test]
+    fn few_codes_lie_on_a_coarser_grid() {
+        let count =
+            |family: Family| family.codes().iter().filter(|c| coarser_grid(**c, family.bits()).is_some()).count();
+        assert_eq!(Family::ALL.map(count), [8, 14, 24, 82, 9, 14, 26, 91]);
     }
 
     #[test]

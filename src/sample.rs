@@ -4,6 +4,8 @@
 //! megapixels, every other one rolled; a scale bar and four surveyed points. Photos are rendered one at a time, so that
 //! workers can share them.
 
+pub mod epochs;
+
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::error::Result;

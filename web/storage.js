@@ -500,7 +500,8 @@ async function photos({ keys }) {
 async function list() {
   const all = [];
   for (const id of await backend.projects()) {
-    if (!(await isThere(id).catch(() => true))) continue;
+    // One that goes at this moment is gone; one that cannot be read is there.
+    if (!(await isThere(id).catch((error) => error.name !== 'NotFoundError'))) continue;
     const card = await cardOf(id);
     const own = await backend.size(id).catch(() => 0);
     const keys = Array.isArray(card?.keys) ? card.keys : [];
@@ -531,6 +532,13 @@ async function peek({ id, kind }) {
     }
   }
   throw fault('DamagedError', `no ${kind} can be read`);
+}
+
+/** The notes of a project that is not opened for that, with the texts of the parts that are wanted. */
+async function look({ id, wanted }) {
+  const { frames } = await backend.journal(id);
+  const { parts, notes } = gathered(frames.flatMap(({ items }) => items));
+  return { reply: notes, extras: wanted.map((part) => text(parts, part)) };
 }
 
 /** The damaged journals of a project, as they were. */
@@ -616,11 +624,11 @@ async function setEquipment({ words }) {
 }
 
 const CALLS = {
-  equipment, setEquipment, start, open, take, yield: letGo, append, survey, surveyed: surveyedTexts, leave, check, condense, parts, keep, photos, list, peek, aside, rename,
+  equipment, setEquipment, start, open, take, yield: letGo, append, survey, surveyed: surveyedTexts, leave, check, condense, parts, keep, photos, list, peek, look, aside, rename,
   duplicate, remove, purge, close, wipe,
 };
 /** Copying photos lasts, and so does condensing: edits do not wait for them. */
-const ALONGSIDE = new Set(['keep', 'photos', 'list', 'peek', 'aside', 'survey', 'surveyed', 'leave', 'condense']);
+const ALONGSIDE = new Set(['keep', 'photos', 'list', 'peek', 'look', 'aside', 'survey', 'surveyed', 'leave', 'condense']);
 let queue = Promise.resolve();
 
 /** Answers calls of a page that sends and hears by way of a port. */

@@ -1,10 +1,15 @@
-//! Targets on cards in a photo full of what is no target: shaded and textured ground, lines, boxes and letters.
+//! Targets on cards in a photo full of what is no target: shaded and textured ground, lines, boxes and letters, under a lens that
+//! darkens the corners.
 
 use std::f64::consts::{PI, SQRT_2};
 
 use sightline::noise::Noise;
 
+use crate::light::Light;
 use crate::painter::{Canvas, Spot, Uniform};
+
+/// Most that lamps change the light by from pixel to pixel.
+const STEEPEST: f64 = 2e-4;
 
 /// Grains of the texture in pixels, and their standard deviation.
 const GRAIN: usize = 24;
@@ -74,6 +79,11 @@ pub fn picture(width: usize, height: usize, targets: usize, blur: f64, seed: u64
             spots.push(spot);
         }
     }
+    // the lens darkens all of it
+    let light = Light::drawn(&mut random, 0.6, STEEPEST);
+    light.fall(&mut canvas);
+    let lit = |spot: Spot| Spot { contrast: spot.contrast * light.at(&canvas, spot.u, spot.v), ..spot };
+    let spots = spots.into_iter().map(lit).collect();
     (canvas, spots)
 }
 

@@ -11,8 +11,13 @@ use sightline::image::Samples;
 #[path = "../../tests/engine/support/painter.rs"]
 mod painter;
 
+#[allow(dead_code, reason = "the tests use the rest")]
+#[path = "../../tests/engine/support/light.rs"]
+mod light;
+
 mod clutter;
 
+use light::{Light, tone};
 use painter::{Canvas, Spot, Uniform, bound};
 
 const NOISE: f64 = 2.0;
@@ -23,6 +28,8 @@ const GRID: usize = 50;
 /// Circles of contrast 200, and ellipses (major axis, axis ratio) of contrast 60.
 const CIRCLES: [f64; 4] = [5.0, 10.0, 20.0, 40.0];
 const ELLIPSES: [(f64, f64); 4] = [(12.5, 0.4), (24.0, 0.4), (24.0, 0.7), (50.0, 0.4)];
+/// Most that lamps change the light by from pixel to pixel: a tenth across a target of 30 px.
+const STEEPEST: f64 = 0.1 / 30.0;
 /// Seeds of the cluttered pictures.
 const SEEDS: [u64; 4] = [11, 12, 13, 14];
 
@@ -56,13 +63,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         let bounds = bounds(&scene.1[..64]);
         keep("isolated", format!("ellipse {major} x {:.1}", ratio * major), scene, 2, bounds)?;
     }
-    // Targets of every size, tilt, contrast and polarity: a dark picture and a softer bright one.
-    for (name, level, sign, blur) in [("bright", 30.0, 1.0, BLUR), ("dark", 225.0, -1.0, 1.0)] {
+    // Targets of every size, tilt, contrast and polarity: a dark picture and a softer bright one, in light of lenses and lamps.
+    for (name, level, sign, blur) in [("bright", 30.0, 1.0, BLUR), ("dark", 200.0, -1.0, 1.0)] {
         let kind = |random: &mut Uniform| {
             let a = 3.0 * 10f64.powf(random.next());
             (a, (a * random.within(0.4, 1.0)).max(3.0), sign * random.within(60.0, 190.0))
         };
-        let scene = grid([40, 25], 100.0, level, blur, 7, kind);
+        let mut scene = grid([40, 25], 100.0, level, blur, 7, kind);
+        let mut random = Uniform(level as u64);
+        Light::drawn(&mut random, 0.6, STEEPEST).fall(&mut scene.0);
+        tone(&mut scene.0, random.within(1.0, 2.4));
         keep("random", name.into(), scene, 3, Vec::new())?;
     }
     for seed in SEEDS {

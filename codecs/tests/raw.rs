@@ -638,7 +638,7 @@ fn metashape_codes_are_read_as_in_grey() {
             let click = measure_in_shot(&shot, target.u, target.v, &options).expect("a place");
             // a click sees one ring alone: what the others have settled in the search stays a question
             let asks = |click: &Target| {
-                click.quality.code_note == Some(CodeNote::Uncertain)
+                matches!(click.quality.code_note, Some(CodeNote::Uncertain | CodeNote::OtherFamily))
                     && click.code_candidates.iter().any(|candidate| Some(candidate.number) == target.code)
             };
             asked += usize::from(click.as_ref().is_some_and(&asks));

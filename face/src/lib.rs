@@ -18,6 +18,7 @@ use wasm_bindgen::prelude::*;
 
 use fault::thrown;
 use sightline::adjustment::{AdjustOptions, Iteration};
+use sightline::calibration::{DifferenceOptions, UncertaintyOptions};
 use sightline::detection::{Channel, ColoursApart, DetectOptions};
 use sightline::exchange::foreign::CameraOptions;
 use sightline::experiments::ExperimentOptions;
@@ -27,7 +28,8 @@ use sightline::network::Network;
 use sightline::project::{Camera, GivenPoint, Project};
 use sightline::sensor::{self, Shot};
 use sightline::{
-    Error, adjust, decode, detect, exchange, exif, experiments, features, matching, network, orient, plausibility,
+    Error, adjust, calibration, decode, detect, exchange, exif, experiments, features, matching, network, orient,
+    plausibility,
 };
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -388,6 +390,36 @@ pub fn measure_features(
     measured().map(|measured| value::write(&measured)).map_err(|error: Error| thrown(&error))
 }
 
+/// Standard errors of the pixels at which a calibrated camera sees directions, or points at a distance.
+#[wasm_bindgen(js_name = projectionUncertainty, unchecked_return_type = "ProjectionUncertainty")]
+pub fn projection_uncertainty(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Adjustment")] adjustment: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "UncertaintyOptions")] options: JsValue,
+) -> Thrown {
+    let found = || {
+        let asked: UncertaintyOptions = value::options(&options, &[])?;
+        let (project, adjustment) = (value::project(&project)?, value::read(&adjustment, "adjustment")?);
+        calibration::projection_uncertainty(&project, &adjustment, &asked)
+    };
+    found().map(|found| value::write(&found)).map_err(|error: Error| thrown(&error))
+}
+
+/// How far two calibrations of one lens differ, after the motion that brings them together best.
+#[wasm_bindgen(js_name = compareCameras, unchecked_return_type = "CameraDifference")]
+pub fn compare_cameras(
+    #[wasm_bindgen(unchecked_param_type = "Camera")] a: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Camera")] b: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "DifferenceOptions")] options: JsValue,
+) -> Thrown {
+    let found = || {
+        let asked: DifferenceOptions = value::options(&options, &[])?;
+        let (a, b): (Camera, Camera) = (value::read(&a, "a")?, value::read(&b, "b")?);
+        calibration::compare_cameras(&a, &b, &asked)
+    };
+    found().map(|found| value::write(&found)).map_err(|error: Error| thrown(&error))
+}
+
 /// Compares epochs of one object: what has moved, by how much, and with which tests.
 #[wasm_bindgen(js_name = compareEpochs, unchecked_return_type = "Monitoring")]
 pub fn compare_epochs(#[wasm_bindgen(unchecked_param_type = "CompareOptions")] request: JsValue) -> Thrown {
@@ -406,6 +438,27 @@ pub fn read_coordinates(
     #[wasm_bindgen(unchecked_optional_param_type = "ImportChoices | null")] choices: JsValue,
 ) -> Thrown {
     let read = || exchange::epochs::points(&text_of(&text)?, value::options(&choices, &[])?);
+    read().map(|list| value::write(&list)).map_err(|error: Error| thrown(&error))
+}
+
+/// Reads a list of points in any of the formats that are recognised, with all that is known of how it was read; nothing that has to be asked is guessed.
+#[wasm_bindgen(js_name = readList, unchecked_return_type = "PointList")]
+pub fn read_list(
+    #[wasm_bindgen(unchecked_param_type = "Uint8Array | ArrayBuffer | string")] list: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "ListChoices | null")] choices: JsValue,
+) -> Thrown {
+    let read = || {
+        let mut choices: exchange::control_csv::Choices = value::options(&choices, &[])?;
+        let bytes = match list.as_string() {
+            Some(text) => {
+                // The characters are known.
+                choices.encoding = Some(exchange::encoding::Encoding::Utf8);
+                text.into_bytes()
+            }
+            None => plain::bytes(&list, "list")?,
+        };
+        exchange::lists::read(&bytes, &choices)
+    };
     read().map(|list| value::write(&list)).map_err(|error: Error| thrown(&error))
 }
 

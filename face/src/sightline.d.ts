@@ -1,5 +1,5 @@
 /** Name of a parameter of the interior orientation; "f" stands for fx and fy as one. */
-export type Parameter = "c" | "x0" | "y0" | "k1" | "k2" | "k3" | "p1" | "p2" | "b1" | "b2" | "f" | "fx" | "fy" | "cx" | "cy";
+export type Parameter = "c" | "x0" | "y0" | "k1" | "k2" | "k3" | "p1" | "p2" | "b1" | "b2" | "f" | "fx" | "fy" | "cx" | "cy" | "k4" | "k5" | "k6";
 
 /** Interior orientation: a correction added to the measured photo coordinates. Lengths in photo units (mm with a pixel pitch, else pixels). */
 export interface BrownInterior {
@@ -32,7 +32,32 @@ export interface OpencvInterior {
   k3?: number;
 }
 
-export type Interior = BrownInterior | OpencvInterior;
+/** The same with a rational radial distortion, OpenCV's eight coefficients: (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶). */
+export interface OpencvRationalInterior extends Omit<OpencvInterior, "model"> {
+  model: "opencv_rational";
+  k4?: number;
+  k5?: number;
+  k6?: number;
+}
+
+/**
+ * OpenCV's fisheye (equidistant; Kannala and Brandt 2006): the angle off the axis is distorted, θd = θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸). Rays of
+ * more than 90 degrees off the axis have an image.
+ */
+export interface OpencvFisheyeInterior {
+  model: "opencv_fisheye";
+  /** Focal lengths in pixels; null: not known yet. */
+  fx?: number | null;
+  fy?: number | null;
+  cx: number;
+  cy: number;
+  k1?: number;
+  k2?: number;
+  k3?: number;
+  k4?: number;
+}
+
+export type Interior = BrownInterior | OpencvInterior | OpencvRationalInterior | OpencvFisheyeInterior;
 
 /** A colour that a lens images otherwise than green. */
 export type LensColour = "red" | "blue";
@@ -215,6 +240,19 @@ export interface Project {
   report?: ReportSettings;
   /** What was planned before the photos were taken. */
   plan?: Plan;
+  /** The project whose later epoch this is, with this one's number in the series. */
+  epoch?: { name: string; key?: string; number: number; names?: Record<string, string> };
+  /** Files of another program that the project was read from. */
+  origin?: Origin;
+}
+
+/** Files of another program that were read: what was assumed, left out and converted. It is no input of the adjustment. */
+export interface Origin {
+  format: string;
+  files?: string[];
+  assumed?: Assumed[];
+  ignored?: Ignored[];
+  conversions?: Conversion[];
 }
 
 /** An end of a distance or a side of an angle. */
@@ -285,6 +323,8 @@ export interface MeasuredFeature {
   /** Why it has no standard errors though there are statistics: it, or what it is measured from, is so weakly determined that they mean
    * nothing. Standard error of the radius over the radius, or of the direction in radians. */
   weak?: number;
+  /** Rms over the largest extent of the points, where it is above 0.02: they hardly form what was fitted to them. */
+  misfit?: number;
   /** Its points that this adjustment has not. */
   missing?: string[];
   /** Why there is no result. */
@@ -565,6 +605,43 @@ export interface GrossError {
   consequence: boolean;
 }
 
+/**
+ * What the residuals of a camera depend on: the radius (lens distortion), a tangential pattern (decentring), affinity and shear, the row or
+ * the column (rolling shutter), the position in the image, or single photos (refocused, cropped, of another size).
+ */
+export type PatternKind = "radius" | "tangential" | "affine" | "row" | "column" | "position" | "photo";
+
+/** What to do about a pattern of the residuals. */
+export type Remedy =
+  | { kind: "estimate"; parameters: Parameter[] }
+  | { kind: "model"; models: string[] }
+  | { kind: "hold_still" }
+  | { kind: "own_camera"; photos: string[] }
+  | { kind: "per_photo" }
+  | { kind: "inspect" };
+
+/** Test of the image residuals of a camera for a pattern; the redundancy of the residuals is accounted for. */
+export interface ResidualPattern {
+  camera: string;
+  kind: PatternKind;
+  /** Kind photo: photos with an interior orientation of their own; missing: all. */
+  photos?: string[];
+  /** How many photos were tested one by one: kinds row, column and photo. Of very large networks it is a part of them. */
+  photos_tested?: number;
+  /** Degrees of freedom of the pattern. */
+  degrees: number;
+  /** Fisher's F. */
+  statistic: number;
+  p_value: number;
+  /** Root mean square and largest length of the pattern in the residuals, pixels. */
+  rms_px: number;
+  max_px: number;
+  /** sigma0 without the pattern. */
+  sigma0: number;
+  /** Whether the advice names it as the cause; at most one is. */
+  named: boolean;
+}
+
 /** What a solvable network is weak in. */
 export type Advice =
   | { kind: "high_correlation"; camera: string; photo: string | null; first: string; second: string; correlation: number }
@@ -576,6 +653,20 @@ export type Advice =
   | { kind: "weak_principal_distance"; camera: string; photo: string | null; parameter: string; value: number; sigma: number; convergence: number }
   | { kind: "gross_errors_unsettled" }
   | { kind: "variance_components_unsettled" }
+  /** The residuals of a camera are systematic: what they depend on, and what to do. Stands before anything that takes them as noise. */
+  | {
+      kind: "residual_pattern";
+      camera: string;
+      pattern: PatternKind;
+      /** Photos that it is about; empty: all. */
+      photos: string[];
+      p_value: number;
+      rms_px: number;
+      max_px: number;
+      /** sigma0 without the pattern. */
+      sigma0: number;
+      remedy: Remedy;
+    }
   /** The global test failed with a sigma0 beyond its limit; `unmodelled` would make the residuals agree, pixels. */
   | { kind: "sigmas_too_small"; sigma0: number; unmodelled: number | null }
   /** The test fails although `unmodelled` was given: this value instead. */
@@ -787,6 +878,8 @@ export interface Adjustment {
   eccentricity?: { point: string; correction_px: number | null }[];
   /** There when asked for. */
   variance_components?: VarianceComponent[];
+  /** Tests of the image residuals for patterns; missing without full statistics, and where the iteration did not converge. */
+  patterns?: ResidualPattern[];
   advice: Advice[];
   /** Every item of the input that took no part; empty when all took part. */
   left_out: LeftOut[];
@@ -889,6 +982,8 @@ export interface PictureReport {
   noise: number;
   /** Standard errors of centres over those that white noise would give; 1 where neighbours share none. */
   noise_correlation: number;
+  /** Whether the standard errors take the noise of neighbours as independent (every method but least squares): too small of a compressed picture. */
+  white_noise_assumed: boolean;
   /** Whether the picture was searched and measured softened as well. */
   softened: boolean;
 }
@@ -1439,14 +1534,38 @@ export interface Picture {
   samples: Uint8Array | Uint16Array;
 }
 
-/** What a table of control points does not say itself. */
-export interface ImportChoices {
+/** A standard error for all points: σ = constant + ppm · 10⁻⁶ · distance from the centre of the list ("2 mm + 2 ppm"). */
+export interface SigmaRule {
+  constant: number;
+  /** Null: that of the coordinates. */
+  unit?: Unit | null;
+  ppm?: number;
+}
+
+/** What a list of points does not say itself, or what is to be taken in place of what it says. */
+export interface ListChoices {
   /** Decimal sign; null: from the rows. With "point", commas are thousands separators. */
   decimal?: "point" | "comma" | null;
-  /** Order of the horizontal coordinates of a table without heading; null: X (east) before Y (north). */
+  /** Order of the horizontal coordinates of a list without heading; null: X (east) before Y (north). */
   axes?: "xy" | "yx" | null;
-  /** Unit of the coordinates of a table whose heading has none. */
+  /** Unit of the coordinates of a list whose heading has none. */
   unit?: Unit | null;
+  /** What each column holds, null: it is left alone; in place of what heading and content say. */
+  columns?: (ControlField | null)[] | null;
+  /** Encoding of bytes; null: from what is in them. Of no matter for a string. */
+  encoding?: TextEncodingName | null;
+  /** What separates the fields; null: from the rows. */
+  separator?: "comma" | "semicolon" | "tab" | "blanks" | null;
+  /** Line of the first row of points, counted from 1; the row before it is the heading. */
+  first_line?: number | null;
+  /** Unit of columns of standard errors whose heading has none; null: that of the coordinates. */
+  sigma_unit?: Unit | null;
+  /** One standard error for all points that have none of their own. */
+  sigma?: SigmaRule | null;
+}
+
+/** Choices of reading. */
+export interface ImportChoices extends ListChoices {
   /** Accept a camera whose converted model differs by more than 1 px; default false. */
   convert?: boolean;
 }
@@ -1537,12 +1656,25 @@ export interface ExportedCamera {
 }
 
 export type Unit = "mm" | "cm" | "m" | "µm" | "dm" | "km" | "in" | "ft" | "ft-us" | "yd";
-export type ControlField = "id" | "label" | "X" | "Y" | "Z" | "sX" | "sY" | "sZ" | "sigma" | "role";
+export type ControlField = "id" | "label" | "X" | "Y" | "Z" | "sX" | "sY" | "sZ" | "sXY" | "sigma" | "role" | "diameter";
+export type TextEncodingName = "utf-8" | "utf-16" | "cp949" | "windows-1252";
+export type ListFormat = "table" | "leica_gsi" | "sokkia_sdr" | "job_xml" | "land_xml" | "odm_gcp";
 /** What an assumption rests on; "undecided": nothing decides, it has to be asked. */
 export type Basis = "heading" | "content" | "given" | "convention" | "undecided";
 
-/** How a table of control points was read. */
+/** How a list of points was read. */
 export type Assumption =
+  | { kind: "format"; format: ListFormat; by: Basis }
+  /** `by: "convention"`: it is none of the others. */
+  | { kind: "encoding"; encoding: TextEncodingName; by: Basis }
+  /** The first row of points, where lines before it are passed over. */
+  | { kind: "first_row"; line: number; by: Basis }
+  /** What the list has beside its points and is not kept. */
+  | { kind: "beside"; what: "lines_before" | "measurements" | "image_measurements" | "deleted" | "references" | "geographic"; count: number }
+  /** Names that were made up, since the list has none: "GCP 1" and so on. */
+  | { kind: "names_made"; count: number }
+  /** One standard error for so many points without one of their own; undecided: the unit of the coordinates has to be known first. */
+  | { kind: "common_sigma"; rule: SigmaRule; points: number; by: Basis }
   | { kind: "separator"; separator: "comma" | "semicolon" | "tab" | "blanks"; by: Basis }
   | { kind: "decimal_sign"; sign: "point" | "comma"; by: Basis; example?: string }
   | { kind: "columns"; columns: (ControlField | null)[]; by: Basis }
@@ -1568,7 +1700,7 @@ export interface Imported extends Project {
 }
 
 export type ImportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "photomodeler" | "aicon" | "dbat" | "comparator" | "auto" | "colmap" | "metashape" | "bal" | "bundler" | "meshroom" | "vstars";
-export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "report" | "plots" | "csv" | "tsv" | "dxf" | "ply" | "gltf" | "colmap" | "colmap-binary" | "metashape" | "bal" | "bundler" | "meshroom" | "vstars" | "opencv";
+export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "report" | "plots" | "csv" | "tsv" | "spreadsheet" | "spreadsheet-cp949" | "calibration" | "dxf" | "dxf-2010" | "landxml" | "ply" | "gltf" | "colmap" | "colmap-binary" | "metashape" | "bal" | "bundler" | "meshroom" | "vstars" | "opencv";
 
 /** A parameter of a fit. */
 export interface Coefficient {
@@ -1633,6 +1765,23 @@ export interface ListedCovariance {
   matrix: number[][];
 }
 
+/** What `readList` gives. */
+export interface PointList {
+  /** The points that were understood, with their lines. */
+  points: (Point & { line: number; label?: string })[];
+  /** Lines that were not, each with the reason as a sentence and as data. */
+  rejected: { line: number; text: string; message: string; error: unknown }[];
+  /** Null: it has to be asked. */
+  unit: Unit | null;
+  assumptions: Assumption[];
+  /** Those of the assumptions that nothing decides: ask before the points are used, and read again with the answer. */
+  undecided: Assumption[];
+  /** Words of the heading, column by column; empty without one. */
+  heading: string[];
+  /** Fields of the first rows as the text has them. */
+  sample: string[][];
+}
+
 /** What `readCoordinates` gives. */
 export interface CoordinateList {
   points: ListedPoint[];
@@ -1676,6 +1825,68 @@ export type GroupModel = "rigid" | "similarity" | "affine";
 export interface MonitoringLimits {
   warning: number;
   alarm: number;
+}
+
+/** Which motion of the camera is taken out of an uncertainty or a difference. */
+export type MotionReference = "rotation" | "rotation_translation" | "photos" | "none";
+
+/** What `projectionUncertainty` takes. */
+export interface UncertaintyOptions {
+  /** May be left out where the adjustment has one camera. */
+  camera?: string | null;
+  /** Of a camera with an interior orientation per photo. */
+  photo?: string | null;
+  /** Places along width and height, borders included; [25, 17] unless given. */
+  grid?: [number, number];
+  /** Of the points, in the project's unit; null: directions. */
+  distance?: number | null;
+  /** Where the motion is fitted: a disc in the middle of the image, or all of it. */
+  region?: "centre" | "all";
+  /** `photos`: the mean motion of the photos against the object, which needs no fit (mrcal's mean-pcam). */
+  reference?: MotionReference;
+}
+
+/** What `projectionUncertainty` gives. Maps are rows of `v` of columns `u`; null where the model gives no ray. */
+export interface ProjectionUncertainty {
+  camera: string;
+  photo?: string;
+  /** Whose uncertainty it is; what was held counts as known. */
+  parameters: Parameter[];
+  distance: number | null;
+  region: "centre" | "all";
+  reference: MotionReference;
+  u: number[];
+  v: number[];
+  /** Standard error in the worst direction, pixels. */
+  sigma: (number | null)[][];
+  /** uu, uv, vv. */
+  covariance: ([number, number, number] | null)[][];
+  /** Whether a measurement lies within one step of the grid. */
+  covered: boolean[][];
+  worst: { u: number; v: number; sigma: number } | null;
+  median: number | null;
+}
+
+/** What `compareCameras` takes. */
+export interface DifferenceOptions {
+  grid?: [number, number];
+  distance?: number | null;
+  region?: "centre" | "all";
+  reference?: Exclude<MotionReference, "photos">;
+}
+
+/** What `compareCameras` gives: where the second camera sees what the first sees, minus where the first does, pixels. */
+export interface CameraDifference {
+  u: number[];
+  v: number[];
+  du: (number | null)[][];
+  dv: (number | null)[][];
+  /** From the first camera frame to the second, a vector along the axis, radians. */
+  rotation: [number, number, number];
+  translation: [number, number, number] | null;
+  distance: number | null;
+  rms_px: number | null;
+  max_px: number | null;
 }
 
 /** What `compareEpochs` takes. */
@@ -1722,6 +1933,8 @@ export interface Displacement {
   /** Name in the later epoch, where it was matched by position under another one. */
   later_id?: string;
   role: "reference" | "object";
+  /** Coordinates in the earlier epoch, in the system of the first. */
+  xyz: [number, number, number];
   difference: [number, number, number];
   sigma: [number, number, number];
   /** xx, xy, xz, yy, yz, zz. */
@@ -1831,6 +2044,8 @@ export interface Monitoring {
     /** Unit per day; null below three dated epochs, and without a common datum. */
     velocity: [number, number, number] | null;
     velocity_sigma: [number, number, number] | null;
+    /** Displacement of the straight line at the earliest date. */
+    line_start: [number, number, number] | null;
     velocity_test: MonitoringTest | null;
     /** By the length of the last displacement; null without thresholds. */
     state: "quiet" | "warning" | "alarm" | null;

@@ -45,9 +45,9 @@ const CAMERAS: [(&str, &str); 8] = [
     ("micmac", "a.xml"),
     ("auto", "a"),
 ];
-const WRITTEN: [&str; 16] = [
+const WRITTEN: [&str; 21] = [
     "sightline", "package", "control-csv", "mark-points", "csv", "tsv", "dxf", "ply", "gltf", "colmap", "colmap-binary", "metashape", "bal", "bundler",
-    "meshroom", "vstars",
+    "meshroom", "vstars", "spreadsheet", "spreadsheet-cp949", "calibration", "dxf-2010", "landxml",
 ];
 /// Names of the files after the first: jobs of DBAT and COLMAP ask for them.
 const MORE: [&str; 4] = ["control.txt", "images.txt", "marks.txt", "points3D.txt"];

@@ -63,6 +63,10 @@ pub struct MeasuredFeature {
     /// larger; null where standard errors hold.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weak: Option<f64>,
+    /// Root mean square of the residuals over the largest extent of the points, where it is so large that they hardly form what was
+    /// fitted to them; null where they do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub misfit: Option<f64>,
     /// Points of the feature that this adjustment has not.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub missing: Vec<String>,

@@ -10,7 +10,7 @@
 //!
 //! D. C. Brown, Close-range camera calibration, Photogrammetric Engineering 37 (1971).
 
-use super::{Linearised, PARAMETERS, invert};
+use super::{Linearised, PARAMETERS, invert, padded};
 use crate::project::Interior;
 
 /// Values of the parameters, photo units.
@@ -146,8 +146,8 @@ impl Brown {
         let r6 = r4 * r2;
         let xy2 = -2.0 * x * y;
         [
-            [nx, d[0][0], d[0][1], -x * r2, -x * r4, -x * r6, -(r2 + 2.0 * x * x), xy2, -x, -y],
-            [ny, d[1][0], d[1][1], -y * r2, -y * r4, -y * r6, xy2, -(r2 + 2.0 * y * y), 0.0, 0.0],
+            padded([nx, d[0][0], d[0][1], -x * r2, -x * r4, -x * r6, -(r2 + 2.0 * x * x), xy2, -x, -y]),
+            padded([ny, d[1][0], d[1][1], -y * r2, -y * r4, -y * r6, xy2, -(r2 + 2.0 * y * y), 0.0, 0.0]),
         ]
     }
 }

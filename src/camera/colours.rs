@@ -19,10 +19,10 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 
-use super::{Model, ideal_from_pixel, measurement_from_pixel};
+use super::{Model, measurement_from_pixel, ray_from_pixel};
 use crate::adjustment::ResidualPlace;
 use crate::error::{Error, Place, Reason, Result};
-use crate::project::{Camera, ColourDifferences, ColourShift, Interior, LensColour, Parameter, PhotoColours};
+use crate::project::{Camera, ColourDifferences, ColourShift, LensColour, Parameter, PhotoColours};
 
 /// Places along a side of the grid that the differences are fitted in.
 const PLACES: u32 = 24;
@@ -121,7 +121,7 @@ fn by_numbers([u, v]: [f64; 2], [mu, mv]: [f64; 2], corner: f64) -> [Vector4<f64
 
 /// A place of the grid: its ray, where the other colour stands and what the four numbers move there, in the camera's unit.
 struct GridPlace {
-    ray: [f64; 2],
+    ray: [f64; 3],
     other: [f64; 2],
     by: [Vector4<f64>; 2],
 }
@@ -129,13 +129,9 @@ struct GridPlace {
 /// The differences with their standard errors, and the rms in pixels that they leave.
 fn fitted(camera: &Camera, centre: [f64; 2], corner: f64, seen: &Seen) -> Option<(ColourDifferences, f64)> {
     use Parameter as P;
-    let (distance, [x0, y0], unit) = match camera.interior {
-        Interior::Brown { .. } => {
-            let [px, py] = camera.pitch();
-            (P::C, [P::X0, P::Y0], [px, -py])
-        }
-        Interior::Opencv { .. } => (P::F, [P::Cx, P::Cy], [1.0, 1.0]),
-    };
+    let model = camera.interior.model();
+    let (distance, [x0, y0], [px, py]) = (model.distance, model.centre, camera.residual_pitch());
+    let unit = [px, if model.in_photo_units { -py } else { py }];
     let place = |k: u32, size: u32| (f64::from(k) + 0.5) / f64::from(PLACES) * f64::from(size);
     let grid = (0..PLACES * PLACES).map(|k| [place(k % PLACES, camera.width), place(k / PLACES, camera.height)]);
     let rays: Vec<GridPlace> = grid
@@ -143,7 +139,7 @@ fn fitted(camera: &Camera, centre: [f64; 2], corner: f64, seen: &Seen) -> Option
             let by = by_numbers([u, v], centre, corner);
             let other = [u + by[0].dot(&seen.x), v + by[1].dot(&seen.x)];
             Some(GridPlace {
-                ray: ideal_from_pixel(camera, [u, v])?,
+                ray: ray_from_pixel(camera, [u, v])?,
                 other: measurement_from_pixel(camera, other),
                 by: [by[0] * unit[0], by[1] * unit[1]],
             })
@@ -152,10 +148,12 @@ fn fitted(camera: &Camera, centre: [f64; 2], corner: f64, seen: &Seen) -> Option
     if (rays.len() as f64) < SEEN * f64::from(PLACES * PLACES) {
         return None;
     }
-    let mut wanted = vec![distance, x0, y0, P::K1, P::K2, P::K3, P::P1, P::P2];
+    // Numerator and denominator of the rational model take each other's place in so small a difference.
+    let wanted = [distance, x0, y0, P::K1, P::K2, P::K3, P::P1, P::P2].into_iter();
+    let mut wanted: Vec<Parameter> = wanted.filter(|p| camera.interior.parameters().contains(p)).collect();
     let whole = Fit::of(camera, &rays, &wanted)?;
     let mut fit = None;
-    for p in [P::P2, P::P1, P::K3, P::K2] {
+    for p in [P::P2, P::P1, P::K3, P::K2].into_iter().filter(|p| camera.interior.parameters().contains(p)) {
         let others: Vec<Parameter> = wanted.iter().copied().filter(|q| *q != p).collect();
         let without = Fit::of(camera, &rays, &others)?;
         if without.off(&whole, unit) < NEGLIGIBLE_PX {
@@ -192,8 +190,8 @@ impl Fit {
         let (mut j, mut e) = (DMatrix::zeros(2 * rays.len(), wanted.len()), DVector::zeros(2 * rays.len()));
         let linearise = |differences: &BTreeMap<Parameter, f64>, j: &mut DMatrix<f64>, e: &mut DVector<f64>| {
             let model = Model::new(&camera.interior.plus(differences))?;
-            for (k, GridPlace { ray: [x, y], other, .. }) in rays.iter().enumerate() {
-                let linear = model.linearise(*other, [*x, *y, -1.0], ResidualPlace::Measured)?;
+            for (k, GridPlace { ray, other, .. }) in rays.iter().enumerate() {
+                let linear = model.linearise(*other, *ray, ResidualPlace::Measured)?;
                 for side in 0..2 {
                     let row = 2 * k + side;
                     e[row] = linear.residual[side];

@@ -7,7 +7,7 @@
 //! b' = b(1 + k1 r² + k2 r⁴ + k3 r⁶) + p1 (r² + 2b²) + 2 p2 a b,   v = fy b' + cy
 //! ```
 
-use super::{Linearised, invert};
+use super::{Linearised, invert, padded};
 use crate::project::Interior;
 
 /// Values of the parameters; focal lengths and principal point in pixels.
@@ -96,7 +96,7 @@ impl Opencv {
             by_point: [row(fx, d[0]), row(fy, d[1])],
             // f, fx, fy, cx, cy, k1, k2, p1, p2, k3; f moves fy in the ratio fy : fx.
             by_parameter: [
-                [
+                padded([
                     ad,
                     ad,
                     0.0,
@@ -107,8 +107,8 @@ impl Opencv {
                     fx * 2.0 * a * b,
                     fx * (r2 + 2.0 * a * a),
                     fx * a * r6,
-                ],
-                [
+                ]),
+                padded([
                     bd * fy / fx,
                     0.0,
                     bd,
@@ -119,7 +119,7 @@ impl Opencv {
                     fy * (r2 + 2.0 * b * b),
                     fy * 2.0 * a * b,
                     fy * b * r6,
-                ],
+                ]),
             ],
         })
     }

@@ -1,12 +1,12 @@
 //! Units of photo coordinates and of camera parameters.
 
-use crate::project::{Camera, Interior, Parameter};
+use crate::project::{Camera, Parameter};
 
 /// Unit of a parameter of a camera, as photo coordinates have it.
 pub fn parameter_unit(camera: &Camera, parameter: Parameter) -> String {
     use Parameter as P;
     let length = photo_unit(camera);
-    let brown = matches!(camera.interior, Interior::Brown { .. });
+    let brown = camera.interior.model().in_photo_units;
     match parameter {
         P::C | P::X0 | P::Y0 | P::F | P::Fx | P::Fy | P::Cx | P::Cy => length.into(),
         P::K1 if brown => format!("{length}^-2"),
@@ -19,8 +19,5 @@ pub fn parameter_unit(camera: &Camera, parameter: Parameter) -> String {
 
 /// Unit of photo coordinates.
 pub fn photo_unit(camera: &Camera) -> &'static str {
-    match camera.interior {
-        Interior::Brown { .. } if camera.pixel_pitch.is_some() => "mm",
-        _ => "px",
-    }
+    if camera.interior.model().in_photo_units && camera.pixel_pitch.is_some() { "mm" } else { "px" }
 }

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::*;
 use crate::adjustment::{AdjustedPhoto, AdjustedPoint};
 use crate::initial::robust::{generator, uniform};
-use crate::project::{Camera, Datum, Distance, Interior, Point};
+use crate::project::{Camera, Datum, Distance, Interior, Observation, Photo, Point, Sigma};
 use crate::rotation::object_to_camera;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -261,4 +261,79 @@ fn parameters_are_compared_by_the_larger_standard_error() {
     assert!((of(Parameter::C).ratio.unwrap() - 5.0).abs() < 1e-9);
     // It was held both times, at two values.
     assert_eq!((of(Parameter::X0).sigma, of(Parameter::X0).ratio, found.len()), (None, None, 3));
+}
+
+/// A project with an observation in one photo of this file.
+fn photographed(project: &Project, sha256: &str) -> Project {
+    let photo =
+        Photo { id: "a".into(), file: "a.jpg".into(), sha256: sha256.into(), enabled: true, ..Photo::default() };
+    let observation = Observation {
+        photo: "a".into(),
+        point: "0".into(),
+        u: 1.0,
+        v: 1.0,
+        sigma: Sigma::One(0.1),
+        enabled: true,
+        target: None,
+    };
+    Project { photos: vec![photo], observations: vec![observation], ..project.clone() }
+}
+
+#[test]
+fn unmoved_points_of_independent_results_exceed_the_limit_at_its_own_rate() {
+    let (project, adjustment) = network(DatumKind::Control, 5);
+    let (before, after) = (photographed(&project, "aa"), photographed(&project, "bb"));
+    let limit = adjustment.criteria.w;
+    let alpha = Fisher::new(1, None).tails(limit * limit)[1];
+    let mut random = generator(8);
+    let mut normal = move || {
+        let (u, v) = (uniform(&mut random), uniform(&mut random));
+        (-2.0 * (1.0 - u).ln()).sqrt() * (std::f64::consts::TAU * v).cos()
+    };
+    let (mut beyond, mut by_axis, mut count) = (0, 0, 0);
+    for _ in 0..1000 {
+        let mut both = [adjustment.clone(), adjustment.clone()];
+        for found in &mut both {
+            for point in &mut found.points {
+                let a = Matrix3::from_fn(|i, j| if i >= j { SIGMA * (0.3 + normal().abs()) } else { 0.0 });
+                let c = a * a.transpose();
+                let e = a * Vector3::from_fn(|_, _| normal());
+                point.xyz = std::array::from_fn(|k| point.xyz[k] + e[k]);
+                point.sigma = Some(std::array::from_fn(|k| c[(k, k)].sqrt()));
+                point.covariance = Some([c[(0, 0)], c[(0, 1)], c[(0, 2)], c[(1, 1)], c[(1, 2)], c[(2, 2)]]);
+            }
+        }
+        let found = compare((&before, &both[0]), (&after, &both[1]));
+        assert!(found.independent && found.alignment == Alignment::Same);
+        beyond += found.beyond;
+        count += found.points.len();
+        let shared = compare((&before, &both[0]), (&before, &both[1]));
+        assert!(!shared.independent && shared.points.iter().all(|m| m.statistic.is_none()));
+        by_axis += shared.beyond;
+    }
+    // Four standard deviations of the binomial distribution.
+    let (expected, spread) = (alpha * count as f64, (alpha * count as f64).sqrt());
+    assert!((beyond as f64 - expected).abs() < 4.0 * spread, "{beyond} of {count}, expected {expected}");
+    // What the larger standard error of each axis says of such points.
+    assert!(by_axis as f64 > 5.0 * expected, "{by_axis}");
+}
+
+#[test]
+fn what_is_shared_is_no_independent_result() {
+    let (project, adjustment) = network(DatumKind::Free, 5);
+    let independent = |a: &Project, b: &Project| compare((a, &adjustment), (b, &adjustment)).independent;
+    let (one, other) = (photographed(&project, "aa"), photographed(&project, "bb"));
+    assert!(independent(&one, &other) && !independent(&one, &one));
+    // Without a digest the name decides; without observations nothing is known.
+    assert!(!independent(&photographed(&project, ""), &other) && !independent(&project, &other));
+    let bar = Distance { from: "0".into(), to: "1".into(), length: 1.0, sigma: 0.1, check: false };
+    let with = |p: &Project, length: f64| Project { distances: vec![Distance { length, ..bar.clone() }], ..p.clone() };
+    assert!(!independent(&with(&one, 1.0), &with(&other, 1.0)) && independent(&with(&one, 1.0), &with(&other, 1.1)));
+    let weighted = |p: &Project| {
+        let mut p = p.clone();
+        p.datum.kind = DatumKind::Control;
+        p.points[0] = Point { role: Role::Control, sigma: Some([Some(0.1); 3]), ..p.points[0].clone() };
+        p
+    };
+    assert!(!independent(&weighted(&one), &weighted(&other)));
 }

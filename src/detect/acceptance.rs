@@ -358,6 +358,20 @@ pub(crate) mod levels {
     }
 }
 
+/// Light that changes across a target.
+pub(crate) mod light {
+    use super::Source;
+
+    table! {
+        /// Standard deviation of the light's change from pixel to pixel, as a share of it.
+        STEEPEST: f64 = 0.02, Judged "a tenth across a target of 5 px: more is a shadow's edge";
+        /// Least semi-minor axis in pixels, and redundancy, of the part of a disc that shows the light inside.
+        CORE: [f64; 2] = [1.5, 6.0], Judged "fewer pixels know less of it than the background";
+        /// Variance of a slope, in square grey levels a pixel, that no picture is free of.
+        FLOOR: f64 = 1e-8, Judged "a thousandth of a level across a target: drawings without noise have no variance";
+    }
+}
+
 /// The fit of a rendered ellipse.
 pub(crate) mod fit {
     use super::Source;

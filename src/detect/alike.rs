@@ -224,6 +224,8 @@ impl<T: Sample> Measure<'_, T> {
                 outline,
                 half_band: BAND * alike.blur[0] + 1.0,
                 surround: &around,
+                light: [0.0; 2],
+                multiplies: true,
                 kept: &kept,
                 whole: true,
                 strip: None,

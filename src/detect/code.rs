@@ -39,6 +39,9 @@ pub(super) enum Reading {
     Code { number: u32, margin: f64 },
     /// A ring that may be one of these codes, and why it is not safely read.
     Doubtful { numbers: Vec<u32>, margin: f64, note: CodeNote },
+    /// A ring all of whose arcs end on a coarser grid: one of fewer sectors, or by chance a code of this family, of this number if it has
+    /// one.
+    Coarse { number: Option<u32>, margin: f64 },
     /// A ring, and why it is no code.
     NoCode { margin: f64, note: CodeNote },
 }

@@ -3,6 +3,7 @@
 
 pub(crate) mod blur;
 pub(crate) mod edge;
+pub(crate) mod lit;
 pub(crate) mod look;
 pub(crate) mod propagation;
 pub(crate) mod quality;

@@ -9,7 +9,8 @@ use super::acceptance::outline::GAP_MINOR;
 use super::acceptance::size::FIT_SMALL;
 use super::centroid::{self, Centre};
 use super::edges::blur::{self, BLURRED, DEFOCUSED, SHARP};
-use super::edges::edge::{self, Edges};
+use super::edges::edge::{self, Edges, Profile};
+use super::edges::lit::Light;
 use super::edges::look;
 use super::edges::propagation;
 use super::edges::quality;
@@ -170,8 +171,14 @@ impl<'a, T: Sample> Measure<'a, T> {
                 (fit_rms, occluded) = (fit.rms, fit.occluded);
                 Centre { u: outline.u, v: outline.v, covariance }
             }
-            Method::Intensity => centroid::intensity(&self.plane, &outline, &surround, margin).ok_or(Reason::NoFit)?,
-            Method::Gradient => centroid::gradient(&self.plane, &outline, &surround, margin).ok_or(Reason::NoFit)?,
+            Method::Intensity => {
+                let light = self.light(found, &surround);
+                centroid::intensity(&self.plane, &outline, &surround, &light, margin).ok_or(Reason::NoFit)?
+            }
+            Method::Gradient => {
+                let light = self.light(found, &surround);
+                centroid::gradient(&self.plane, &outline, &surround, &light, margin).ok_or(Reason::NoFit)?
+            }
         };
         let (a, b, angle) = outline.axes();
         let [uu, uv, vv] = centre.covariance;
@@ -206,11 +213,18 @@ impl<'a, T: Sample> Measure<'a, T> {
         })
     }
 
+    /// How the light changes across a disc.
+    fn light(&self, found: &Found, surround: &Surround) -> Light {
+        let whole = found.kept.iter().all(|kept| *kept);
+        Light::of(&self.plane, &found.ellipse.outline, surround, found.blur, whole, self.levels.saturation)
+    }
+
     /// The ellipse through edges refined with the target's own levels and blur, and the covariance of its centre: the
     /// propagated noise, and as much more as the edges scatter more than it explains.
     fn refined_ellipse(&mut self, found: &Found, surround: &Surround) -> Result<(EllipseFit, [f64; 3]), Reason> {
         let outline = found.ellipse.outline;
-        let profile = blur::profile(&outline, surround, found.strength, found.blur);
+        let light = self.light(found, surround);
+        let profile = Profile { light: light.slope, ..blur::profile(&outline, surround, found.strength, found.blur) };
         let count = (outline.perimeter() / 4.0).round() as usize * 4;
         edge::refine(&self.plane, &outline, &profile, count.clamp(20, 1500), &mut self.edges);
         let fit = through::fit(&mut self.edges, &outline, Start::Near(CONVERGED)).ok_or(Reason::NoFit)?;
@@ -218,7 +232,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         let influence = propagation::influence(&outline, &profile, &self.edges, &fit.outline, &cofactors);
         let noise = surround.noise.powi(2).max(1.0 / 12.0);
         let variance = noise.max(fit.rms * fit.rms / influence.edge.max(1e-12));
-        let slope = surround.carried(influence.slope);
+        let slope = light.carried(influence.slope, influence.light);
         Ok((fit, std::array::from_fn(|i| variance * influence.noise[i] + slope[i])))
     }
 
@@ -232,11 +246,10 @@ impl<'a, T: Sample> Measure<'a, T> {
     /// Which pixels count depends on the outline around which they are chosen. An approach from the edges finds
     /// the outline; the fit takes its pixels around that outline, so that the way to it leaves no trace in the result.
     fn least_squares(&mut self, found: &Found) -> Result<(fit::Fit, Surround), Reason> {
-        let measured = self.fitted(found, f64::INFINITY);
-        match (measured, self.crowded(found, &measured)) {
-            (Err(_), Some(outer)) => self.fitted(found, outer).or(measured),
-            _ => measured,
-        }
+        let measured = self.fitted(found, f64::INFINITY, true);
+        let Some(outer) = self.crowded(found, &measured) else { return measured };
+        let ways = [(outer, true), (f64::INFINITY, false), (outer, false)];
+        ways.into_iter().find_map(|(outer, multiplies)| self.fitted(found, outer, multiplies).ok()).map_or(measured, Ok)
     }
 
     /// Distance from the rim, in pixels, up to which a whole outline without a fit has ground of its own, where others stand near by.
@@ -252,14 +265,16 @@ impl<'a, T: Sample> Measure<'a, T> {
         (outer > limits::NARROW && outer < half_band(found.blur).min(b)).then_some(outer)
     }
 
-    /// The fit with ground up to `outer` pixels from the rim.
-    fn fitted(&mut self, found: &Found, outer: f64) -> Result<(fit::Fit, Surround), Reason> {
+    /// The fit with ground up to `outer` pixels from the rim, in light that multiplies or adds.
+    fn fitted(&mut self, found: &Found, outer: f64, multiplies: bool) -> Result<(fit::Fit, Surround), Reason> {
         let surround = Surround { outer: outer.min(found.surround.outer), ..found.surround };
         let whole = found.kept.iter().all(|kept| *kept);
         let region = Region {
             outline: found.ellipse.outline,
             half_band: half_band(found.blur),
             surround: &surround,
+            light: [0.0; 2],
+            multiplies,
             kept: &found.kept,
             whole,
             strip: strip(&found.ellipse.outline, &found.kept, found.blur),
@@ -270,13 +285,14 @@ impl<'a, T: Sample> Measure<'a, T> {
             prior: self.prior,
         };
         let (plane, work) = (&self.plane, &mut self.work);
-        let (outline, blur, contrast) = fit::approach(plane, &region, found.blur, ROUGH, work).ok_or(Reason::NoFit)?;
+        let (outline, blur, lit) = fit::approach(plane, &region, found.blur, ROUGH, work).ok_or(Reason::NoFit)?;
         let all = vec![true; edge::ray_count(&outline)];
         let kept = if whole { &all } else { &found.kept };
         let mut surround = self.surround(&outline, blur, kept)?;
-        (surround.contrast, surround.outer) = (contrast, outer.min(surround.outer));
+        (surround.contrast, surround.outer) = (lit.contrast, outer.min(surround.outer));
         let strip = strip(&outline, kept, blur);
-        let last = Region { outline, half_band: half_band(blur), surround: &surround, kept, strip, ..region };
+        let light = lit.light();
+        let last = Region { outline, half_band: half_band(blur), surround: &surround, light, kept, strip, ..region };
         let mut fit = fit::fit(&self.plane, &last, blur, CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
         let b = fit.outline.semi_axes().1;
         let gap = b - 2.0 * fit.blur;

@@ -75,6 +75,7 @@ pub(super) fn pass<T: Sample>(
     }
     let mut measure = Measure::new(plane, levels, options);
     measure.work.coloured = coloured;
+    measure.work.mean = soft.map_or(0.0, |soft| soft.blur);
     let mut colours = Vec::new();
     let mut doubtful: Vec<Outline> = Vec::new();
     let mut covered: Vec<Candidate> = Vec::new();

@@ -16,10 +16,12 @@ pub(crate) mod band;
 pub(crate) mod colour;
 pub(crate) mod fit;
 mod flats;
+pub(crate) mod lit;
 pub(crate) mod neighbours;
 mod scatter;
 mod sketch;
 pub(crate) mod strip;
+mod taken;
 
 use wide::f32x4;
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::adjustment::AdjustedCamera;
 use crate::error::Result;
 use crate::exif::PhotoInfo;
-use crate::project::{Camera, ColourDifferences, Interior, LensColour, Parameter, Project};
+use crate::project::{Camera, ColourDifferences, Interior, LensColour, Origin, Parameter, Project};
 
 /// Focal lengths that differ by less, as a share, are one setting of a lens: EXIF rounds them.
 const SAME_FOCAL_LENGTH: f64 = 0.005;
@@ -55,6 +55,9 @@ pub struct Calibration {
     /// Whatever there is to say of it.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub remark: String,
+    /// The file of another program that it was read from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub origin: Option<Box<Origin>>,
 }
 
 /// What a calibration is in a project.
@@ -88,6 +91,7 @@ impl KnownCamera {
                 sigma,
                 colours: camera.colours.clone(),
                 remark: String::new(),
+                origin: None,
             }],
         }
     }

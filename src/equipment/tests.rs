@@ -24,6 +24,7 @@ fn calibration(date: &str, c: f64) -> Calibration {
         sigma: [(Parameter::C, 0.002), (Parameter::K1, 3e-7)].into(),
         colours: Default::default(),
         remark: String::new(),
+        origin: None,
     }
 }
 

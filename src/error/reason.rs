@@ -73,6 +73,19 @@ reasons! {
     CommonDiameter { value: Number } => "target_diameter is {value}; a finite number above 0 is expected";
     DiameterBeyondPoints { value: Number, extent: Number } => "target_diameter is {value}, but all points lie within {extent}; give it in their unit";
 
+    // Calibrations judged
+    CalibrationGrid => "a grid has between 2 and 1000 places along each side";
+    CalibrationDistance => "a distance is a finite number above 0, in the unit of the project";
+    TranslationWithoutDistance => "a translation moves no direction: give a distance, or take out the rotation alone";
+    PhotosOfNoAdjustment => "two cameras by themselves have no photos: take out a rotation, rotation and translation, or nothing";
+    NoCameraCovariance => "the adjustment has no standard errors of this camera's parameters: estimate some of them, with statistics";
+    RegionWithoutRays => "the camera has too few rays in the region that a motion is fitted over: take the whole image";
+    CamerasOfTwoSizes => "the two cameras have images of different sizes";
+    CamerasApart => "no rotation brings the two cameras together: they are not calibrations of one lens";
+    EquationsOfAnother => "the equations of this document do not give the standard errors of this adjustment: adjust it as it stands, without robust weights and variance components of several groups";
+    CameraOfSeveral => "there are several cameras: name one";
+    PhotoOfCamera => "this camera has an interior orientation per photo: name a photo";
+
     // Epochs compared
     EpochsCount { given: usize, limit: usize } => "epochs given: {given}; from 2 to {limit} are compared";
     EpochSource { name: String } => "epoch \"{name}\" needs either a project or a list of points, and not both";
@@ -127,6 +140,9 @@ reasons! {
     HeadingIncomplete { name: String } => "the heading names no column {name}: name the columns id, X, Y and Z (or N, E, H)";
     HeadingTwice { name: String } => "the heading names two columns {name}";
     UnitOfCoordinates => "the heading gives the standard errors a unit and the coordinates none: choose the unit of the coordinates";
+    GeographicHeading => "the heading names latitude and longitude: project the points into a plane system first (TM, UTM), since the adjustment is in space";
+    GeographicAngle { name: String, text: String } => "{name} is an angle: \"{text}\"; project the points into a plane system first (TM, UTM), since the adjustment is in space";
+    ListColumns { needed: usize, columns: usize } => "a row of this list has at least {needed} columns and this one has {columns}";
     TooLarge { name: String, text: String } => "{name} is beyond all measure: \"{text}\"";
     Scaled { value: Number, factor: Number } => "{value} times {factor} is beyond what a document holds; nothing was converted";
     ControlColumns { columns: usize } => "a control point needs four columns (id, X, Y, Z) and the table has {columns}";
@@ -343,6 +359,7 @@ words! {
         FiducialMarks = "fiducial marks" => "fiducial marks";
         Readings = "readings" => "readings";
         Files = "files" => "files";
+        Cameras = "cameras" => "cameras";
         Adjustment = "adjustment" => "result of an adjustment";
     }
 }

@@ -24,6 +24,7 @@ use crate::project::Camera;
 /// The model; cx, cy are values of our frame here.
 pub static METASHAPE: Shape = Shape {
     name: "Metashape frame",
+    equidistant: false,
     parameters: &[
         ("f", &[FY, FX]),
         ("cx", &[CX]),
@@ -131,8 +132,18 @@ pub fn covariance(element: &Element) -> Result<Option<Covariance>> {
 }
 
 /// Elements of a calibration, each in a line that is indented.
-pub fn elements(out: &Outgoing, camera: &Camera, indent: &str) -> String {
+///
+/// # Errors
+/// [`Error::Invalid`] where f and b1 do not hold the principal distance in x: beside f = fy it is too small for b1 = fx - fy.
+pub fn elements(out: &Outgoing, camera: &Camera, indent: &str) -> Result<String> {
     let mut text = String::new();
+    let [f, b1] = ["f", "b1"].map(|wanted| {
+        let mut named = METASHAPE.parameters.iter().zip(&out.values);
+        named.find(|((name, _), _)| *name == wanted).map_or(0.0, |(_, value)| *value)
+    });
+    if !(f > 0.0 && f + b1 > 0.0) {
+        return Err(wrong("fx", "a principal distance of the size of fy", &(f + b1).to_string()));
+    }
     for ((name, _), value) in METASHAPE.parameters.iter().zip(&out.values) {
         let value = match *name {
             "cx" => value - f64::from(camera.width) / 2.0,
@@ -144,7 +155,7 @@ pub fn elements(out: &Outgoing, camera: &Camera, indent: &str) -> String {
             let _ = writeln!(text, "{indent}<{name}>{value:?}</{name}>");
         }
     }
-    text
+    Ok(text)
 }
 
 /// The camera as a calibration.
@@ -157,7 +168,7 @@ pub fn write(camera: &Camera, options: &CameraOptions) -> Result<ExportedCamera>
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<calibration>\n  <projection>frame</projection>\n  <width>{}</width>\n  <height>{}</height>\n{}</calibration>\n",
         camera.width,
         camera.height,
-        elements(&out, camera, "  ")
+        elements(&out, camera, "  ")?
     );
     let mut files = Files::from([("camera.xml".to_owned(), text.into_bytes())]);
     if let Some(covariance) = &out.covariance {

@@ -23,7 +23,8 @@ use crate::error::{Error, Place, Reason, Result, shortened};
 use crate::project::{Camera, Point};
 
 /// The model; the principal point is the origin.
-pub static SNAVELY: Shape = Shape { name: "f k1 k2", parameters: &[("f", &[FX, FY]), ("k1", &[K1]), ("k2", &[K2])] };
+pub static SNAVELY: Shape =
+    Shape { name: "f k1 k2", parameters: &[("f", &[FX, FY]), ("k1", &[K1]), ("k2", &[K2])], equidistant: false };
 
 /// Numbers of a text with the lines they stand in.
 pub struct Words<'a> {

@@ -9,8 +9,9 @@ use super::{
     Files, Format, agisoft_lens, bal, bundler, colmap, dbat, encoding, kalibr, meshroom, metashape, micmac, mrcal,
     opencv, ros,
 };
+use crate::equipment::{Calibration, KnownCamera};
 use crate::error::{Error, Lack, Place, Reason, Result, Thing};
-use crate::project::Camera;
+use crate::project::{Camera, Origin};
 
 /// Formats of cameras.
 pub const FORMATS: [Format; 9] = [
@@ -42,6 +43,43 @@ impl ImportedCameras {
     /// Conversions of the cameras.
     pub fn conversions(&self) -> impl Iterator<Item = &Conversion> {
         self.cameras.iter().filter_map(|camera| camera.conversion.as_ref())
+    }
+}
+
+/// A camera that was read, as equipment: known by its name and grid, with the standard errors that its file states.
+pub fn known(imported: &ImportedCamera, origin: &Origin, date: &str) -> KnownCamera {
+    let camera = &imported.camera;
+    let named = |name: &str| camera.interior.parameters().iter().copied().find(|parameter| parameter.name() == name);
+    let covariance = imported.covariance.as_ref();
+    let sigma = covariance.into_iter().flat_map(|covariance| {
+        let diagonal = covariance.matrix.iter().enumerate().map(|(k, row)| row.get(k).copied().unwrap_or(0.0).sqrt());
+        covariance.parameters.iter().zip(diagonal).filter_map(|(name, sigma)| Some((named(name)?, sigma)))
+    });
+    let conversions = imported.conversion.iter().cloned().collect();
+    // A file that names no camera: two of them are two cameras, not calibrations of one.
+    let id = match &origin.files[..] {
+        [file] if camera.id == "camera" => {
+            let file = file.rsplit(['/', '\\']).next().unwrap_or_default();
+            file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned()
+        }
+        _ => camera.id.clone(),
+    };
+    KnownCamera {
+        id,
+        make: None,
+        model: None,
+        focal_length_mm: None,
+        width: camera.width,
+        height: camera.height,
+        calibrations: vec![Calibration {
+            date: date.to_owned(),
+            pixel_pitch: camera.pixel_pitch,
+            interior: camera.interior,
+            sigma: sigma.filter(|(_, sigma)| *sigma > 0.0 && sigma.is_finite()).collect(),
+            colours: camera.colours.clone(),
+            remark: String::new(),
+            origin: Some(Box::new(Origin { conversions, ..origin.clone() })),
+        }],
     }
 }
 

@@ -5,9 +5,9 @@
 //! | pixel origin | the centre of the first pixel is (0.5, 0.5): ours |
 //! | axes | camera: x right, y down, z forwards; a = X/Z, b = Y/Z |
 //! | rotation | quaternion w x y z and translation t, object to camera: x_camera = R X + t |
-//! | distortion | ideal to image; SIMPLE_RADIAL k, RADIAL k1 k2, OPENCV k1 k2 p1 p2, FULL_OPENCV with k3 and the denominator k4 k5 k6 as OpenCV |
+//! | distortion | ideal to image; SIMPLE_RADIAL k, RADIAL k1 k2, OPENCV k1 k2 p1 p2, FULL_OPENCV with k3 and the denominator k4 k5 k6 as OpenCV, OPENCV_FISHEYE k1 k2 k3 k4 of the angle off the axis |
 //!
-//! Source: COLMAP's documentation, "Output Format", and `src/colmap/sensor/models.h`. Fisheye, FOV, division, EUCM and thin prism models are refused
+//! Source: COLMAP's documentation, "Output Format", and `src/colmap/sensor/models.h`. Other fisheye, FOV, division, EUCM and thin prism models are refused
 //! by name. Colours and errors of points, rigs and frames are not kept; a keypoint that is of no point is none of ours.
 
 mod binary;
@@ -16,7 +16,7 @@ mod text;
 use std::collections::BTreeMap;
 
 use super::foreign::{self, CameraOptions, ExportedCamera, ForeignCamera, Notes};
-use super::lens::{Lens, Shape, TERMS, term::*};
+use super::lens::{Lens, Shape, term::*};
 use super::network::{self, ForeignNetwork, OutgoingNetwork};
 use super::{Files, encoding};
 use crate::error::{Error, Place, Reason, Result, Thing};
@@ -38,25 +38,37 @@ const FULL: &[(&str, &[usize])] = &[
 ];
 const RADIAL: &[(&str, &[usize])] = &[("f", &[FX, FY]), ("cx", &[CX]), ("cy", &[CY]), ("k1", &[K1]), ("k2", &[K2])];
 
-/// Perspective models with their numbers in binary files.
-const MODELS: [(i32, Shape); 6] = [
-    (0, Shape { name: "SIMPLE_PINHOLE", parameters: RADIAL.split_at(3).0 }),
-    (1, Shape { name: "PINHOLE", parameters: FULL.split_at(4).0 }),
-    (2, Shape { name: "SIMPLE_RADIAL", parameters: RADIAL.split_at(4).0 }),
-    (3, Shape { name: "RADIAL", parameters: RADIAL }),
-    (4, Shape { name: "OPENCV", parameters: FULL.split_at(8).0 }),
-    (6, Shape { name: "FULL_OPENCV", parameters: FULL }),
+const FISHEYE: &[(&str, &[usize])] = &[
+    ("fx", &[FX]),
+    ("fy", &[FY]),
+    ("cx", &[CX]),
+    ("cy", &[CY]),
+    ("k1", &[K1]),
+    ("k2", &[K2]),
+    ("k3", &[K3]),
+    ("k4", &[K4]),
+];
+
+/// Models with their numbers in binary files.
+const MODELS: [(i32, Shape); 7] = [
+    (0, Shape { name: "SIMPLE_PINHOLE", parameters: RADIAL.split_at(3).0, equidistant: false }),
+    (1, Shape { name: "PINHOLE", parameters: FULL.split_at(4).0, equidistant: false }),
+    (2, Shape { name: "SIMPLE_RADIAL", parameters: RADIAL.split_at(4).0, equidistant: false }),
+    (3, Shape { name: "RADIAL", parameters: RADIAL, equidistant: false }),
+    (4, Shape { name: "OPENCV", parameters: FULL.split_at(8).0, equidistant: false }),
+    (6, Shape { name: "FULL_OPENCV", parameters: FULL, equidistant: false }),
+    (5, Shape { name: "OPENCV_FISHEYE", parameters: FISHEYE, equidistant: true }),
 ];
 /// Those that are written: the first that is enough.
-static WRITTEN: [&Shape; 3] = [&PINHOLE, &OPENCV, &FULL_OPENCV];
+static WRITTEN: [&Shape; 4] = [&PINHOLE, &OPENCV, &FULL_OPENCV, &OPENCV_FISHEYE];
 static PINHOLE: Shape = MODELS[1].1;
 static OPENCV: Shape = MODELS[4].1;
 static FULL_OPENCV: Shape = MODELS[5].1;
-static ALL: [(i32, Shape); 6] = MODELS;
+static OPENCV_FISHEYE: Shape = MODELS[6].1;
+static ALL: [(i32, Shape); 7] = MODELS;
 
 /// Other models by their numbers, to be named.
-const OTHERS: [(i32, &str); 12] = [
-    (5, "OPENCV_FISHEYE"),
+const OTHERS: [(i32, &str); 11] = [
     (7, "FOV"),
     (8, "SIMPLE_RADIAL_FISHEYE"),
     (9, "RADIAL_FISHEYE"),
@@ -96,7 +108,7 @@ struct Model {
 }
 
 /// The part of a model that a file is, by its name.
-fn part(name: &str) -> Option<(&'static str, bool)> {
+pub(super) fn part(name: &str) -> Option<(&'static str, bool)> {
     let bare = name.rsplit(['/', '\\']).next().unwrap_or_default();
     let (stem, ending) = bare.rsplit_once('.')?;
     let binary = match ending.to_ascii_lowercase().as_str() {
@@ -239,7 +251,7 @@ pub fn write_camera(camera: &Camera, options: &CameraOptions) -> Result<Exported
 }
 
 /// Models that are written.
-pub const WRITES: network::Models<'static> = (&WRITTEN, |_| Lens { terms: [0.0; TERMS] });
+pub const WRITES: network::Models<'static> = (&WRITTEN, |_| Lens::default());
 
 /// A whole model, as text or binary.
 ///

@@ -12,17 +12,20 @@
 mod assumptions;
 mod columns;
 mod decimals;
+mod given;
 mod heading;
 mod separators;
+mod sigma;
 
 use std::collections::HashMap;
 use std::fmt::Write;
 
-pub use assumptions::{Assumption, Axes, Basis, Choices, Decimal, Separator};
+pub use assumptions::{Assumption, Axes, Basis, Beside, Choices, Decimal, ListFormat, Separator};
 pub use columns::Field;
 use columns::{Columns, Fault};
 pub use decimals::{Sign, readings as decimal_readings, sign_of, without_thousands};
 use separators::{separates_both_ways, separator_of, table};
+pub use sigma::SigmaRule;
 
 use super::text::{self, Row};
 use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
@@ -49,7 +52,14 @@ pub struct ControlTable {
     pub unit: Option<Unit>,
     /// How the table was read.
     pub assumptions: Vec<Assumption>,
+    /// Words of the heading, column by column; empty without one.
+    pub heading: Vec<String>,
+    /// Fields of the first rows as the text has them.
+    pub sample: Vec<Vec<String>>,
 }
+
+/// Rows in [`ControlTable::sample`].
+const SAMPLE: usize = 5;
 
 impl ControlTable {
     /// The good points, and what is wrong with the others.
@@ -80,6 +90,24 @@ impl ControlTable {
         self.assumptions.iter().any(|a| matches!(a, Assumption::Columns { by: Basis::Heading, .. }))
     }
 
+    /// Gives one standard error to the points that have none of their own.
+    pub(super) fn give_sigma(&mut self, rule: Option<SigmaRule>) {
+        let Some(rule) = rule else { return };
+        let mut points: Vec<Point> = self.rows.iter().flatten().map(|row| row.point.clone()).collect();
+        let without = points.iter().filter(|point| point.sigma.is_none()).count();
+        let by = if rule.apply(&mut points, self.unit).is_ok() { Basis::Given } else { Basis::Undecided };
+        self.rows.iter_mut().flatten().zip(points).for_each(|(row, point)| row.point = point);
+        self.assumptions.push(Assumption::CommonSigma { rule, points: without, by });
+    }
+
+    /// What each column holds, where the table could be read.
+    pub fn columns(&self) -> Option<&[Option<Field>]> {
+        self.assumptions.iter().find_map(|assumption| match assumption {
+            Assumption::Columns { columns, .. } => Some(columns.as_slice()),
+            _ => None,
+        })
+    }
+
     /// What has to be asked before the points are used.
     pub fn undecided(&self) -> impl Iterator<Item = &Assumption> {
         self.assumptions.iter().filter(|assumption| assumption.by() == Basis::Undecided)
@@ -97,6 +125,8 @@ impl ControlTable {
                     | Reason::HeadingTwice { .. }
                     | Reason::HeadingIncomplete { .. }
                     | Reason::UnitOfCoordinates
+                    | Reason::GeographicHeading
+                    | Reason::GeographicAngle { .. }
                     | Reason::NoneOf { .. }
             )
         };
@@ -111,24 +141,33 @@ pub fn parse(text: &str) -> ControlTable {
 
 /// The same with what the caller knows and the table does not say.
 pub fn parse_with(text: &str, choices: Choices) -> ControlTable {
-    let separator = separator_of(text);
+    let separator = choices.separator.unwrap_or_else(|| separator_of(text));
     let lines = table(text, separator);
-    let Some(first) = lines.first() else { return ControlTable::default() };
-    let named = heading::heading(&first.fields);
-    let (heading, rows) = match &named {
-        Some(_) => (named, &lines[1..]),
-        None => (commented_heading(text, separator, &lines), &lines[..]),
+    let Some(Begun { heading, words, rows, first_row, before }) = begun(text, separator, &lines, &choices) else {
+        return ControlTable::default();
     };
-    let has_heading = heading.is_some();
+    let has_heading = words.is_some();
+    let chosen = choices.columns.as_deref();
     let fields: Vec<&[String]> = rows.iter().map(|row| row.fields.as_slice()).collect();
-    let mut columns = match heading.unwrap_or_else(|| columns::guessed(&fields, choices.axes)) {
+    let widest = fields.iter().map(|row| row.len()).max().unwrap_or(0);
+    let sample = fields.iter().take(SAMPLE).map(|row| row.to_vec()).collect();
+    let named = heading.is_some();
+    let columns = match chosen {
+        Some(chosen) => given::given(chosen, words.as_deref(), widest),
+        None => heading.unwrap_or_else(|| columns::guessed(&fields, choices.axes)),
+    };
+    let heading = words.unwrap_or_default();
+    let by = if choices.separator.is_some() { Basis::Given } else { Basis::Content };
+    let mut assumptions = vec![Assumption::Separator { separator, by }];
+    let mut columns = match columns {
         Ok(columns) => columns,
         Err(fault) => {
             let line = |row: &Row| Err(placed(row.line, fault.clone()));
-            return ControlTable { rows: rows.iter().map(line).collect(), ..ControlTable::default() };
+            let rows = rows.iter().map(line).collect();
+            return ControlTable { rows, assumptions, heading, sample, ..ControlTable::default() };
         }
     };
-    if !has_heading && choices.axes.is_none() && has_strange_heading(&fields, &columns) {
+    if chosen.is_none() && !named && choices.axes.is_none() && (has_heading || has_strange_heading(&fields, &columns)) {
         columns.order.1 = Basis::Undecided;
     }
     let numbers = || {
@@ -136,8 +175,10 @@ pub fn parse_with(text: &str, choices: Choices) -> ControlTable {
         fields.iter().flat_map(move |row| (0..row.len()).filter(number).map(|k| row[k].as_str()))
     };
     let (decimal, by, example) = decimals::decide(numbers(), choices.decimal);
-    let scales = scales(&columns, choices.unit);
-    let both_ways = separates_both_ways(separator, &fields, has_heading, &columns);
+    let scales = scales(&columns, choices.unit, choices.sigma_unit);
+    // Someone who names separator and columns has said what separates.
+    let told = choices.separator.is_some() && chosen.is_some();
+    let both_ways = !told && separates_both_ways(separator, &fields, has_heading, &columns);
     let reader = Reader { columns: &columns, decimal, decimal_by: by, scales: &scales };
     let mut seen = HashMap::new();
     let read = |line: &Row| {
@@ -156,30 +197,96 @@ pub fn parse_with(text: &str, choices: Choices) -> ControlTable {
         }
     };
     let rows = rows.iter().map(read).collect();
-    let unit = unit_of(&columns);
-    let mut assumptions = vec![
-        Assumption::Separator { separator, by: Basis::Content },
+    assumptions.extend([
         Assumption::DecimalSign { sign: decimal, by, example },
         Assumption::Columns { columns: columns.fields.clone(), by: columns.by },
         Assumption::AxisOrder { order: columns.order.0, by: columns.order.1 },
-    ];
+    ]);
     let sigmas = columns.sigmas();
     if !sigmas.is_empty() {
         assumptions.push(Assumption::SigmaColumns { columns: sigmas, by: columns.by });
     }
-    let (unit, by) = match (unit, choices.unit) {
+    let (unit, by) = match (unit_of(&columns), choices.unit) {
         (Some(unit), _) => (Some(unit), Basis::Heading),
         (None, Some(unit)) => (Some(unit), Basis::Given),
         (None, None) => (None, Basis::Convention),
     };
     assumptions.push(Assumption::Unit { unit, by });
+    assumptions.extend(first_row);
+    if before > 0 {
+        assumptions.push(Assumption::Beside { what: Beside::LinesBefore, count: before });
+    }
     if !columns.ignored.is_empty() {
         assumptions.push(Assumption::Ignored { columns: columns.ignored.clone() });
     }
     if !columns.remarks.is_empty() {
         assumptions.push(Assumption::Remarks { headings: columns.remarks.clone() });
     }
-    ControlTable { rows, unit, assumptions }
+    let mut table = ControlTable { rows, unit, assumptions, heading, sample };
+    table.give_sigma(choices.sigma);
+    table
+}
+
+/// Where the rows of points begin, and what names their columns.
+struct Begun<'a> {
+    heading: Option<std::result::Result<Columns, Fault>>,
+    /// The fields of the heading, also of one whose words are not known.
+    words: Option<Vec<String>>,
+    rows: &'a [Row],
+    first_row: Option<Assumption>,
+    /// Rows before the heading.
+    before: usize,
+}
+
+/// Rows before a heading that are looked through: titles of surveyors' lists are a few lines.
+const TITLES: usize = 10;
+
+fn begun<'a>(text: &str, separator: Separator, lines: &'a [Row], choices: &Choices) -> Option<Begun<'a>> {
+    let first = lines.first()?;
+    let none = Begun { heading: None, words: None, rows: lines, first_row: None, before: 0 };
+    if let Some(line) = choices.first_line {
+        let start = lines.iter().position(|row| row.line >= line).unwrap_or(lines.len());
+        let heading = start.checked_sub(1).map(|k| &lines[k]);
+        let named = heading.and_then(|row| heading::heading(&row.fields));
+        let words = heading.map(|row| row.fields.clone());
+        let begun = Begun {
+            rows: &lines[start..],
+            before: start.saturating_sub(1),
+            first_row: Some(Assumption::FirstRow { line, by: Basis::Given }),
+            ..none
+        };
+        return Some(match named {
+            Some(named) => Begun { heading: Some(named), words, ..begun },
+            None => {
+                let (named, commented) = commented_heading(text, separator, begun.rows).unzip();
+                Begun { heading: named, words: commented.or(words), ..begun }
+            }
+        });
+    }
+    let all: Vec<&[String]> = lines.iter().map(|row| row.fields.as_slice()).collect();
+    let strange = choices.columns.as_deref().is_some_and(|chosen| given::begins_with_words(&all, chosen));
+    if let Some(named) = heading::heading(&first.fields) {
+        return Some(Begun { heading: Some(named), words: Some(first.fields.clone()), rows: &lines[1..], ..none });
+    }
+    if let Some((named, words)) = commented_heading(text, separator, lines) {
+        return Some(Begun { heading: Some(named), words: Some(words), ..none });
+    }
+    // A heading under a title: nothing before it could be a point.
+    let title = |row: &Row| row.fields.iter().filter(|field| decimals::is_numeric(field)).count() < 3;
+    for (k, row) in lines.iter().enumerate().take(TITLES).skip(1) {
+        if !title(&lines[k - 1]) {
+            break;
+        }
+        if let (Some(Ok(named)), Some(next)) = (heading::heading(&row.fields), lines.get(k + 1)) {
+            let first_row = Some(Assumption::FirstRow { line: next.line, by: Basis::Heading });
+            let (heading, words) = (Some(Ok(named)), Some(row.fields.clone()));
+            return Some(Begun { heading, words, rows: &lines[k + 1..], first_row, before: k });
+        }
+    }
+    if strange {
+        return Some(Begun { words: Some(first.fields.clone()), rows: &lines[1..], ..none });
+    }
+    Some(none)
 }
 
 fn placed(line: usize, fault: Fault) -> Error {
@@ -187,7 +294,11 @@ fn placed(line: usize, fault: Fault) -> Error {
 }
 
 /// A heading that is written as the comment before the first row.
-fn commented_heading(text: &str, separator: Separator, rows: &[Row]) -> Option<std::result::Result<Columns, Fault>> {
+fn commented_heading(
+    text: &str,
+    separator: Separator,
+    rows: &[Row],
+) -> Option<(std::result::Result<Columns, Fault>, Vec<String>)> {
     let first = rows.first()?.line;
     let comments = text.lines().take(first - 1).map(str::trim).filter(|line| line.starts_with(['#', '%']));
     let widest = rows.iter().map(|row| row.fields.len()).max().unwrap_or(0);
@@ -195,7 +306,13 @@ fn commented_heading(text: &str, separator: Separator, rows: &[Row]) -> Option<s
         let bare = line.trim_start_matches(['#', '%', ' ', '\t']);
         let fields = table(bare, separator).pop()?.fields;
         // A sentence about the points is no heading of them, nor is a list of fewer columns than there are.
-        heading::heading(&fields).filter(|found| found.is_ok() && fields.len() >= widest)
+        // One of latitude and longitude says that no number below it is a coordinate of a plane.
+        let names = |found: &std::result::Result<Columns, Fault>| match found {
+            Ok(_) => true,
+            Err(fault) => fault.reason == Reason::GeographicHeading,
+        };
+        let found = heading::heading(&fields).filter(|found| names(found) && fields.len() >= widest)?;
+        Some((found, fields))
     };
     comments.filter_map(read).last()
 }
@@ -220,14 +337,17 @@ fn unit_of(columns: &Columns) -> Option<Unit> {
 }
 
 /// Factors that bring each column to the unit of the coordinates; none where a standard error's unit cannot be brought to it.
-fn scales(columns: &Columns, given: Option<Unit>) -> Vec<Option<f64>> {
+fn scales(columns: &Columns, given: Option<Unit>, of_sigmas: Option<Unit>) -> Vec<Option<f64>> {
     let unit = unit_of(columns).or(given);
-    let scale = |own: &Option<Unit>| match (own, unit) {
-        (Some(own), Some(unit)) => Some(own.factor(unit)),
-        (Some(_), None) => None,
-        (None, _) => Some(1.0),
+    let scale = |(k, own): (usize, &Option<Unit>)| {
+        let sigma = columns.fields.get(k).copied().flatten().is_some_and(Field::is_sigma);
+        match (own.or(of_sigmas.filter(|_| sigma)), unit) {
+            (Some(own), Some(unit)) => Some(own.factor(unit)),
+            (Some(_), None) => None,
+            (None, _) => Some(1.0),
+        }
     };
-    columns.units.iter().map(scale).collect()
+    columns.units.iter().enumerate().map(scale).collect()
 }
 
 /// How rows are read.
@@ -261,6 +381,9 @@ impl Reader<'_> {
         let xyz = [coordinate(Field::X)?, coordinate(Field::Y)?, coordinate(Field::Z)?];
         let sigma = if self.columns.place(Field::Sigma).is_some() {
             [sigma(Field::Sigma)?; 3]
+        } else if self.columns.place(Field::Sxy).is_some() {
+            let plane = sigma(Field::Sxy)?;
+            [plane, plane, sigma(Field::Sz)?]
         } else {
             [sigma(Field::Sx)?, sigma(Field::Sy)?, sigma(Field::Sz)?]
         };
@@ -273,12 +396,22 @@ impl Reader<'_> {
                 return Err(Field::Role.fault(Reason::NoneOf { name, choices, text: shortened(other) }));
             }
         };
+        let diameter = match text(Field::Diameter) {
+            "" | "-" => None,
+            word => match self.number(Field::Diameter, word)? {
+                diameter if diameter > 0.0 => Some(diameter),
+                diameter => {
+                    let (name, value) = (Field::Diameter.name().into(), diameter.into());
+                    return Err(Field::Diameter.fault(Reason::NotPositive { name, value }));
+                }
+            },
+        };
         let label = Some(text(Field::Label)).filter(|label| !label.is_empty()).map(str::to_owned);
         let sigma = sigma.iter().any(Option::is_some).then_some(sigma);
         Ok(ControlRow {
             line: line.line,
             label,
-            point: Point { id, role, xyz: Some(xyz), sigma, diameter: None, normal: None },
+            point: Point { id, role, xyz: Some(xyz), sigma, diameter, normal: None },
         })
     }
 
@@ -287,6 +420,9 @@ impl Reader<'_> {
         if self.decimal_by == Basis::Undecided && sign_of(word) == Sign::Either {
             let [decimal, thousands] = decimal_readings(word);
             return Err(field.fault(Reason::AmbiguousNumber { name: name(), text: text(), decimal, thousands }));
+        }
+        if decimals::is_angle(word) {
+            return Err(field.fault(Reason::GeographicAngle { name: name(), text: text() }));
         }
         let plain = match self.decimal {
             Decimal::Point if word.contains(',') => {
@@ -317,7 +453,8 @@ impl Reader<'_> {
 
 /// Writes the points that have coordinates, control points' sigmas with them.
 pub fn write(points: &[Point]) -> String {
-    let mut text = String::from("id,X,Y,Z,sX,sY,sZ,role\n");
+    let with_diameters = points.iter().any(|point| point.xyz.is_some() && point.diameter.is_some());
+    let mut text = format!("id,X,Y,Z,sX,sY,sZ,role{}\n", if with_diameters { ",diameter" } else { "" });
     for point in points {
         let Some([x, y, z]) = point.xyz else { continue };
         let [sx, sy, sz] =
@@ -328,7 +465,11 @@ pub fn write(points: &[Point]) -> String {
             Role::Check => "check",
         };
         // Writing to a string does not fail.
-        let _ = writeln!(text, "{},{x},{y},{z},{sx},{sy},{sz},{role}", text::quoted(&text::disarmed(&point.id), ','));
+        let _ = write!(text, "{},{x},{y},{z},{sx},{sy},{sz},{role}", text::quoted(&text::disarmed(&point.id), ','));
+        if with_diameters {
+            let _ = write!(text, ",{}", point.diameter.map(|diameter| diameter.to_string()).unwrap_or_default());
+        }
+        text.push('\n');
     }
     text
 }

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::lens::{Lens, Shape};
 use crate::camera::{Model, ideal_from_pixel};
 use crate::error::{Error, Place, Reason, Result};
+pub use crate::project::Conversion;
 use crate::project::{Camera, Parameter};
 
 /// A larger difference is a warning: it is as large as a good target's standard error, and the adjustment would feel it.
@@ -22,25 +23,6 @@ pub const LARGEST_PX: f64 = 1.0;
 const FITTED: usize = 25;
 /// The same for the difference that is stated: denser, so that it is not only seen where it was made small.
 const STATED: usize = 81;
-
-/// A conversion between camera models.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Conversion {
-    /// Identifier of the camera.
-    pub camera: String,
-    /// Model that was given.
-    pub from: String,
-    /// Model that was fitted.
-    pub to: String,
-    /// Largest difference in the region, pixels.
-    pub max_px: f64,
-    /// Root mean square difference, pixels.
-    pub rms_px: f64,
-    /// The region, a polygon of pixels.
-    pub region: Vec<[f64; 2]>,
-    /// Whether the difference is larger than 0.05 px.
-    pub warning: bool,
-}
 
 /// Covariance of parameters.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -198,11 +180,7 @@ impl Side {
                 let model = Model::new(&camera.interior)?;
                 let pixel = |[a, b]: &[f64; 2]| {
                     let p = Vector3::new(*a, -b, -1.0).into();
-                    let pixel = match &model {
-                        Model::Brown(brown) => camera.pixel_from_photo(brown.project(p)?),
-                        Model::Opencv(opencv) => opencv.project(p)?,
-                    };
-                    pixel.iter().all(|value| value.is_finite()).then_some(pixel)
+                    model.pixel(&camera, p)
                 };
                 directions.iter().map(pixel).collect()
             }
@@ -254,10 +232,7 @@ impl Side {
 
 /// Name of the engine's model of a camera.
 pub fn model_name(camera: &Camera) -> &'static str {
-    match camera.interior {
-        crate::project::Interior::Brown { .. } => "brown",
-        crate::project::Interior::Opencv { .. } => "opencv",
-    }
+    camera.interior.model().name
 }
 
 /// Pixels over a region with their directions.

@@ -10,53 +10,78 @@ use super::spatial::{Spatial, colour};
 use crate::adjustment::Adjustment;
 use crate::project::{Project, Role};
 
-/// The drawing.
-pub fn write(project: &Project, adjustment: Option<&Adjustment>) -> String {
-    let spatial = Spatial::of(project, adjustment);
-    let mut layers = Layers::default();
-    let mut body = String::new();
-    let text_height = 0.008 * spatial.size;
+/// A point, line or name of a drawing with its layer, as the project names it, and that layer's colour.
+pub(super) struct Item {
+    pub(super) layer: String,
+    pub(super) colour: [u8; 3],
+    pub(super) shape: Shape,
+}
+
+/// What is drawn.
+pub(super) enum Shape {
+    Point([f64; 3]),
+    Line([f64; 3], [f64; 3]),
+    Text([f64; 3], String),
+}
+
+/// All that is drawn, in any release.
+pub(super) fn items(project: &Project, spatial: &Spatial<'_>, text_height: f64) -> Vec<Item> {
+    let mut all = Vec::new();
+    let mut draw =
+        |layer: &str, colour: [u8; 3], shape: Shape| all.push(Item { layer: layer.to_owned(), colour, shape });
     for spot in &spatial.spots {
         let role = match spot.point.role {
             Role::Tie => "POINTS_TIE",
             Role::Control => "POINTS_CONTROL",
             Role::Check => "POINTS_CHECK",
         };
-        let layer = layers.named(role, colour(spot.point.role));
-        entity(&mut body, "POINT", &layer, &[(10, spot.xyz)]);
-        let names = layers.named("NAMES", [128; 3]);
+        draw(role, colour(spot.point.role), Shape::Point(spot.xyz));
         let beside = std::array::from_fn(|k| spot.xyz[k] + if k < 2 { text_height / 2.0 } else { 0.0 });
-        label(&mut body, &names, beside, text_height, &spot.point.id);
+        draw("NAMES", [128; 3], Shape::Text(beside, spot.point.id.clone()));
     }
     let at: BTreeMap<&str, [f64; 3]> = spatial.spots.iter().map(|s| (s.point.id.as_str(), s.xyz)).collect();
     let colours: BTreeMap<&str, [u8; 3]> = project.layers.iter().map(|l| (l.id.as_str(), l.colour)).collect();
     for line in &project.lines {
         if let (Some(from), Some(to)) = (at.get(line.from.as_str()), at.get(line.to.as_str())) {
             let name = if line.layer.is_empty() { "LINES" } else { &line.layer };
-            let layer = layers.named(name, colours.get(line.layer.as_str()).copied().unwrap_or([0; 3]));
-            entity(&mut body, "LINE", &layer, &[(10, *from), (11, *to)]);
+            draw(name, colours.get(line.layer.as_str()).copied().unwrap_or([0; 3]), Shape::Line(*from, *to));
         }
     }
     for view in &spatial.views {
-        let layer = layers.named("CAMERAS", [110; 3]);
         let [centre, corners @ ..] = view.frustum;
         for k in 0..4 {
-            entity(&mut body, "LINE", &layer, &[(10, centre), (11, corners[k])]);
-            entity(&mut body, "LINE", &layer, &[(10, corners[k]), (11, corners[(k + 1) % 4])]);
+            draw("CAMERAS", [110; 3], Shape::Line(centre, corners[k]));
+            draw("CAMERAS", [110; 3], Shape::Line(corners[k], corners[(k + 1) % 4]));
         }
-        label(&mut body, &layer, centre, text_height, view.id);
+        draw("CAMERAS", [110; 3], Shape::Text(centre, view.id.to_owned()));
     }
     // A circle is 72 chords: that of release 12 lies in a system of its own, which readers build differently.
     for (feature, drawn) in &spatial.features {
-        let layer = layers.named("FEATURES", [160, 0, 120]);
-        drawn.outline.iter().for_each(|[from, to]| entity(&mut body, "LINE", &layer, &[(10, *from), (11, *to)]));
+        drawn.outline.iter().for_each(|[from, to]| draw("FEATURES", [160, 0, 120], Shape::Line(*from, *to)));
         if let Some(at) = drawn.label {
-            label(&mut body, &layer, at, text_height, &feature.id);
+            draw("FEATURES", [160, 0, 120], Shape::Text(at, feature.id.clone()));
+        }
+    }
+    all
+}
+
+/// The drawing.
+pub fn write(project: &Project, adjustment: Option<&Adjustment>) -> String {
+    let spatial = Spatial::of(project, adjustment);
+    let mut layers = Layers::default();
+    let mut body = String::new();
+    let text_height = 0.008 * spatial.size;
+    for item in items(project, &spatial, text_height) {
+        let layer = layers.named(&item.layer, item.colour);
+        match item.shape {
+            Shape::Point(at) => entity(&mut body, "POINT", &layer, &[(10, at)]),
+            Shape::Line(from, to) => entity(&mut body, "LINE", &layer, &[(10, from), (11, to)]),
+            Shape::Text(at, words) => label(&mut body, &layer, at, text_height, &words),
         }
     }
     let mut text = String::new();
     pair(&mut text, 999, &ascii(&format!("Sightline, unit {}", project.unit)));
-    header(&mut text, &spatial);
+    header(&mut text, spatial.centre, spatial.size);
     layers.table(&mut text);
     text.push_str("0\nSECTION\n2\nENTITIES\n");
     text.push_str(&body);
@@ -64,37 +89,37 @@ pub fn write(project: &Project, adjustment: Option<&Adjustment>) -> String {
     text
 }
 
-fn pair(text: &mut String, code: u32, value: &str) {
+pub(super) fn pair(text: &mut String, code: u32, value: &str) {
     // Writing into a string does not fail.
     let _ = writeln!(text, "{code}\n{value}");
 }
 
-fn place(text: &mut String, code: u32, [x, y, z]: [f64; 3]) {
+pub(super) fn place(text: &mut String, code: u32, [x, y, z]: [f64; 3]) {
     for (k, value) in [x, y, z].into_iter().enumerate() {
         pair(text, code + 10 * k as u32, &number(value));
     }
 }
 
 /// Digits without an exponent, which some readers do not take.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     let text = format!("{value}");
     if text.contains('.') { text } else { text + ".0" }
 }
 
-fn entity(text: &mut String, kind: &str, layer: &str, places: &[(u32, [f64; 3])]) {
+pub(super) fn entity(text: &mut String, kind: &str, layer: &str, places: &[(u32, [f64; 3])]) {
     pair(text, 0, kind);
     pair(text, 8, layer);
     places.iter().for_each(|(code, xyz)| place(text, *code, *xyz));
 }
 
-fn label(text: &mut String, layer: &str, at: [f64; 3], height: f64, words: &str) {
+pub(super) fn label(text: &mut String, layer: &str, at: [f64; 3], height: f64, words: &str) {
     entity(text, "TEXT", layer, &[(10, at)]);
     pair(text, 40, &number(height));
     pair(text, 1, &ascii(words));
 }
 
 /// What is not ASCII by its number, as AutoCAD writes it; no line break can end a group.
-fn ascii(words: &str) -> String {
+pub(super) fn ascii(words: &str) -> String {
     let shown = |c: char| match c {
         ' '..='~' => c.to_string(),
         c if c.is_control() => " ".into(),
@@ -103,27 +128,27 @@ fn ascii(words: &str) -> String {
     words.chars().map(shown).collect()
 }
 
-fn header(text: &mut String, spatial: &Spatial) {
+pub(super) fn header(text: &mut String, centre: [f64; 3], size: f64) {
     text.push_str("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n");
-    let half = spatial.size / 2.0;
+    let half = size / 2.0;
     for (name, sign) in [("$EXTMIN", -1.0), ("$EXTMAX", 1.0)] {
         pair(text, 9, name);
-        place(text, 10, spatial.centre.map(|c| c + sign * half));
+        place(text, 10, centre.map(|c| c + sign * half));
     }
     // Points as crosses of one in two hundred of the drawing.
     text.push_str("9\n$PDMODE\n70\n2\n9\n$PDSIZE\n40\n");
-    let _ = writeln!(text, "{}\n0\nENDSEC", number(0.005 * spatial.size));
+    let _ = writeln!(text, "{}\n0\nENDSEC", number(0.005 * size));
 }
 
 /// Layers by the name they have here; the drawing's are of the release's letters, and each its own.
 #[derive(Default)]
-struct Layers {
+pub(super) struct Layers {
     names: BTreeMap<String, (String, u8)>,
     taken: BTreeSet<String>,
 }
 
 impl Layers {
-    fn named(&mut self, name: &str, colour: [u8; 3]) -> String {
+    pub(super) fn named(&mut self, name: &str, colour: [u8; 3]) -> String {
         if let Some((known, _)) = self.names.get(name) {
             return known.clone();
         }
@@ -140,7 +165,7 @@ impl Layers {
         own
     }
 
-    fn table(&self, text: &mut String) {
+    pub(super) fn table(&self, text: &mut String) {
         let _ = writeln!(text, "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n70\n{}", self.names.len());
         for (name, colour) in self.names.values() {
             let _ = writeln!(text, "0\nLAYER\n2\n{name}\n70\n0\n62\n{colour}\n6\nCONTINUOUS");
@@ -150,7 +175,7 @@ impl Layers {
 }
 
 /// Number of the nearest of the release's colours: 24 hues at five brightnesses, full and half as saturated, six greys.
-fn index(wanted: [u8; 3]) -> u8 {
+pub(super) fn index(wanted: [u8; 3]) -> u8 {
     const BRIGHT: [f64; 5] = [1.0, 0.65, 0.5, 0.3, 0.15];
     if wanted == [0; 3] {
         // Black on white and white on black.

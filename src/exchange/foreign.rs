@@ -10,38 +10,12 @@ use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
 use super::Files;
-use super::conversion::{self, Conversion, Covariance, LARGEST_PX, Side, WARNING_PX};
+use super::conversion::{self, Covariance, LARGEST_PX, Side, WARNING_PX};
 use super::lens::{Lens, Shape, term};
 use crate::error::{Error, Place, Reason, Result};
-use crate::project::{Camera, Interior, Project};
+pub use crate::project::{Assumed, Ignored};
+use crate::project::{Camera, Conversion, Interior, Parameter, Project};
 use crate::rotation;
-
-/// Something of a file that has no place in the document, or of the document that has none in the file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Ignored {
-    /// Its name there.
-    pub name: String,
-    /// How many of it.
-    pub count: usize,
-}
-
-/// What a reader took for granted, since the format leaves it open.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Assumed {
-    /// Standard errors of image measurements are not in the file: 1 px.
-    SigmaOnePixel,
-    /// The size of the picture is not in the file: it is twice the principal point.
-    ImageSizeFromPrincipalPoint,
-    /// The size of the picture is not in the file: it holds all measurements, and its centre is their origin.
-    ImageSizeFromMeasurements,
-    /// Four coefficients are k1, k2, p1, p2, not those of a fisheye lens.
-    FourCoefficientsRadialTangential,
-    /// The unit of length is not in the file: the document's is a name without meaning.
-    UnitUnknown,
-    /// Coordinates of the camera are those of the chunk's own system: the reference system is geographic or a map projection.
-    SystemOfChunk,
-}
 
 /// What a reader assumed and passed over.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -211,6 +185,9 @@ impl ForeignCamera {
     }
 }
 
+/// A side of a picture, in pixels, that no camera and no scan has: a number from here on is damage, in whatever format it stands.
+pub const LONGEST_SIDE: u32 = 1_000_000;
+
 /// A camera that was read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ImportedCamera {
@@ -260,6 +237,11 @@ fn judged(conversion: Conversion, convert: bool) -> Result<Conversion> {
 /// [`Reason::ConversionTooLarge`], [`Reason::ConversionFails`], and what makes no camera of the document.
 pub fn settled(foreign: &ForeignCamera, used: Option<&[[f64; 2]]>, convert: bool) -> Result<ImportedCamera> {
     let [width, height] = foreign.size;
+    if width.max(height) >= LONGEST_SIDE {
+        let reason =
+            Reason::ExpectedHere { expected: "width and height in pixels".into(), found: format!("{width} {height}") };
+        return Err(Error::Invalid { reason, at: Place::camera(&foreign.id) });
+    }
     let region = used.map(<[_]>::to_vec).or_else(|| foreign.region.clone());
     let region = region.unwrap_or_else(|| conversion::whole(foreign.size));
     conversion::check_region(&region)?;
@@ -273,7 +255,7 @@ pub fn settled(foreign: &ForeignCamera, used: Option<&[[f64; 2]]>, convert: bool
         }
         ForeignModel::Lens(shape, lens) => {
             let direction = |pixel| lens.direction(pixel);
-            let (found, conversion) = match lens.opencv() {
+            let (found, conversion) = match lens.interior() {
                 Some(interior) => (camera(interior), None),
                 None => {
                     let (found, conversion) = best(
@@ -286,6 +268,9 @@ pub fn settled(foreign: &ForeignCamera, used: Option<&[[f64; 2]]>, convert: bool
                 }
             };
             let carried = foreign.covariance.as_ref().map(|covariance| {
+                if conversion.is_none() && same_parameters(shape, &found) {
+                    return Ok(covariance.clone());
+                }
                 let from = Side::Lens(shape, remainder(shape, lens));
                 let from_values = nearest_values(shape, &Lens::default(), lens);
                 let to = Side::Engine(found.clone());
@@ -305,6 +290,13 @@ pub fn settled(foreign: &ForeignCamera, used: Option<&[[f64; 2]]>, convert: bool
         position: pose.map(|pose| pose.position),
         rotation: pose.map(|pose| pose.angles()),
     })
+}
+
+/// Whether a model that holds a camera exactly names its parameters as the engine does, so that a covariance needs no conversion: the rays of a
+/// fisheye, among them those beside and behind it, have no common image plane to convert over.
+fn same_parameters(shape: &Shape, camera: &Camera) -> bool {
+    let own = Side::Engine(camera.clone()).names();
+    shape.equidistant && shape.names().iter().all(|name| own.contains(name)) && own.len() == shape.parameters.len()
 }
 
 /// The terms of a lens that no parameter of a model moves.
@@ -332,6 +324,7 @@ fn nearest_values(shape: &Shape, base: &Lens, lens: &Lens) -> Vec<f64> {
 }
 
 fn near_opencv(lens: &Lens) -> Interior {
+    let lens = &across(lens, false);
     let t = &lens.terms;
     Interior::Opencv {
         fx: Some(t[term::FX]),
@@ -425,7 +418,7 @@ pub fn outgoing(camera: &Camera, shapes: &[&'static Shape], base: &Lens, options
         None => {
             let mut best: Option<(&'static Shape, conversion::Fitted)> = None;
             for shape in shapes {
-                let near = nearest_values(shape, base, &start);
+                let near = nearest_values(shape, base, &across(&start, shape.equidistant));
                 let Some(fitted) = conversion::fit(&Side::Lens(shape, *base), &near, &region, &direction) else {
                     continue;
                 };
@@ -455,6 +448,9 @@ pub fn outgoing(camera: &Camera, shapes: &[&'static Shape], base: &Lens, options
         }
     };
     let covariance = options.covariance.as_ref().map(|covariance| {
+        if conversion.is_none() && same_parameters(shape, camera) {
+            return Ok(single(covariance, camera));
+        }
         let (side, held) = (Side::Engine(camera.clone()), Side::values(camera));
         let from = (&side, &held[..]);
         let to = (&Side::Lens(shape, *base), &values[..]);
@@ -464,7 +460,20 @@ pub fn outgoing(camera: &Camera, shapes: &[&'static Shape], base: &Lens, options
     Ok(Outgoing { shape, lens, covariance: covariance.transpose()?, values, conversion })
 }
 
-/// The lens of a camera without its distortion, where a fit begins.
+/// A lens of the other kind near a lens: tan θ = θ + θ³/3.
+fn across(lens: &Lens, equidistant: bool) -> Lens {
+    if lens.equidistant == equidistant {
+        return *lens;
+    }
+    let mut near = Lens { equidistant, ..Lens::default() };
+    for k in [term::FX, term::FY, term::CX, term::CY] {
+        near.terms[k] = lens.terms[k];
+    }
+    near.terms[term::K1] = lens.terms[term::K1] + if equidistant { 1.0 / 3.0 } else { -1.0 / 3.0 };
+    near
+}
+
+/// The lens of a camera without its distortion where it is a correction, where a fit begins.
 ///
 /// # Errors
 /// [`Error::MissingInitialValues`] without a principal distance.
@@ -497,7 +506,8 @@ pub struct ExportedCamera {
 
 /// A covariance in which fx and fy stand by themselves: `f` moves both in their ratio.
 pub fn single(covariance: &Covariance, camera: &Camera) -> Covariance {
-    let Interior::Opencv { fx: Some(fx), fy: Some(fy), .. } = camera.interior else { return covariance.clone() };
+    let focal = |parameter| camera.interior.get(parameter);
+    let Some((fx, fy)) = focal(Parameter::Fx).zip(focal(Parameter::Fy)) else { return covariance.clone() };
     let Some(f) = covariance.parameters.iter().position(|name| name == "f") else { return covariance.clone() };
     let with = |row: &[f64]| -> Vec<f64> {
         let second = row.get(f).map(|value| value * fy / fx);

@@ -4,10 +4,10 @@
 //! | --- | --- |
 //! | pixel origin | the centre of the first pixel is (0, 0): the principal point is ours - 0.5 |
 //! | axes | x right, y down, z forwards; a = X/Z, b = Y/Z |
-//! | distortion | ideal to image: `pinhole` with `radtan` k1 k2 r1 r2 (OpenCV's k1 k2 p1 p2) or `none` |
+//! | distortion | ideal to image: `pinhole` with `radtan` k1 k2 r1 r2 (OpenCV's k1 k2 p1 p2) `equidistant` k1 k2 k3 k4 of the angle off the axis, or `none` |
 //! | poses | `T_cn_cnm1` takes points of the camera before into this one; the first camera is the object system |
 //!
-//! Source: Kalibr's wiki, "Supported models" and "Yaml formats". `omni`, `ds`, `eucm` cameras and `equidistant`, `fov` distortions are refused by
+//! Source: Kalibr's wiki, "Supported models" and "Yaml formats". `omni`, `ds`, `eucm` cameras and `fov` distortions are refused by
 //! name.
 
 use std::fmt::Write;
@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::Files;
 use super::foreign::{self, CameraOptions, ExportedCamera, ForeignCamera, Notes, Pose};
 use super::lens::Lens;
-use super::opencv::{self, MODELS, PIXEL};
+use super::opencv::{self, FISHEYE, MODELS, PIXEL};
 use super::tree::{Node, real};
 use crate::error::{Reason, Result};
 use crate::project::Camera;
@@ -45,7 +45,7 @@ pub fn read(root: &Node<'_>, notes: &mut Notes) -> Result<Vec<ForeignCamera>> {
         let [fx, fy, cx, cy] = node.need("intrinsics")?.exactly()?;
         let distortion = node.get("distortion_model").map_or(Ok("none".to_owned()), |model| model.text())?;
         let given: Vec<f64> = match distortion.as_str() {
-            "radtan" => node.need("distortion_coeffs")?.exactly::<4>()?.to_vec(),
+            "radtan" | "equidistant" => node.need("distortion_coeffs")?.exactly::<4>()?.to_vec(),
             "none" => Vec::new(),
             other => {
                 let model = Reason::NoSuchCameraModel { model: format!("pinhole-{other}") };
@@ -56,7 +56,12 @@ pub fn read(root: &Node<'_>, notes: &mut Notes) -> Result<Vec<ForeignCamera>> {
         if !(fx > 0.0 && fy > 0.0) {
             return Err(focal.expected("focal lengths above 0"));
         }
-        let (shape, lens) = opencv::lens([fx, fy, cx, cy, 0.0], &given, PIXEL, &focal)?;
+        let matrix = [fx, fy, cx, cy, 0.0];
+        let (shape, lens) = if distortion == "equidistant" {
+            opencv::fisheye_lens(matrix, &given, PIXEL, &focal)?
+        } else {
+            opencv::lens(matrix, &given, PIXEL, &focal)?
+        };
         let resolution = node.need("resolution")?;
         let [width, height] = &resolution.items()?[..] else { return Err(resolution.expected("width and height")) };
         let mut camera = ForeignCamera::new(name.clone(), [width.size()?, height.size()?], shape, lens);
@@ -102,16 +107,17 @@ fn after(before: &Pose, node: &Node<'_>) -> Result<Pose> {
 /// # Errors
 /// As [`foreign::outgoing`].
 pub fn write(camera: &Camera, options: &CameraOptions) -> Result<ExportedCamera> {
-    let out = foreign::outgoing(camera, &[MODELS[0]], &Lens::default(), options)?;
+    let out = foreign::outgoing(camera, &[MODELS[0], &FISHEYE], &Lens::default(), options)?;
     let [fx, fy, cx, cy] = [out.values[0], out.values[1], out.values[2] - PIXEL, out.values[3] - PIXEL];
     let list = |values: &[f64]| values.iter().map(|value| real(*value)).collect::<Vec<_>>().join(", ");
     let mut text = String::from("cam0:\n  cam_overlaps: []\n  camera_model: pinhole\n");
-    let _ = writeln!(text, "  distortion_coeffs: [{}]\n  distortion_model: radtan", list(&out.values[4..]));
+    let model = if out.shape.equidistant { "equidistant" } else { "radtan" };
+    let _ = writeln!(text, "  distortion_coeffs: [{}]\n  distortion_model: {model}", list(&out.values[4..]));
     let _ = writeln!(text, "  intrinsics: [{}]", list(&[fx, fy, cx, cy]));
     let _ = writeln!(text, "  resolution: [{}, {}]", camera.width, camera.height);
     let mut files = Files::from([("camchain.yaml".to_owned(), text.into_bytes())]);
     if let Some(covariance) = &out.covariance {
-        files.extend([foreign::covariance_file(&camera.id, "pinhole-radtan", covariance)?]);
+        files.extend([foreign::covariance_file(&camera.id, &format!("pinhole-{model}"), covariance)?]);
     }
     let (conversion, covariance) = (out.conversion, out.covariance);
     Ok(ExportedCamera { files, conversion, covariance, ignored: foreign::unkept(camera, false) })

@@ -9,6 +9,8 @@
 //! u = fx a' + skew b' + cx,   v = fy b' + cy
 //! ```
 //!
+//! An equidistant lens (fisheye) has the same form on (a, b) θ/r, θ = atan r the angle off the axis, for (a, b).
+//!
 //! OpenCV, "Camera calibration and 3D reconstruction": k, p, s, τ as there (its k4, k5, k6 are d1, d2, d3 here).
 
 use crate::project::{Camera, Interior};
@@ -41,9 +43,6 @@ pub mod term {
 }
 use term::*;
 
-/// How many terms there are.
-pub const TERMS: usize = ALL;
-
 /// A camera model of another program: its name, and its parameters in its order, each with the terms that it is added to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
@@ -51,6 +50,8 @@ pub struct Shape {
     pub name: &'static str,
     /// Parameters.
     pub parameters: &'static [(&'static str, &'static [usize])],
+    /// Whether it is equidistant.
+    pub equidistant: bool,
 }
 
 /// Values of the terms.
@@ -58,12 +59,14 @@ pub struct Shape {
 pub struct Lens {
     /// By the constants of [`term`].
     pub terms: [f64; ALL],
+    /// Whether it is equidistant.
+    pub equidistant: bool,
 }
 
 impl Shape {
     /// The lens of these values; terms that no parameter moves are those of `base`.
     pub fn lens(&self, base: &Lens, values: &[f64]) -> Lens {
-        let mut lens = *base;
+        let mut lens = Lens { equidistant: self.equidistant, ..*base };
         for ((_, terms), value) in self.parameters.iter().zip(values) {
             terms.iter().for_each(|term| lens.terms[*term] += value);
         }
@@ -72,6 +75,9 @@ impl Shape {
 
     /// The values that give a lens exactly; none where the model lacks one of its terms.
     pub fn exact(&self, base: &Lens, lens: &Lens) -> Option<Vec<f64>> {
+        if self.equidistant != lens.equidistant {
+            return None;
+        }
         let mut left = *lens;
         left.terms.iter_mut().zip(base.terms).for_each(|(term, base)| *term -= base);
         let mut values = Vec::with_capacity(self.parameters.len());
@@ -95,8 +101,13 @@ impl Shape {
 impl Lens {
     /// Pixel of a direction (a, b); none where the polynomials have no finite value.
     #[allow(clippy::many_single_char_names)] // those of the equations
-    pub fn project(&self, [a, b]: [f64; 2]) -> Option<[f64; 2]> {
+    pub fn project(&self, [mut a, mut b]: [f64; 2]) -> Option<[f64; 2]> {
         let t = &self.terms;
+        if self.equidistant {
+            let r = a.hypot(b);
+            let scale = if r > 0.0 { r.atan() / r } else { 1.0 };
+            (a, b) = (a * scale, b * scale);
+        }
         let r2 = a * a + b * b;
         let above = 1.0 + r2 * (t[K1] + r2 * (t[K2] + r2 * (t[K3] + r2 * t[K4])));
         let below = 1.0 + r2 * (t[D1] + r2 * (t[D2] + r2 * t[D3]));
@@ -161,10 +172,22 @@ impl Lens {
         (length(e) < 1e-8).then_some(at)
     }
 
-    /// The lens of an engine's camera, where it has one of this sense: the opencv model, or a brown model without distortion.
+    /// The lens of an engine's camera, where it has one of this sense: OpenCV's models, or a brown model without distortion.
     pub fn of(camera: &Camera) -> Option<Self> {
         let mut terms = [0.0; ALL];
+        let mut equidistant = false;
         match camera.interior {
+            Interior::OpencvRational { fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6 } => {
+                let focal = [(FX, fx?), (FY, fy?), (CX, cx), (CY, cy)];
+                let radial = [(K1, k1), (K2, k2), (K3, k3), (D1, k4), (D2, k5), (D3, k6)];
+                let all = focal.into_iter().chain(radial).chain([(P1, p1), (P2, p2)]);
+                all.for_each(|(k, value)| terms[k] = value);
+            }
+            Interior::OpencvFisheye { fx, fy, cx, cy, k1, k2, k3, k4 } => {
+                equidistant = true;
+                let all = [(FX, fx?), (FY, fy?), (CX, cx), (CY, cy), (K1, k1), (K2, k2), (K3, k3), (K4, k4)];
+                all.into_iter().for_each(|(k, value)| terms[k] = value);
+            }
             Interior::Opencv { fx, fy, cx, cy, k1, k2, p1, p2, k3 } => {
                 for (k, value) in
                     [(FX, fx?), (FY, fy?), (CX, cx), (CY, cy), (K1, k1), (K2, k2), (K3, k3), (P1, p1), (P2, p2)]
@@ -185,27 +208,27 @@ impl Lens {
                 (terms[CX], terms[CY]) = (cx, cy);
             }
         }
-        Some(Self { terms })
+        Some(Self { terms, equidistant })
     }
 
-    /// The opencv model of this lens; none where it has terms that the model lacks.
-    pub fn opencv(&self) -> Option<Interior> {
-        const HELD: [usize; 9] = [FX, FY, CX, CY, K1, K2, K3, P1, P2];
+    /// The model of the engine that this lens is, the one with the fewest parameters; none where it has terms that all of them lack.
+    pub fn interior(&self) -> Option<Interior> {
+        const OPENCV: [usize; 9] = [FX, FY, CX, CY, K1, K2, K3, P1, P2];
+        const RATIONAL: [usize; 12] = [FX, FY, CX, CY, K1, K2, K3, P1, P2, D1, D2, D3];
+        const FISHEYE: [usize; 8] = [FX, FY, CX, CY, K1, K2, K3, K4];
         let t = &self.terms;
-        if (0..ALL).any(|k| !HELD.contains(&k) && t[k] != 0.0) {
-            return None;
+        let holds = |held: &[usize]| (0..ALL).all(|k| held.contains(&k) || t[k] == 0.0);
+        let (fx, fy, cx, cy) = (Some(t[FX]), Some(t[FY]), t[CX], t[CY]);
+        let (k1, k2, k3, p1, p2) = (t[K1], t[K2], t[K3], t[P1], t[P2]);
+        if self.equidistant {
+            return holds(&FISHEYE).then_some(Interior::OpencvFisheye { fx, fy, cx, cy, k1, k2, k3, k4: t[K4] });
         }
-        Some(Interior::Opencv {
-            fx: Some(t[FX]),
-            fy: Some(t[FY]),
-            cx: t[CX],
-            cy: t[CY],
-            k1: t[K1],
-            k2: t[K2],
-            p1: t[P1],
-            p2: t[P2],
-            k3: t[K3],
-        })
+        if holds(&OPENCV) {
+            return Some(Interior::Opencv { fx, fy, cx, cy, k1, k2, p1, p2, k3 });
+        }
+        let (k4, k5, k6) = (t[D1], t[D2], t[D3]);
+        let rational = Interior::OpencvRational { fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6 };
+        holds(&RATIONAL).then_some(rational)
     }
 }
 
@@ -248,7 +271,7 @@ mod tests {
         ] {
             terms[k] = value;
         }
-        Lens { terms }
+        Lens { terms, equidistant: false }
     }
 
     #[test]
@@ -266,8 +289,24 @@ mod tests {
         for k in [SKEW, K4, D1, D2, D3, S1, S2, S3, S4, TX, TY] {
             lens.terms[k] = 0.0;
         }
-        let camera = Camera::new("c", 1280, 720, lens.opencv().unwrap());
+        let camera = Camera::new("c", 1280, 720, lens.interior().unwrap());
         assert_eq!(Lens::of(&camera), Some(lens));
+        // and the same of the rational and of the fisheye model
+        let rational = Lens {
+            terms: std::array::from_fn(|k| if (D1..=D3).contains(&k) { full().terms[k] } else { lens.terms[k] }),
+            ..lens
+        };
+        let mut fisheye = Lens { equidistant: true, ..lens };
+        (fisheye.terms[K4], fisheye.terms[P1], fisheye.terms[P2]) = (-0.002, 0.0, 0.0);
+        for (lens, model) in [(rational, "opencv_rational"), (fisheye, "opencv_fisheye")] {
+            let camera = Camera::new("c", 1280, 720, lens.interior().unwrap());
+            assert_eq!((camera.interior.model().name, Lens::of(&camera)), (model, Some(lens)));
+            for [a, b] in [[0.3, 0.2], [-0.4, 0.1], [0.0, 0.0]] {
+                let ours = pixel_from_camera_point(&camera, Vector3::new(a, -b, -1.0)).unwrap();
+                let theirs = lens.project([a, b]).unwrap();
+                assert!((ours[0] - theirs[0]).hypot(ours[1] - theirs[1]) < 1e-9, "{model}: {ours:?} {theirs:?}");
+            }
+        }
         let mut brown = Camera::new("b", 1280, 720, Interior::brown(8.0));
         brown.pixel_pitch = Some([0.009, 0.0091]);
         brown.interior.set(crate::project::Parameter::X0, 0.13);
@@ -286,8 +325,11 @@ mod tests {
 
     #[test]
     fn values_of_a_shape_come_back() {
-        const SHAPE: Shape =
-            Shape { name: "test", parameters: &[("f", &[FY, FX]), ("b1", &[FX]), ("cx", &[CX]), ("cy", &[CY])] };
+        const SHAPE: Shape = Shape {
+            name: "test",
+            parameters: &[("f", &[FY, FX]), ("b1", &[FX]), ("cx", &[CX]), ("cy", &[CY])],
+            equidistant: false,
+        };
         let lens = SHAPE.lens(&Lens::default(), &[900.0, 3.5, 640.0, 360.0]);
         assert_eq!((lens.terms[FX], lens.terms[FY]), (903.5, 900.0));
         assert_eq!(SHAPE.exact(&Lens::default(), &lens), Some(vec![900.0, 3.5, 640.0, 360.0]));

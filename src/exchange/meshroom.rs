@@ -5,11 +5,11 @@
 //! | pixel origin | the principal point of a centred camera is half the size of the picture: ours, and as AliceVision exports it to COLMAP |
 //! | axes | camera: x right, y down, z forwards; a = X/Z, b = Y/Z |
 //! | rotation | matrix object to camera, by columns, and the projection centre |
-//! | distortion | ideal to image: radial k1, radial k1 k2 k3, brown k1 k2 k3 t1 t2 (OpenCV's p1 p2) |
+//! | distortion | ideal to image: radial k1, radial k1 k2 k3, brown k1 k2 k3 t1 t2 (OpenCV's p1 p2), fisheye4 k1 k2 k3 k4 of the angle off the axis |
 //! | focal length | pixels before 1.2.2; then millimetres with the sensor's width; `pixelRatio` is fx/fy before 1.2.5, then fy/fx |
 //! | principal point | from the upper left corner before 1.2.1, then from the centre of the picture |
 //!
-//! Source: AliceVision, `sfmDataIO/jsonIO.cpp` and `sfmDataIO/CHANGES.md`. Fisheye, 3DEqualizer and other models are refused by name. Photos of rigs have no pose of
+//! Source: AliceVision, `sfmDataIO/jsonIO.cpp` and `sfmDataIO/CHANGES.md`. Other fisheye, 3DEqualizer and other models are refused by name. Photos of rigs have no pose of
 //! their own; metadata, colours and feature files are counted.
 
 use serde_json::{Map, Value, json};
@@ -25,6 +25,7 @@ use crate::project::Point;
 /// Its models; cx, cy are values of our frame here.
 pub static BROWN: Shape = Shape {
     name: "brown",
+    equidistant: false,
     parameters: &[
         ("fx", &[FX]),
         ("fy", &[FY]),
@@ -35,6 +36,22 @@ pub static BROWN: Shape = Shape {
         ("k3", &[K3]),
         ("t1", &[P1]),
         ("t2", &[P2]),
+    ],
+};
+
+/// Its fisheye with four coefficients.
+static FISHEYE4: Shape = Shape {
+    name: "fisheye4",
+    equidistant: true,
+    parameters: &[
+        ("fx", &[FX]),
+        ("fy", &[FY]),
+        ("cx", &[CX]),
+        ("cy", &[CY]),
+        ("k1", &[K1]),
+        ("k2", &[K2]),
+        ("k3", &[K3]),
+        ("k4", &[K4]),
     ],
 };
 
@@ -79,6 +96,7 @@ pub fn cameras(root: &Node<'_>, notes: &mut Notes) -> Result<Vec<ForeignCamera>>
             ("radial1", None) | ("pinhole", Some("radialk1")) => &[K1],
             ("radial3", None) | ("pinhole", Some("radialk3")) => &[K1, K2, K3],
             ("brown", None) | ("pinhole", Some("brown")) => &[K1, K2, K3, P1, P2],
+            ("fisheye4", None) | ("pinhole", Some("fisheye4")) => &[K1, K2, K3, K4],
             (kind, distortion) => {
                 let model = shortened(&[kind, distortion.unwrap_or_default()].join(" "));
                 return Err(node.need("type")?.invalid(Reason::NoSuchCameraModel { model }));
@@ -94,12 +112,14 @@ pub fn cameras(root: &Node<'_>, notes: &mut Notes) -> Result<Vec<ForeignCamera>>
             let expected = format!("{} coefficients", coefficients.len());
             return Err(node.need("distortionParams")?.expected(&expected));
         }
-        let mut lens = BROWN.lens(&Lens::default(), &[focal[0], focal[1], pp[0], pp[1]]);
+        let is_fisheye = coefficients.contains(&K4);
+        let shape = if is_fisheye { &FISHEYE4 } else { &BROWN };
+        let mut lens = shape.lens(&Lens::default(), &[focal[0], focal[1], pp[0], pp[1]]);
         if !(focal[0] > 0.0 && focal[1] > 0.0) {
             return Err(node.expected("focal lengths above 0"));
         }
         coefficients.iter().zip(values).for_each(|(term, value)| lens.terms[*term] = value);
-        cameras.push(ForeignCamera::new(node.need("intrinsicId")?.text()?, size, &BROWN, lens));
+        cameras.push(ForeignCamera::new(node.need("intrinsicId")?.text()?, size, shape, lens));
     }
     for name in root
         .names()
@@ -163,7 +183,7 @@ pub fn read(root: &Node<'_>) -> Result<ForeignNetwork> {
 }
 
 /// Models that are written.
-pub const WRITES: Models<'static> = (&[&BROWN], |_| Lens { terms: [0.0; ALL] });
+pub const WRITES: Models<'static> = (&[&BROWN, &FISHEYE4], |_| Lens::default());
 
 /// `scene.sfm`, version 1.2.5.
 ///
@@ -178,7 +198,8 @@ pub fn write(network: &OutgoingNetwork) -> Result<Files> {
         .iter()
         .enumerate()
         .map(|(k, (camera, out))| {
-            let [fx, fy, cx, cy, k1, k2, k3, t1, t2] = out.values[..] else { return Value::Null };
+            let [fx, fy, cx, cy, coefficients @ ..] = &out.values[..] else { return Value::Null };
+            let [fx, fy, cx, cy] = [*fx, *fy, *cx, *cy];
             let (width, height) = (f64::from(camera.width), f64::from(camera.height));
             let sensor = camera.pixel_pitch.map_or(36.0, |[pitch, _]| pitch * width);
             json!({
@@ -188,7 +209,7 @@ pub fn write(network: &OutgoingNetwork) -> Result<Files> {
                 "sensorWidth": text(sensor),
                 "sensorHeight": text(sensor * height / width),
                 "serialNumber": camera.id,
-                "type": "brown",
+                "type": out.shape.name,
                 "initializationMode": "calibrated",
                 "initialFocalLength": text(fx / width * sensor),
                 "focalLength": text(fx / width * sensor),
@@ -196,7 +217,7 @@ pub fn write(network: &OutgoingNetwork) -> Result<Files> {
                 "pixelRatioLocked": "false",
                 "principalPoint": texts(&[cx - width / 2.0, cy - height / 2.0]),
                 "distortionInitializationMode": "calibrated",
-                "distortionParams": texts(&[k1, k2, k3, t1, t2]),
+                "distortionParams": texts(coefficients),
                 "undistortionOffset": texts(&[0.0, 0.0]),
                 "undistortionParams": "",
                 "locked": "false",

@@ -342,7 +342,7 @@ fn pose(transform: &Element, moved: &Similarity) -> Result<Pose> {
 }
 
 /// Models that are written.
-pub const WRITES: Models<'static> = (&[&METASHAPE], |_| Lens { terms: [0.0; super::lens::term::ALL] });
+pub const WRITES: Models<'static> = (&[&METASHAPE], |_| Lens::default());
 
 /// `cameras.xml` and `markers.xml`; the chunk is in the object system.
 ///
@@ -370,7 +370,7 @@ pub fn write(project: &Project, network: &OutgoingNetwork) -> Result<Files> {
             text,
             "        <calibration type=\"frame\" class=\"adjusted\">\n          <resolution width=\"{width}\" height=\"{height}\"/>"
         );
-        text += &agisoft_lens::elements(out, camera, "          ");
+        text += &agisoft_lens::elements(out, camera, "          ")?;
         text += "        </calibration>\n      </sensor>\n";
     }
     text += "    </sensors>\n    <components next_id=\"1\" active_id=\"0\">\n      <component id=\"0\" label=\"Component 1\">\n        <transform>\n          <rotation>1 0 0 0 1 0 0 0 1</rotation>\n          <translation>0 0 0</translation>\n          <scale>1</scale>\n        </transform>\n      </component>\n    </components>\n";

@@ -16,7 +16,9 @@ use super::Files;
 use super::agisoft_lens::{number, numbers, wrong};
 use super::conversion::{self, Conversion, Covariance, LARGEST_PX, Side, WARNING_PX};
 use super::dbat::element::Element;
-use super::foreign::{self, CameraOptions, Correction, ExportedCamera, ForeignCamera, ForeignModel, Notes};
+use super::foreign::{
+    self, CameraOptions, Correction, ExportedCamera, ForeignCamera, ForeignModel, LONGEST_SIDE, Notes,
+};
 use crate::error::{Error, Place, Reason, Result, shortened};
 use crate::project::{Camera, Interior};
 
@@ -53,7 +55,7 @@ pub fn read(root: &Element, id: &str, notes: &mut Notes) -> Result<Vec<ForeignCa
         return Err(wrong("F", "a focal length above 0", text("F")?));
     }
     let size = numbers::<2>("SzIm", text("SzIm")?)?;
-    if size.iter().any(|side| side.fract() != 0.0 || !(1.0..1e6).contains(side)) {
+    if size.iter().any(|side| side.fract() != 0.0 || !(1.0..f64::from(LONGEST_SIDE)).contains(side)) {
         return Err(wrong("SzIm", "width and height in pixels", text("SzIm")?));
     }
     let mut correction = Correction { f, pp, centre: pp, radial: Vec::new(), rest: [0.0; 4] };

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::conversion::Conversion;
 use super::foreign::{self, Assumed, CameraOptions, ForeignCamera, Notes, Outgoing, Pose};
@@ -335,6 +335,9 @@ impl OutgoingNetwork {
     }
 }
 
+/// Name of the file beside those of a network.
+const COMPANION: &str = "interchange.json";
+
 /// What is written beside the files of a network.
 #[derive(Serialize)]
 pub struct Companion<'a> {
@@ -359,7 +362,7 @@ pub fn companion(content: &Companion<'_>) -> Result<(String, Vec<u8>)> {
         reason: Reason::CannotWriteJson { message: error.to_string() },
         at: Place::default(),
     })?;
-    Ok(("interchange.json".to_owned(), json))
+    Ok((COMPANION.to_owned(), json))
 }
 
 fn own_id(photo: &Photo) -> String {
@@ -373,4 +376,16 @@ fn own_id(photo: &Photo) -> String {
 pub fn with_companion(mut files: Files, network: &OutgoingNetwork) -> Result<Files> {
     files.extend([network.companion()?]);
     Ok(files)
+}
+
+/// What `interchange.json` of written files states: conversions of cameras, and what has no place in the format. Nothing for files
+/// without it.
+pub fn stated(files: &Files) -> (Vec<Conversion>, Vec<foreign::Ignored>) {
+    #[derive(Default, Deserialize)]
+    struct Stated {
+        conversions: Vec<Conversion>,
+        ignored: Vec<foreign::Ignored>,
+    }
+    let read = files.get(COMPANION).and_then(|json| serde_json::from_slice::<Stated>(json).ok()).unwrap_or_default();
+    (read.conversions, read.ignored)
 }

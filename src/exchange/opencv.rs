@@ -8,7 +8,7 @@
 //!
 //! Source: OpenCV, "Camera calibration and 3D reconstruction" and `samples/cpp/calibration.cpp`, which writes `camera_matrix`,
 //! `distortion_coefficients`, `image_width`, `image_height`, `fisheye_model`. Stereo calibrations have `M1`, `D1`, `M2`, `D2`.
-//! A fisheye model is refused by name. Poses of boards and their image points are not read.
+//! With `fisheye_model` other than 0 the coefficients are k1 k2 k3 k4 of `cv::fisheye`. Poses of boards and their image points are not read.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -22,15 +22,35 @@ use crate::project::{Camera, Observation, Project};
 
 /// Its models by the number of coefficients.
 pub const MODELS: [&Shape; 5] = [
-    &Shape { name: "OpenCV 4", parameters: OPENCV14.parameters.split_at(8).0 },
-    &Shape { name: "OpenCV 5", parameters: OPENCV14.parameters.split_at(9).0 },
-    &Shape { name: "OpenCV 8", parameters: OPENCV14.parameters.split_at(12).0 },
-    &Shape { name: "OpenCV 12", parameters: OPENCV14.parameters.split_at(16).0 },
+    &Shape { name: "OpenCV 4", parameters: OPENCV14.parameters.split_at(8).0, equidistant: false },
+    &Shape { name: "OpenCV 5", parameters: OPENCV14.parameters.split_at(9).0, equidistant: false },
+    &Shape { name: "OpenCV 8", parameters: OPENCV14.parameters.split_at(12).0, equidistant: false },
+    &Shape { name: "OpenCV 12", parameters: OPENCV14.parameters.split_at(16).0, equidistant: false },
     &OPENCV14,
 ];
 
+/// Its fisheye model.
+pub static FISHEYE: Shape = Shape {
+    name: "OpenCV fisheye",
+    equidistant: true,
+    parameters: &[
+        ("fx", &[FX]),
+        ("fy", &[FY]),
+        ("cx", &[CX]),
+        ("cy", &[CY]),
+        ("k1", &[K1]),
+        ("k2", &[K2]),
+        ("k3", &[K3]),
+        ("k4", &[K4]),
+    ],
+};
+
+/// Models that are written.
+static WRITTEN: [&Shape; 6] = [MODELS[0], MODELS[1], MODELS[2], MODELS[3], MODELS[4], &FISHEYE];
+
 const OPENCV14: Shape = Shape {
     name: "OpenCV 14",
+    equidistant: false,
     parameters: &[
         ("fx", &[FX]),
         ("fy", &[FY]),
@@ -71,6 +91,7 @@ const PAIRS: [(&str, &[&str]); 12] = [
     ("K2", &["D2"]),
     ("cameraMatrix1", &["distCoeffs1"]),
 ];
+const FISHEYE_NAMES: [&str; 2] = ["fisheye_model", "fisheye"];
 const WIDTH: [&str; 6] = ["image_width", "image_Width", "imageWidth", "width", "img_width", "Image_Width"];
 const HEIGHT: [&str; 6] = ["image_height", "image_Height", "imageHeight", "height", "img_height", "Image_Height"];
 const SIZE: [&str; 5] = ["image_size", "imageSize", "img_size", "Image_Size", "resolution"];
@@ -85,17 +106,17 @@ pub fn recognises(root: &Node<'_>) -> bool {
 /// Cameras of a tree.
 ///
 /// # Errors
-/// [`Error::Invalid`] with the element; [`Reason::NoSuchCameraModel`] for a fisheye lens.
+/// [`Error::Invalid`] with the element.
 pub fn read(root: &Node<'_>, notes: &mut Notes) -> Result<Vec<ForeignCamera>> {
     let mut used: Vec<&str> = Vec::new();
     let mut cameras = Vec::new();
     for (name, coefficients) in PAIRS {
         let Some(matrix) = root.get(name) else { continue };
-        if let Some(fisheye) = root.any(&["fisheye_model", "fisheye"])
-            && fisheye.value.as_bool().unwrap_or_else(|| fisheye.number().is_ok_and(|number| number != 0.0))
-        {
-            return Err(fisheye.invalid(Reason::NoSuchCameraModel { model: "OpenCV fisheye".into() }));
-        }
+        let fisheye = FISHEYE_NAMES.iter().find(|name| root.get(name).is_some());
+        used.extend(fisheye);
+        let is_fisheye = fisheye.and_then(|name| root.get(name)).is_some_and(|node| {
+            node.value.as_bool().unwrap_or_else(|| node.number().is_ok_and(|number| number != 0.0))
+        });
         let k = camera_matrix(&matrix)?;
         used.push(name);
         let distortion = root.any(coefficients);
@@ -106,8 +127,9 @@ pub fn read(root: &Node<'_>, notes: &mut Notes) -> Result<Vec<ForeignCamera>> {
         if let Some(name) = coefficients.iter().find(|name| root.get(name).is_some()) {
             used.push(name);
         }
-        let (shape, lens) = lens(k, &given, PIXEL, distortion.as_ref().unwrap_or(&matrix))?;
-        if given.len() == 4 {
+        let at = distortion.as_ref().unwrap_or(&matrix);
+        let (shape, lens) = if is_fisheye { fisheye_lens(k, &given, PIXEL, at)? } else { lens(k, &given, PIXEL, at)? };
+        if given.len() == 4 && fisheye.is_none() {
             notes.assume(Assumed::FourCoefficientsRadialTangential);
         }
         let size = size(root, &lens, &mut used, notes)?;
@@ -158,6 +180,24 @@ pub fn lens(
     Ok((shape, lens))
 }
 
+/// The fisheye lens of a camera matrix and k1 k2 k3 k4, in a pixel frame that is `pixel` less than ours.
+pub fn fisheye_lens(
+    [fx, fy, cx, cy, skew]: [f64; 5],
+    coefficients: &[f64],
+    pixel: f64,
+    at: &Node<'_>,
+) -> Result<(&'static Shape, Lens)> {
+    if ![0, 4].contains(&coefficients.len()) {
+        let found = format!("{} coefficients", coefficients.len());
+        return Err(at.invalid(Reason::ExpectedHere { expected: "4 coefficients of a fisheye".into(), found }));
+    }
+    let mut values = vec![fx, fy, cx + pixel, cy + pixel];
+    values.extend(coefficients);
+    let mut lens = FISHEYE.lens(&Lens::default(), &values);
+    lens.terms[SKEW] = skew;
+    Ok((&FISHEYE, lens))
+}
+
 /// Size of the picture.
 fn size<'a>(root: &Node<'a>, lens: &Lens, used: &mut Vec<&'a str>, notes: &mut Notes) -> Result<[u32; 2]> {
     if let (Some(width), Some(height)) = (root.any(&WIDTH), root.any(&HEIGHT)) {
@@ -186,9 +226,9 @@ pub fn twice_principal_point(lens: &Lens) -> [u32; 2] {
 /// # Errors
 /// As [`foreign::outgoing`].
 pub fn write(camera: &Camera, options: &CameraOptions) -> Result<ExportedCamera> {
-    let out = foreign::outgoing(camera, &MODELS, &Lens::default(), options)?;
+    let out = foreign::outgoing(camera, &WRITTEN, &Lens::default(), options)?;
     let mut text = String::from("%YAML:1.0\n---\n");
-    camera_text(&mut text, camera, &out.values);
+    camera_text(&mut text, camera, &out);
     let mut files = Files::from([("camera.yml".to_owned(), text.into_bytes())]);
     if let Some(covariance) = &out.covariance {
         files.extend([foreign::covariance_file(&camera.id, out.shape.name, covariance)?]);
@@ -197,9 +237,13 @@ pub fn write(camera: &Camera, options: &CameraOptions) -> Result<ExportedCamera>
     Ok(ExportedCamera { files, conversion, covariance, ignored: foreign::unkept(camera, false) })
 }
 
-fn camera_text(text: &mut String, camera: &Camera, values: &[f64]) {
+fn camera_text(text: &mut String, camera: &Camera, out: &foreign::Outgoing) {
+    let values = &out.values;
     let [fx, fy, cx, cy] = [values[0], values[1], values[2] - PIXEL, values[3] - PIXEL];
     let _ = writeln!(text, "image_width: {}\nimage_height: {}", camera.width, camera.height);
+    if out.shape.equidistant {
+        let _ = writeln!(text, "fisheye_model: 1");
+    }
     matrix(text, "camera_matrix", 3, 3, &[fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0], 0);
     matrix(text, "distortion_coefficients", values.len() - 4, 1, &values[4..], 0);
 }
@@ -260,9 +304,9 @@ pub fn write_points(project: &Project, convert: bool) -> Result<Files> {
             continue;
         }
         let options = CameraOptions { convert, ..CameraOptions::default() };
-        let out = foreign::outgoing(camera, &MODELS, &Lens::default(), &options)?;
+        let out = foreign::outgoing(camera, &WRITTEN, &Lens::default(), &options)?;
         let mut text = String::from("%YAML:1.0\n---\n");
-        camera_text(&mut text, camera, &out.values);
+        camera_text(&mut text, camera, &out);
         text.push_str("photos:\n");
         text.push_str(&photos);
         conversions.extend(out.conversion);

@@ -4,15 +4,19 @@
 
 mod features;
 mod given;
+mod rounded;
 
 use std::collections::HashMap;
 
+pub use rounded::digits;
+
 use super::Files;
+use super::encoding::{Encoding, to_cp949};
 use super::text::{disarmed, quoted};
 use crate::adjustment::Adjustment;
 use crate::camera::parameter_unit;
-use crate::error::Result;
-use crate::project::{Camera, Interior, Parameter, Project, Role};
+use crate::error::{Error, Place, Reason, Result, shortened};
+use crate::project::{Camera, Parameter, Project, Role};
 
 /// What separates fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +32,34 @@ pub enum Separator {
 /// # Errors
 /// None today; exports are fallible as a family.
 pub fn write(project: &Project, adjustment: Option<&Adjustment>, separator: Separator) -> Result<Files> {
+    let extension = if separator == Separator::Comma { "csv" } else { "tsv" };
+    let named = |(name, table): (&str, Table)| (format!("{name}.{extension}"), table.text(separator).into_bytes());
+    Ok(tables(project, adjustment).into_iter().map(named).collect())
+}
+
+/// The same for people: numbers to the digits of their standard errors, and in an encoding that a spreadsheet recognises, UTF-8 with a byte
+/// order mark or CP949.
+///
+/// # Errors
+/// [`Reason::CannotCarry`] with a field that CP949 cannot write.
+pub fn spreadsheet(project: &Project, adjustment: Option<&Adjustment>, encoding: Encoding) -> Result<Files> {
+    let written = |(name, mut table): (&str, Table)| {
+        rounded::round(&mut table);
+        let text = table.text(Separator::Comma);
+        let bytes = match encoding {
+            // µ is in CP949 as the Greek letter only.
+            Encoding::Cp949 => to_cp949(&text.replace('µ', "μ")).map_err(|letter| {
+                let field = table.rows.iter().flatten().find(|field| field.contains(letter)).map_or("", String::as_str);
+                Error::Invalid { reason: Reason::CannotCarry { name: shortened(field) }, at: Place::default() }
+            })?,
+            _ => ["\u{feff}".as_bytes(), text.as_bytes()].concat(),
+        };
+        Ok((format!("{name}.csv"), bytes))
+    };
+    tables(project, adjustment).into_iter().map(written).collect()
+}
+
+fn tables(project: &Project, adjustment: Option<&Adjustment>) -> Vec<(&'static str, Table)> {
     let mut tables = vec![
         ("points", points(project, adjustment)),
         ("cameras", cameras(project, adjustment)),
@@ -41,11 +73,7 @@ pub fn write(project: &Project, adjustment: Option<&Adjustment>, separator: Sepa
     let searched = adjustment.filter(|a| !a.gross_errors.is_empty());
     tables.extend(searched.map(|a| ("gross_errors", given::record(a))));
     tables.extend(adjustment.iter().flat_map(|a| features::tables(project, a)));
-    let extension = if separator == Separator::Comma { "csv" } else { "tsv" };
-    Ok(tables
-        .into_iter()
-        .map(|(name, table)| (format!("{name}.{extension}"), table.text(separator).into_bytes()))
-        .collect())
+    tables
 }
 
 /// A table of text; the first row is its heading.
@@ -202,10 +230,7 @@ fn photos(project: &Project, adjustment: Option<&Adjustment>) -> Table {
 /// Pixels for a photo unit, per photo and axis.
 fn scales(project: &Project) -> HashMap<&str, [f64; 2]> {
     let camera = |id: &str| project.cameras.iter().find(|camera| camera.id == id);
-    let scale = |camera: &Camera| match camera.interior {
-        Interior::Brown { .. } => camera.pitch().map(|pitch| 1.0 / pitch),
-        Interior::Opencv { .. } => [1.0; 2],
-    };
+    let scale = |camera: &Camera| camera.residual_pitch().map(|pitch| 1.0 / pitch);
     project.photos.iter().filter_map(|photo| Some((photo.id.as_str(), scale(camera(&photo.camera)?)))).collect()
 }
 
@@ -268,6 +293,7 @@ mod tests {
     use crate::adjustment::{
         AdjustedCamera, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Correlation, Termination,
     };
+    use crate::project::Interior;
     use crate::project::{ColourDifferences, LensColour, Observation, Photo, Point, Sigma};
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | pixel origin | the centre of the first pixel is (0, 0): cx, cy are ours - 0.5 |
 //! | axes | x right, y down, z forwards; a = X/Z, b = Y/Z |
-//! | distortion | ideal to image: `plumb_bob` k1 k2 p1 p2 k3, `rational_polynomial` with k4 k5 k6 too, as OpenCV; `equidistant` is refused by name |
+//! | distortion | ideal to image: `plumb_bob` k1 k2 p1 p2 k3, `rational_polynomial` with k4 k5 k6 too, as OpenCV; `equidistant` k1 k2 k3 k4 of the angle off the axis |
 //!
 //! Source: sensor_msgs/CameraInfo and distortion_models.hpp of common_interfaces; image_pipeline, camera_calibration. The rectification
 //! and projection matrices of a stereo pair are derived from the rest and not read.
@@ -14,7 +14,7 @@ use std::fmt::Write;
 use super::Files;
 use super::foreign::{self, CameraOptions, ExportedCamera, ForeignCamera, Notes};
 use super::lens::Lens;
-use super::opencv::{self, MODELS, PIXEL};
+use super::opencv::{self, FISHEYE, MODELS, PIXEL};
 use super::tree::{Node, real};
 use crate::error::{Reason, Result};
 use crate::project::Camera;
@@ -27,7 +27,7 @@ pub fn recognises(root: &Node<'_>) -> bool {
 /// The camera of a tree.
 ///
 /// # Errors
-/// [`crate::Error::Invalid`] with the element; [`Reason::NoSuchCameraModel`] for a fisheye lens.
+/// [`crate::Error::Invalid`] with the element; [`Reason::NoSuchCameraModel`] for another model.
 pub fn read(root: &Node<'_>, notes: &mut Notes) -> Result<Vec<ForeignCamera>> {
     let size = [root.need("image_width")?.size()?, root.need("image_height")?.size()?];
     let matrix = root.need("camera_matrix")?;
@@ -38,15 +38,21 @@ pub fn read(root: &Node<'_>, notes: &mut Notes) -> Result<Vec<ForeignCamera>> {
     let model = root.need("distortion_model")?;
     let coefficients = root.need("distortion_coefficients")?;
     let mut given = coefficients.matrix()?.2;
-    match model.text()?.as_str() {
-        "plumb_bob" | "rational_polynomial" => {}
+    let is_fisheye = match model.text()?.as_str() {
+        "plumb_bob" | "rational_polynomial" => false,
+        "equidistant" | "fisheye" => true,
         // "thin_prism" and others with what OpenCV has by their numbers are taken; the rest has no model.
         other => return Err(model.invalid(Reason::NoSuchCameraModel { model: other.to_owned() })),
-    }
+    };
     if given.is_empty() {
-        given = vec![0.0; 5];
+        given = vec![0.0; if is_fisheye { 4 } else { 5 }];
     }
-    let (shape, lens) = opencv::lens([k[0], k[4], k[2], k[5], k[1]], &given, PIXEL, &coefficients)?;
+    let matrix = [k[0], k[4], k[2], k[5], k[1]];
+    let (shape, lens) = if is_fisheye {
+        opencv::fisheye_lens(matrix, &given, PIXEL, &coefficients)?
+    } else {
+        opencv::lens(matrix, &given, PIXEL, &coefficients)?
+    };
     let id = root.get("camera_name").map(|name| name.text()).transpose()?.filter(|name| !name.trim().is_empty());
     let read =
         ["image_width", "image_height", "camera_name", "camera_matrix", "distortion_model", "distortion_coefficients"];
@@ -61,10 +67,14 @@ pub fn read(root: &Node<'_>, notes: &mut Notes) -> Result<Vec<ForeignCamera>> {
 /// # Errors
 /// As [`foreign::outgoing`].
 pub fn write(camera: &Camera, options: &CameraOptions) -> Result<ExportedCamera> {
-    let out = foreign::outgoing(camera, &[MODELS[1], MODELS[2]], &Lens::default(), options)?;
+    let out = foreign::outgoing(camera, &[MODELS[1], MODELS[2], &FISHEYE], &Lens::default(), options)?;
     let [fx, fy, cx, cy] = [out.values[0], out.values[1], out.values[2] - PIXEL, out.values[3] - PIXEL];
     let distortion = &out.values[4..];
-    let model = if distortion.len() == 5 { "plumb_bob" } else { "rational_polynomial" };
+    let model = match distortion.len() {
+        4 => "equidistant",
+        5 => "plumb_bob",
+        _ => "rational_polynomial",
+    };
     let list = |values: &[f64]| values.iter().map(|value| real(*value)).collect::<Vec<_>>().join(", ");
     let mut text = String::new();
     let _ = writeln!(text, "image_width: {}\nimage_height: {}", camera.width, camera.height);

@@ -105,6 +105,10 @@ pub fn measure(
     Ok(Measured { features, systems: systems.collect::<Result<_>>()? })
 }
 
+/// Share of the points' extent (twice the largest distance from their centroid) above which their rms distance from a form is said: without it a plane through the corners of a box is
+/// given out as measured. Flat parts that are bent stay well below.
+const MISFIT: f64 = 0.02;
+
 fn is_form(kind: &FeatureKind) -> bool {
     use FeatureKind as K;
     matches!(kind, K::Line { .. } | K::Plane { .. } | K::Circle { .. } | K::Sphere { .. } | K::Cylinder { .. })
@@ -194,6 +198,9 @@ impl Pending {
         });
         self.measured.residuals = residuals.collect();
         self.summary();
+        let middle = numbers.iter().map(|k| points.at(*k)).sum::<Vector3<f64>>() / numbers.len().max(1) as f64;
+        let extent = 2.0 * numbers.iter().map(|k| (points.at(*k) - middle).norm()).fold(0.0, f64::max);
+        self.measured.misfit = self.measured.rms.map(|rms| rms / extent).filter(|ratio| *ratio > MISFIT);
         if let Some(direction) = form.direction.as_ref().filter(|_| form.shape.is_axis()) {
             let along = numbers.iter().map(|k| (points.at(*k) - form.position.value).dot(&direction.value));
             let (least, most) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| (a.min(s), b.max(s)));

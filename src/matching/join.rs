@@ -1,4 +1,5 @@
-//! New points that are points there are: their rays meet those of the other, and no photo shows both.
+//! New points that are points there are: no photo shows both, and their rays meet as well together as apart, or one lies within the
+//! other's disc, where no second target has a place.
 
 use std::collections::BTreeMap;
 
@@ -8,23 +9,39 @@ use super::PhotoTargets;
 use super::photo::OrientedPhoto;
 use super::uncoded::{MatchOptions, Matching, tolerance_px, views};
 use crate::initial::intersection::{Ray, intersect};
+use crate::initial::robust::quantile;
 use crate::project::{Project, Role};
 
 /// Tolerances, as distances at the object, within which two points are compared ray by ray.
 const NEAR: f64 = 10.0;
+
+/// A ray to a point, and how wide its target is in the photo, in pixels.
+#[derive(Clone, Copy)]
+struct Seen {
+    ray: Ray,
+    width: Option<f64>,
+}
+
+/// Rays of a point, by photo.
+type Rays = BTreeMap<usize, Seen>;
 
 /// Joins new points to what there was before, and to each other.
 pub(super) fn join(project: &mut Project, matching: &mut Matching, targets: &[PhotoTargets], options: &MatchOptions) {
     let tolerance = options.tolerance_px.unwrap_or_else(|| tolerance_px(project, &views(project, targets)));
     let photos = OrientedPhoto::all(project);
     let by_id: BTreeMap<&str, usize> = photos.iter().enumerate().map(|(k, photo)| (photo.id.as_str(), k)).collect();
-    // Rays of every point, by photo.
-    let mut rays: BTreeMap<String, BTreeMap<usize, Ray>> = BTreeMap::new();
+    let widths: BTreeMap<(&str, [u64; 2]), f64> = targets
+        .iter()
+        .flat_map(|found| found.targets.iter().map(|t| ((found.photo.as_str(), place(t.u, t.v)), t.major)))
+        .collect();
+    let mut rays: BTreeMap<String, Rays> = BTreeMap::new();
     for o in project.observations.iter().filter(|o| o.enabled) {
         let Some(&k) = by_id.get(o.photo.as_str()) else { continue };
         let Some(image) = photos[k].ray([o.u, o.v]) else { continue };
         let weight = photos[k].principal_distance_px.powi(2);
-        rays.entry(o.point.clone()).or_default().insert(k, Ray { pose: photos[k].pose, image, weight });
+        let width = widths.get(&(o.photo.as_str(), place(o.u, o.v))).copied();
+        let seen = Seen { ray: Ray { pose: photos[k].pose, image, weight }, width };
+        rays.entry(o.point.clone()).or_default().insert(k, seen);
     }
     let mut places: Vec<(String, Vector3<f64>)> = project
         .points
@@ -36,12 +53,13 @@ pub(super) fn join(project: &mut Project, matching: &mut Matching, targets: &[Ph
     for id in new {
         let Some(own) = rays.get(&id).filter(|own| !own.is_empty()) else { continue };
         let Some(at) = places.iter().find(|(other, _)| *other == id).map(|(_, at)| *at) else { continue };
-        let depth =
-            own.values().map(|ray| (at - ray.pose.centre).norm() / ray.weight.sqrt()).fold(f64::INFINITY, f64::min);
-        let near = |other: &&(String, Vector3<f64>)| other.0 != id && (other.1 - at).norm() <= NEAR * tolerance * depth;
-        let mut same = places.iter().filter(near).filter(|(other, _)| {
+        let pixel = own.values().map(|seen| pixel_at(&seen.ray, &at)).fold(f64::INFINITY, f64::min);
+        let mut same = places.iter().filter(|(other, _)| *other != id).filter(|(other, there)| {
             let Some(theirs) = rays.get(other) else { return false };
-            !own.keys().any(|photo| theirs.contains_key(photo)) && meet(own.values().chain(theirs.values()), tolerance)
+            let distance = (there - at).norm();
+            let within = || [own, theirs].iter().all(|rays| radius(rays, &at).is_some_and(|r| distance < r));
+            !own.keys().any(|photo| theirs.contains_key(photo))
+                && (within() || distance <= NEAR * tolerance * pixel && are_one(own, theirs, tolerance))
         });
         // Of two that it could be nobody knows which.
         let (Some((other, _)), None) = (same.next().cloned(), same.next()) else { continue };
@@ -55,9 +73,37 @@ pub(super) fn join(project: &mut Project, matching: &mut Matching, targets: &[Ph
     }
 }
 
-/// Whether all rays meet in one point.
-fn meet<'a>(rays: impl Iterator<Item = &'a Ray>, tolerance: f64) -> bool {
-    let rays: Vec<Ray> = rays.copied().collect();
-    let Ok(found) = intersect(&rays) else { return false };
-    rays.iter().all(|ray| ray.pose.misfit(&found.point, ray.image) * ray.weight.sqrt() <= tolerance)
+/// A place in a photo, as it was measured.
+fn place(u: f64, v: f64) -> [u64; 2] {
+    [u.to_bits(), v.to_bits()]
+}
+
+/// Size at the object of a pixel.
+fn pixel_at(ray: &Ray, point: &Vector3<f64>) -> f64 {
+    (point - ray.pose.centre).norm() / ray.weight.sqrt()
+}
+
+/// Radius at the object of the target that these rays point to; of a slanted disc the longer axis keeps its length.
+fn radius(rays: &Rays, point: &Vector3<f64>) -> Option<f64> {
+    let radii: Vec<f64> =
+        rays.values().filter_map(|seen| Some(seen.width? / 2.0 * pixel_at(&seen.ray, point))).collect();
+    (!radii.is_empty()).then(|| quantile(&radii, 0.5))
+}
+
+/// Whether the rays of two points meet in one point as well as those of each by itself: a ray that misses its own point by more than
+/// the tolerance says nothing about the other one.
+fn are_one(own: &Rays, theirs: &Rays, tolerance: f64) -> bool {
+    let missing = |rays: Vec<Ray>| missing(&rays, tolerance);
+    let [own, theirs] = [own, theirs].map(|rays| rays.values().map(|seen| seen.ray).collect::<Vec<_>>());
+    let together = own.iter().chain(&theirs).copied().collect();
+    // A single ray meets anything.
+    let alone = |rays: Vec<Ray>| if rays.len() < 2 { Some(0) } else { missing(rays) };
+    missing(together).zip(alone(own).zip(alone(theirs))).is_some_and(|(together, (a, b))| together <= a + b)
+}
+
+/// How many rays miss the point where all meet by more than the tolerance.
+fn missing(rays: &[Ray], tolerance: f64) -> Option<usize> {
+    let found = intersect(rays).ok()?;
+    let misses = |ray: &&Ray| ray.pose.misfit(&found.point, ray.image) * ray.weight.sqrt() > tolerance;
+    Some(rays.iter().filter(misses).count())
 }

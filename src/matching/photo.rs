@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::camera::{ideal_from_pixel, pixel_from_camera_point};
 use crate::initial::Pose;
-use crate::project::{Camera, Interior, Parameter, Project};
+use crate::project::{Camera, Project};
 
 /// An oriented photo.
 pub(super) struct OrientedPhoto {
@@ -24,10 +24,7 @@ impl OrientedPhoto {
         let oriented = |photo: &crate::project::Photo| {
             let pose = Pose::of_photo(photo).filter(|_| photo.enabled)?;
             let camera = project.cameras.iter().find(|c| c.id == photo.camera)?.of_photo(photo);
-            let principal_distance_px = match camera.interior {
-                Interior::Brown { c, .. } => c? / camera.pitch()[0],
-                Interior::Opencv { .. } => camera.interior.get(Parameter::Fx)?,
-            };
+            let principal_distance_px = camera.principal_distance_px()?;
             let usable = principal_distance_px.is_finite() && principal_distance_px > 0.0;
             usable.then(|| Self { id: photo.id.clone(), camera, pose, principal_distance_px })
         };

@@ -157,6 +157,7 @@ pub fn compared(input: Input) -> Result<Pair> {
         id: common.ids[k].clone(),
         later_id: renamed.get(&common.ids[k]).cloned(),
         role: if stable.contains(&k) { PointRole::Reference } else { PointRole::Object },
+        xyz: earlier[k],
         d: d[k],
         covariance: displaced.block(k, k),
     };

@@ -22,6 +22,8 @@ pub struct Moved {
     pub later_id: Option<String>,
     /// Role.
     pub role: PointRole,
+    /// Coordinates in the earlier epoch.
+    pub xyz: Vector3<f64>,
     /// Displacement.
     pub d: Vector3<f64>,
     /// Its covariance.
@@ -73,6 +75,7 @@ pub fn displacements(points: Vec<Moved>, f: Option<f64>, options: &Options, cert
             id: point.id,
             later_id: point.later_id,
             role: point.role,
+            xyz: point.xyz.into(),
             difference: point.d.into(),
             sigma,
             covariance: [c[(0, 0)], c[(0, 1)], c[(0, 2)], c[(1, 1)], c[(1, 2)], c[(2, 2)]],

@@ -108,6 +108,23 @@ pub struct Ellipsoid {
     pub directions: [[f64; 3]; 3],
 }
 
+impl Ellipsoid {
+    /// Its outline seen along right x up, both unit vectors: the two semi-axes, descending, and the angle of the longer one from `right`
+    /// towards `up`, radians. With the semi-axes s_k along u_k it is the ellipse of Σ s_k² p_k p_kᵀ, p_k = (u_k·right, u_k·up).
+    pub fn outline(&self, right: [f64; 3], up: [f64; 3]) -> ([f64; 2], f64) {
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+        for (s, u) in self.semi_axes.iter().zip(self.directions) {
+            let (x, y) = (s * dot(u, right), s * dot(u, up));
+            (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
+        }
+        let (mean, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
+        let radius = half.hypot(xy);
+        let axes = [(mean + radius).max(0.0).sqrt(), (mean - radius).max(0.0).sqrt()];
+        (axes, 0.5 * xy.atan2(half))
+    }
+}
+
 /// The smallest displacement that is found with the wanted power.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Detectable {
@@ -127,6 +144,9 @@ pub struct Displacement {
     pub later_id: Option<String>,
     /// Role after the elimination.
     pub role: PointRole,
+    /// Coordinates in the earlier epoch, in the system of the first.
+    #[serde(default)]
+    pub xyz: [f64; 3],
     /// Later minus earlier.
     pub difference: [f64; 3],
     /// Standard errors.
@@ -420,6 +440,9 @@ pub struct Series {
     pub velocity: Option<[f64; 3]>,
     /// Its standard errors.
     pub velocity_sigma: Option<[f64; 3]>,
+    /// Displacement of the straight line at the earliest date; null without a velocity.
+    #[serde(default)]
+    pub line_start: Option<[f64; 3]>,
     /// Test against 0.
     pub velocity_test: Option<Test>,
     /// By the length of the last displacement; null without thresholds.

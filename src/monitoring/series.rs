@@ -73,9 +73,10 @@ pub fn series(epochs: &[Prepared], pairs: &[Pair], options: &Options) -> (Vec<Se
         Series {
             id,
             values,
-            velocity: velocity.map(|(v, _)| v.into()),
-            velocity_sigma: velocity.map(|(_, c)| std::array::from_fn(|a| c[(a, a)].max(0.0).sqrt())),
-            velocity_test: velocity.and_then(|(v, c)| single(&v, &c, f, options.significance)),
+            velocity: velocity.map(|(v, ..)| v.into()),
+            velocity_sigma: velocity.map(|(_, c, _)| std::array::from_fn(|a| c[(a, a)].max(0.0).sqrt())),
+            line_start: velocity.map(|(.., start)| start.into()),
+            velocity_test: velocity.and_then(|(v, c, _)| single(&v, &c, f, options.significance)),
             state,
         }
     });
@@ -121,8 +122,8 @@ fn in_datum(
     Some((0..common.ids.len()).map(one).collect())
 }
 
-/// Linear velocity per day and its covariance.
-fn velocity(epochs: &[Prepared], places: &[Place]) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+/// Linear velocity per day, its covariance, and the line at the earliest date.
+fn velocity(epochs: &[Prepared], places: &[Place]) -> Option<(Vector3<f64>, Matrix3<f64>, Vector3<f64>)> {
     let dated: Vec<(f64, &Place)> = places.iter().filter_map(|place| Some((epochs[place.epoch].day?, place))).collect();
     let mut days: Vec<f64> = dated.iter().map(|(day, _)| *day).collect();
     days.sort_by(f64::total_cmp);
@@ -150,5 +151,6 @@ fn velocity(epochs: &[Prepared], places: &[Place]) -> Option<(Vector3<f64>, Matr
     let x = inverse * right;
     let v = x.fixed_rows::<3>(3) / span;
     let c: Matrix3<f64> = inverse.fixed_view::<3, 3>(3, 3) / (span * span);
-    (v.iter().chain(c.iter()).all(|x| x.is_finite())).then_some((v, c))
+    let start: Vector3<f64> = x.fixed_rows::<3>(0).into();
+    (v.iter().chain(c.iter()).chain(start.iter()).all(|x| x.is_finite())).then_some((v, c, start))
 }

@@ -112,13 +112,13 @@ fn transform(first: &Prepared, epoch: &Prepared, pairs: &[(usize, usize)]) -> st
         }
     }
     if direct > UNLIKE * extent {
-        return Err(Reason::EpochUnlike { name, share: (direct / extent).into() });
+        return Err(Reason::EpochUnlike { name, share: digits(direct / extent, 2).into() });
     }
     if !(first.scaled && epoch.scaled) {
         return Ok(fit.transform);
     }
     if (fit.transform.scale - 1.0).abs() > OTHER_UNIT {
-        return Err(Reason::EpochUnitRatio { name, ratio: (1.0 / fit.transform.scale).into() });
+        return Err(Reason::EpochUnitRatio { name, ratio: digits(1.0 / fit.transform.scale, 6).into() });
     }
     // About the centroids rotation and shift of least squares are the same with and without a scale.
     Ok(Similarity { scale: 1.0, ..fit.transform })
@@ -224,4 +224,9 @@ pub fn differences(
     let shift = transform.target_centroid - transform.source_centroid;
     let one = |(a, b): (&Vector3<f64>, &Vector3<f64>)| b - a + shift + turn * (b - transform.source_centroid);
     Some(earlier.iter().zip(later).map(one).collect())
+}
+/// A number of so many significant digits: more of them say nothing in a sentence.
+fn digits(value: f64, digits: i32) -> f64 {
+    let power = 10f64.powi(digits - 1 - value.abs().log10().floor().clamp(-200.0, 200.0) as i32);
+    (value * power).round() / power
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::camera::ideal_from_pixel;
+use crate::camera::{ideal_from_pixel, pixel_from_camera_point};
 use crate::initial::intersection::{Intersection, Ray, intersect};
 use crate::initial::pose::image_jacobian;
 use crate::initial::robust::scale;
@@ -99,6 +99,9 @@ const MOST: f64 = 0.7;
 /// Disagreement, as a share of the longer side of the photo, that unmodelled distortion and a rough principal distance
 /// may cause.
 const ROUGH: f64 = 4e-3;
+/// Tangent of the angle off the axis, 75 degrees, within which rays of a wide lens give initial values: farther out, ideal coordinates grow without
+/// bound and with them their noise. All measurements are compared and adjusted.
+const WIDE: f64 = 3.7;
 /// Robust standard deviations, and pixels in any case, within which a measurement agrees.
 const AGREEING: f64 = 6.5;
 const SMALLEST_LIMIT_PX: f64 = 0.25;
@@ -108,31 +111,12 @@ const SMALLEST_WRONG_PX: f64 = 1.5;
 
 /// Principal distance in pixels.
 pub(super) fn principal_distance_px(camera: &Camera) -> Option<f64> {
-    let c = camera.interior.get(match camera.interior {
-        Interior::Brown { .. } => Parameter::C,
-        Interior::Opencv { .. } => Parameter::Fx,
-    })?;
-    let pitch = match camera.interior {
-        Interior::Brown { .. } => camera.pitch()[0],
-        Interior::Opencv { .. } => 1.0,
-    };
-    Some(c / pitch).filter(|px| px.is_finite() && *px > 0.0)
+    camera.principal_distance_px().filter(|px| px.is_finite() && *px > 0.0)
 }
 
 /// Sets the principal distance in pixels.
 pub(super) fn set_principal_distance_px(camera: &mut Camera, px: f64) {
-    match camera.interior {
-        Interior::Brown { .. } => {
-            let c = px * camera.pitch()[0];
-            camera.interior.set(Parameter::C, c);
-        }
-        Interior::Opencv { .. } => {
-            if camera.interior.get(Parameter::Fy).is_none() {
-                camera.interior.set(Parameter::Fy, px);
-            }
-            camera.interior.set(Parameter::F, px);
-        }
-    }
+    camera.set_principal_distance_px(px);
 }
 
 /// The longer side of the sensor grid in pixels.
@@ -236,8 +220,19 @@ impl Block {
         let as_taken = |view: &View| self.cameras[view.camera].of_photo(&view.as_photo());
         let cameras: Vec<Camera> = self.views.iter().map(as_taken).collect();
         for sight in &mut self.sights {
-            sight.ray = ideal_from_pixel(&cameras[sight.photo], sight.pixel);
+            let camera = &cameras[sight.photo];
+            sight.ray = ideal_from_pixel(camera, sight.pixel);
+            if camera.interior.model().is_wide {
+                sight.ray = sight.ray.filter(|[x, y]| x * x + y * y < WIDE * WIDE);
+            }
         }
+    }
+
+    /// How much smaller a step in ideal coordinates is in the image of a wide lens than at its axis, along the radius: cos² θ. 1 for others.
+    fn shrinking(&self, sight: usize) -> f64 {
+        let s = &self.sights[sight];
+        let is_wide = self.cameras[self.views[s.photo].camera].interior.model().is_wide;
+        s.ray.filter(|_| is_wide).map_or(1.0, |[x, y]| 1.0 / (1.0 + x * x + y * y))
     }
 
     /// Principal distance of a photo's camera in pixels; what turns ideal coordinates into pixels.
@@ -297,7 +292,14 @@ impl Block {
     /// camera.
     pub fn misfit_px(&self, sight: usize) -> Option<f64> {
         let s = &self.sights[sight];
-        let (pose, xyz, ray) = (self.views[s.photo].pose?, self.marks[s.point].xyz?, s.ray?);
+        let (pose, xyz) = (self.views[s.photo].pose?, self.marks[s.point].xyz?);
+        let view = &self.views[s.photo];
+        if self.cameras[view.camera].interior.model().is_wide {
+            let camera = self.cameras[view.camera].of_photo(&view.as_photo());
+            let seen = pixel_from_camera_point(&camera, pose.to_camera(&xyz));
+            return Some(seen.map_or(f64::INFINITY, |[u, v]| (u - s.pixel[0]).hypot(v - s.pixel[1])));
+        }
+        let ray = s.ray?;
         Some(pose.misfit(&xyz, ray) * self.pixels_per_unit(s.photo))
     }
 
@@ -309,7 +311,7 @@ impl Block {
             let sight = &self.sights[s];
             if let (Some(pose), Some(image)) = (self.views[sight.photo].pose, sight.ray) {
                 which.push(s);
-                rays.push(Ray { pose, image, weight: self.pixels_per_unit(sight.photo).powi(2) });
+                rays.push(Ray { pose, image, weight: (self.pixels_per_unit(sight.photo) * self.shrinking(s)).powi(2) });
             }
         }
         (which, rays)
@@ -474,7 +476,7 @@ impl Block {
         let by_point = image_jacobian(&to_camera) * pose.object_to_camera * Matrix3::from_diagonal(&sigma);
         let c = by_point * by_point.transpose();
         let (mean, half) = (0.5 * (c.m11 + c.m22), 0.5 * (c.m11 - c.m22));
-        let larger = (mean + half.hypot(c.m12)).sqrt() * self.pixels_per_unit(s.photo);
+        let larger = (mean + half.hypot(c.m12)).sqrt() * self.pixels_per_unit(s.photo) * self.shrinking(sight);
         if larger.is_finite() { larger } else { 0.0 }
     }
 

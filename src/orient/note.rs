@@ -258,8 +258,7 @@ pub(super) fn of_cameras(
 ) -> Vec<Note> {
     let mut notes = Vec::new();
     for (k, (camera, found)) in project.cameras.iter().zip(&block.cameras).enumerate() {
-        let units =
-            if matches!(camera.interior, crate::project::Interior::Brown { .. }) { camera.pitch()[0] } else { 1.0 };
+        let units = camera.residual_pitch()[0];
         let Some(px) = principal_distance_px(found) else { continue };
         let (id, value) = (camera.id.clone(), px * units);
         if let Some(source) = sources[k] {

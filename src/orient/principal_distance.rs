@@ -12,7 +12,7 @@ use crate::initial::dlt::dlt;
 use crate::initial::homography::{of_plane, principal_distance};
 use crate::initial::resection::space_resection;
 use crate::initial::robust::quantile;
-use crate::project::{Camera, Interior};
+use crate::project::Camera;
 
 /// Principal distance assumed when nothing is known, over the longer side of the sensor: a field of view of 45°.
 pub(super) const ASSUMED: f64 = 1.2;
@@ -105,10 +105,13 @@ fn misfit(camera: &Camera, seen: &[Seen], px: f64) -> f64 {
 /// What direct linear transformations and plane homographies say, pixels.
 fn closed_forms(camera: &Camera, seen: &[Seen]) -> Vec<f64> {
     let [px, py] = camera.pitch();
-    let principal_point = match camera.interior {
-        Interior::Brown { x0, y0, .. } => [x0, y0],
-        Interior::Opencv { cx, cy, .. } => camera.photo_from_pixel([cx, cy]),
-    };
+    let model = camera.interior.model();
+    if model.is_wide {
+        // They hold for perspective images.
+        return Vec::new();
+    }
+    let centre = model.centre.map(|p| camera.interior.get(p).unwrap_or_default());
+    let principal_point = if model.in_photo_units { centre } else { camera.photo_from_pixel(centre) };
     let mut found = Vec::new();
     let mut planes = Vec::new();
     for photo in seen {

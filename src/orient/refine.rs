@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::block::{Block, principal_distance_px};
 use crate::adjust::{Numbering, camera_sigmas, values};
 use crate::initial::Pose;
-use crate::project::{Camera, Datum, DatumKind, Interior, Observation, Parameter, Photo, Point, Project, Role, Sigma};
+use crate::project::{Camera, Datum, DatumKind, Observation, Parameter, Photo, Point, Project, Role, Sigma};
 use crate::rotation;
 
 /// Largest factor a principal distance may be off from a given one.
@@ -136,7 +136,9 @@ fn part(block: &Block, freedom: Freedom) -> Option<Part> {
     let (mut project, mut numbering) = (Project::default(), Numbering::default());
     let mut rays: BTreeMap<usize, usize> = BTreeMap::new();
     let usable = |s: &&super::block::Sight| {
-        s.taken && s.ray.is_some() && block.views[s.photo].pose.is_some() && block.marks[s.point].xyz.is_some()
+        let is_wide = block.cameras[block.views[s.photo].camera].interior.model().is_wide;
+        let imaged = s.ray.is_some() || is_wide;
+        s.taken && imaged && block.views[s.photo].pose.is_some() && block.marks[s.point].xyz.is_some()
     };
     for sight in block.sights.iter().filter(usable) {
         *rays.entry(sight.point).or_default() += 1;
@@ -203,10 +205,7 @@ fn part(block: &Block, freedom: Freedom) -> Option<Part> {
 /// The camera with what may be estimated of it at this freedom, and nothing else.
 fn freed(block: &Block, camera: usize, freedom: Freedom) -> Camera {
     let mut part = block.cameras[camera].clone();
-    let distance = match part.interior {
-        Interior::Brown { .. } => Parameter::C,
-        Interior::Opencv { .. } => Parameter::F,
-    };
+    let distance = part.interior.model().distance;
     if freedom != Freedom::Everything {
         part.free.retain(|p| freedom == Freedom::Distance && *p == Parameter::K1);
         part.sigma.clear();

@@ -9,9 +9,7 @@ use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::initial::Pose;
 use crate::limits;
 use crate::network::Station;
-use crate::project::{
-    Camera, DatumKind, Distance, Interior, Observation, Photo, Plan, PlanStation, Project, Role, Sigma,
-};
+use crate::project::{Camera, DatumKind, Distance, Observation, Photo, Plan, PlanStation, Project, Role, Sigma};
 use crate::rotation;
 use crate::scene::{Face, Scene};
 
@@ -192,10 +190,7 @@ pub fn pose(station: &PlanStation) -> Result<Pose> {
 
 /// Principal distance in pixels.
 pub fn principal_distance_px(camera: &Camera) -> Option<f64> {
-    match camera.interior {
-        Interior::Brown { c, .. } => c.map(|c| c / camera.pitch()[0]),
-        Interior::Opencv { fx, .. } => fx,
-    }
+    camera.principal_distance_px()
 }
 
 /// Room between the object and the border of the picture.

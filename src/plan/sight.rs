@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::camera::pixel_from_camera_point;
 use crate::initial::Pose;
-use crate::project::{Camera, Interior};
+use crate::project::Camera;
 use crate::scene::incidence;
 
 use super::setup::{Setup, principal_distance_px};
@@ -36,7 +36,8 @@ pub fn see(setup: &Setup<'_>, camera: &Camera, pose: &Pose, k: usize) -> Result<
     if angle.is_some_and(|angle| angle > plan.max_incidence) {
         return Err(Hindrance::TurnedAway);
     }
-    let depth = -seen.z;
+    // Equidistant images keep their scale across the axis of a wide lens, where the depth along it goes to zero.
+    let depth = if camera.interior.model().is_wide { seen.norm() } else { -seen.z };
     let across = point.diameter.and_then(|d| {
         Some(d * principal_distance_px(camera)? * angle.map_or(1.0, f64::cos) / depth).filter(|px| px.is_finite())
     });
@@ -57,10 +58,9 @@ pub fn see(setup: &Setup<'_>, camera: &Camera, pose: &Pose, k: usize) -> Result<
 fn confusion_px(setup: &Setup<'_>, camera: &Camera, depth: f64) -> Option<f64> {
     let lens = setup.plan.lens;
     let (number, focus, pitch) = (lens.f_number?, lens.focus?, camera.pixel_pitch?);
-    let c = match camera.interior {
-        Interior::Brown { c, .. } => c?,
-        Interior::Opencv { fx, .. } => fx? * pitch[0],
-    };
+    let model = camera.interior.model();
+    let distance = camera.interior.get(model.distance)?;
+    let c = if model.in_photo_units { distance } else { distance * pitch[0] };
     let [depth, focus] = [depth, focus].map(|length| length * lens.unit_mm);
     (focus > c).then(|| c * c * (depth - focus).abs() / (number * depth * (focus - c)) / pitch[0])
 }

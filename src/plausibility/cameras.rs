@@ -3,7 +3,7 @@
 use super::framing::Framing;
 use super::seen::{DISTANCES, distance_px, longer_side};
 use crate::adjustment::{CameraDoubt, ImplausibleCamera};
-use crate::project::{Camera, Interior, Project};
+use crate::project::{Camera, Project};
 
 impl ImplausibleCamera {
     /// The same for a photo whose framing differs.
@@ -21,13 +21,15 @@ impl ImplausibleCamera {
 /// Fields of view along the longer side, radians. Beyond, a lens draws no straight lines straight, and the models here mean nothing; below
 /// are telescopes, and slips of the unit.
 const WIDEST: f64 = 150.0 * std::f64::consts::PI / 180.0;
+/// Of a fisheye without distortion; the picture may be wider than what the lens images.
+const WIDEST_FISHEYE: f64 = std::f64::consts::TAU;
 const NARROWEST: f64 = std::f64::consts::PI / 180.0;
 /// Distance from the border of the picture that a measured centre may have outwards, as a share of the longer side: targets are cut by it.
 const OUTSIDE: f64 = 0.01;
 
 /// Unit of a camera's principal distance, pixels.
 fn units(camera: &Camera) -> f64 {
-    if matches!(camera.interior, Interior::Brown { .. }) { camera.pitch()[0] } else { 1.0 }
+    camera.residual_pitch()[0]
 }
 
 /// What the cameras alone, and the measurements in their photos, say against them.
@@ -36,8 +38,11 @@ pub fn implausible(project: &Project) -> Vec<ImplausibleCamera> {
     for camera in &project.cameras {
         let id = || camera.id.clone();
         if let Some(px) = distance_px(camera) {
-            let angle = 2.0 * (0.5 * longer_side(camera) / px).atan();
-            if !(NARROWEST..=WIDEST).contains(&angle) {
+            let is_wide = camera.interior.model().is_wide;
+            let half = 0.5 * longer_side(camera) / px;
+            let angle = 2.0 * if is_wide { half } else { half.atan() };
+            let widest = if is_wide { WIDEST_FISHEYE } else { WIDEST };
+            if !(NARROWEST..=widest).contains(&angle) {
                 let pixels = units(camera) == 1.0 && camera.pixel_pitch.is_none();
                 let doubt = CameraDoubt::FieldOfView { angle, value: px * units(camera), pixels };
                 found.push(ImplausibleCamera { camera: id(), doubt });
@@ -74,10 +79,7 @@ pub fn without(project: &Project, doubts: &[ImplausibleCamera]) -> Option<Projec
     }
     let mut project = project.clone();
     for camera in project.cameras.iter_mut().filter(|camera| is_doubted(camera)) {
-        match &mut camera.interior {
-            Interior::Brown { c, .. } => *c = None,
-            Interior::Opencv { fx, fy, .. } => (*fx, *fy) = (None, None),
-        }
+        camera.interior.forget_principal_distance();
         for distance in DISTANCES {
             if camera.sigma.remove(&distance).is_some() && !camera.free.contains(&distance) {
                 camera.free.push(distance);
@@ -90,6 +92,7 @@ pub fn without(project: &Project, doubts: &[ImplausibleCamera]) -> Option<Projec
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::project::Interior;
     use crate::project::{Observation, Parameter, Photo, Sigma};
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;

@@ -17,7 +17,7 @@ use crate::adjustment::OneStation;
 use crate::camera::ideal_from_pixel;
 use crate::initial::Pose;
 use crate::initial::robust::{quantile, scale};
-use crate::project::{Camera, Interior, Parameter, Project};
+use crate::project::{Camera, Parameter, Project};
 use crate::rotation;
 
 /// Common points that two photos need to be compared: of fewer the lens makes up for anything. And those that are compared at most.
@@ -79,13 +79,9 @@ impl<'a> Lens<'a> {
         let px = px.clamp(range[0], range[1]);
         set_distance_px(&mut camera, px);
         let aside = aside.map(|share| share.clamp(-ASIDE, ASIDE) * self.side);
-        let (half, names, unit) = match camera.interior {
-            Interior::Brown { .. } => {
-                (0.5 * self.side * camera.pitch()[0], [Parameter::X0, Parameter::Y0], camera.pitch()[0])
-            }
-            Interior::Opencv { .. } => (0.5 * self.side / px, [Parameter::Cx, Parameter::Cy], 1.0),
-        };
-        for (name, aside) in names.into_iter().zip(aside) {
+        let (model, unit) = (camera.interior.model(), camera.residual_pitch()[0]);
+        let half = if model.in_photo_units { 0.5 * self.side * unit } else { 0.5 * self.side / px };
+        for (name, aside) in model.centre.into_iter().zip(aside) {
             let value = camera.interior.get(name).unwrap_or_default();
             camera.interior.set(name, value + aside * unit);
         }

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::project::{Camera, Interior, Parameter, Project};
+use crate::project::{Camera, Parameter, Project};
 
 /// A measurement.
 #[derive(Clone, Copy, Debug)]
@@ -72,22 +72,13 @@ pub fn common(a: &Shot, b: &Shot) -> Vec<(Mark, Mark)> {
 
 /// Principal distance in pixels; none where it is missing or no length.
 pub fn distance_px(camera: &Camera) -> Option<f64> {
-    let px = match camera.interior {
-        Interior::Brown { c, .. } => c? / camera.pitch()[0],
-        Interior::Opencv { fx, .. } => fx?,
-    };
+    let px = camera.principal_distance_px()?;
     (px.is_finite() && px > 0.0).then_some(px)
 }
 
 /// Gives a camera a principal distance in pixels.
 pub fn set_distance_px(camera: &mut Camera, px: f64) {
-    match camera.interior {
-        Interior::Brown { .. } => {
-            let c = px * camera.pitch()[0];
-            camera.interior.set(Parameter::C, c);
-        }
-        Interior::Opencv { .. } => camera.interior.set(Parameter::F, px),
-    }
+    camera.set_principal_distance_px(px);
 }
 
 /// The longer side of the sensor grid, pixels.

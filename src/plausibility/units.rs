@@ -11,7 +11,7 @@ use super::seen::{Shot, distance_px, longer_side, shots};
 use crate::adjustment::{UnitOf, UnitRatio};
 use crate::initial::Pose;
 use crate::initial::robust::quantile;
-use crate::project::{Interior, Project, Role};
+use crate::project::{Project, Role};
 
 /// Units of length in millimetres: millimetre, centimetre, metre, inch, foot.
 const UNITS: [f64; 5] = [1.0, 10.0, 1000.0, 25.4, 304.8];
@@ -137,11 +137,11 @@ fn is_possible(project: &Project, shots: &[Shot], factor: f64) -> bool {
     let depths = depths(project, shots);
     let near = depths.iter().filter(|(k, depth)| {
         let lens = &shots[*k].lens;
-        let c = match (lens.interior, lens.pixel_pitch) {
-            (Interior::Brown { c, .. }, Some(_)) => c,
-            (Interior::Opencv { .. }, Some([pitch, _])) => distance_px(lens).map(|px| px * pitch),
-            _ => None,
-        };
+        let model = lens.interior.model();
+        let c = lens.pixel_pitch.and_then(|[pitch, _]| match model.in_photo_units {
+            true => lens.interior.get(model.distance),
+            false => distance_px(lens).map(|px| px * pitch),
+        });
         c.zip(millimetres).is_some_and(|(c, unit)| c > MAGNIFIED * depth * unit * factor)
     });
     2 * near.count() <= depths.len() && images(project, shots, factor).is_none_or(|(px, side)| is_image(px, side))

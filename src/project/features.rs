@@ -254,6 +254,8 @@ impl Project {
             layers: _,
             report: _,
             plan: _,
+            epoch: _,
+            origin: _,
         } = self;
         (format, version, name, unit) == (&other.format, &other.version, &other.name, &other.unit)
             && (cameras, points) == (&other.cameras, &other.points)

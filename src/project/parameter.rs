@@ -1,4 +1,6 @@
-//! Interior orientation: the two camera models and the names of their parameters.
+//! Interior orientation: the camera models and the names of their parameters.
+//!
+//! A new model is a variant of [`Interior`], a row of [`CameraModel`] and its equations in `src/camera/`.
 
 use std::fmt;
 use std::str::FromStr;
@@ -25,6 +27,9 @@ pub enum Parameter {
     P2,
     B1,
     B2,
+    K4,
+    K5,
+    K6,
 }
 
 impl Parameter {
@@ -34,6 +39,15 @@ impl Parameter {
     /// Every parameter of the opencv model, in its order.
     pub const OPENCV: [Self; 10] =
         [Self::F, Self::Fx, Self::Fy, Self::Cx, Self::Cy, Self::K1, Self::K2, Self::P1, Self::P2, Self::K3];
+    /// Every parameter of the rational model, in OpenCV's order.
+    #[rustfmt::skip]
+    pub const OPENCV_RATIONAL: [Self; 13] = [
+        Self::F, Self::Fx, Self::Fy, Self::Cx, Self::Cy,
+        Self::K1, Self::K2, Self::P1, Self::P2, Self::K3, Self::K4, Self::K5, Self::K6,
+    ];
+    /// Every parameter of the fisheye model, in OpenCV's order.
+    pub const OPENCV_FISHEYE: [Self; 9] =
+        [Self::F, Self::Fx, Self::Fy, Self::Cx, Self::Cy, Self::K1, Self::K2, Self::K3, Self::K4];
 
     /// Name in the project format.
     pub fn name(self) -> &'static str {
@@ -53,6 +67,9 @@ impl Parameter {
             Self::P2 => "p2",
             Self::B1 => "b1",
             Self::B2 => "b2",
+            Self::K4 => "k4",
+            Self::K5 => "k5",
+            Self::K6 => "k6",
         }
     }
 }
@@ -67,16 +84,89 @@ impl FromStr for Parameter {
     type Err = ();
 
     fn from_str(name: &str) -> Result<Self, ()> {
-        [Self::BROWN, Self::OPENCV].concat().into_iter().find(|p| p.name() == name).ok_or(())
+        let all = CameraModel::ALL.iter().flat_map(|model| model.parameters);
+        all.copied().find(|p| p.name() == name).ok_or(())
+    }
+}
+
+/// What is known of a camera model besides its equations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraModel {
+    /// Name in the project format.
+    pub name: &'static str,
+    /// Parameters in the model's order.
+    pub parameters: &'static [Parameter],
+    /// Parameter that stands for the principal distance.
+    pub distance: Parameter,
+    /// Parameters of the principal point.
+    pub centre: [Parameter; 2],
+    /// Coefficients of the radial distortion, each with the power of the radius that it multiplies.
+    pub radial: &'static [(Parameter, i32)],
+    /// Whether measurements and residuals are photo coordinates (y up, the camera's unit) and not pixels (v down).
+    pub in_photo_units: bool,
+    /// Whether directions of 90 degrees and more off the axis have an image.
+    pub is_wide: bool,
+}
+
+impl CameraModel {
+    /// Brown: correction of the measurement.
+    pub const BROWN: Self = Self {
+        name: "brown",
+        parameters: &Parameter::BROWN,
+        distance: Parameter::C,
+        centre: [Parameter::X0, Parameter::Y0],
+        radial: &[(Parameter::K1, 3), (Parameter::K2, 5), (Parameter::K3, 7)],
+        in_photo_units: true,
+        is_wide: false,
+    };
+    /// OpenCV with five coefficients.
+    pub const OPENCV: Self = Self {
+        name: "opencv",
+        parameters: &Parameter::OPENCV,
+        distance: Parameter::F,
+        centre: [Parameter::Cx, Parameter::Cy],
+        radial: &[(Parameter::K1, 3), (Parameter::K2, 5), (Parameter::K3, 7)],
+        in_photo_units: false,
+        is_wide: false,
+    };
+    /// OpenCV with eight coefficients.
+    pub const OPENCV_RATIONAL: Self = Self {
+        name: "opencv_rational",
+        parameters: &Parameter::OPENCV_RATIONAL,
+        radial: &[
+            (Parameter::K1, 3),
+            (Parameter::K2, 5),
+            (Parameter::K3, 7),
+            (Parameter::K4, 3),
+            (Parameter::K5, 5),
+            (Parameter::K6, 7),
+        ],
+        ..Self::OPENCV
+    };
+    /// OpenCV's fisheye.
+    pub const OPENCV_FISHEYE: Self = Self {
+        name: "opencv_fisheye",
+        parameters: &Parameter::OPENCV_FISHEYE,
+        radial: &[(Parameter::K1, 3), (Parameter::K2, 5), (Parameter::K3, 7), (Parameter::K4, 9)],
+        is_wide: true,
+        ..Self::OPENCV
+    };
+    /// Every model.
+    pub const ALL: [Self; 4] = [Self::BROWN, Self::OPENCV, Self::OPENCV_RATIONAL, Self::OPENCV_FISHEYE];
+
+    /// Power of the radius that a coefficient of the radial distortion multiplies.
+    pub fn radial_power(&self, parameter: Parameter) -> Option<i32> {
+        self.radial.iter().find(|(p, _)| *p == parameter).map(|(_, power)| *power)
     }
 }
 
 /// Model and parameters of an interior orientation.
 ///
 /// Brown: a correction added to the measured photo coordinates x̄ = x - x0, ȳ = y - y0 (photo units).
-/// Opencv: ideal to image on normalised coordinates; fx, fy, cx, cy in the pixel frame (OpenCV's cx is ours - 0.5).
+/// The others: ideal to image; fx, fy, cx, cy in the pixel frame (OpenCV's cx is ours - 0.5), distortion of normalised coordinates,
+/// or of the angle off the axis (fisheye).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "model", rename_all = "lowercase")]
+#[serde(tag = "model", rename_all = "snake_case")]
 #[allow(missing_docs)] // the names are the field's own
 pub enum Interior {
     Brown {
@@ -122,6 +212,57 @@ pub enum Interior {
         #[serde(default)]
         k3: f64,
     },
+    OpencvRational {
+        /// Focal length in pixels along u; null: not known yet.
+        #[serde(default)]
+        fx: Option<f64>,
+        /// Focal length in pixels along v; null: not known yet.
+        #[serde(default)]
+        fy: Option<f64>,
+        cx: f64,
+        cy: f64,
+        #[serde(default)]
+        k1: f64,
+        #[serde(default)]
+        k2: f64,
+        #[serde(default)]
+        p1: f64,
+        #[serde(default)]
+        p2: f64,
+        #[serde(default)]
+        k3: f64,
+        #[serde(default)]
+        k4: f64,
+        #[serde(default)]
+        k5: f64,
+        #[serde(default)]
+        k6: f64,
+    },
+    OpencvFisheye {
+        /// Focal length in pixels along u; null: not known yet.
+        #[serde(default)]
+        fx: Option<f64>,
+        /// Focal length in pixels along v; null: not known yet.
+        #[serde(default)]
+        fy: Option<f64>,
+        cx: f64,
+        cy: f64,
+        #[serde(default)]
+        k1: f64,
+        #[serde(default)]
+        k2: f64,
+        #[serde(default)]
+        k3: f64,
+        #[serde(default)]
+        k4: f64,
+    },
+}
+
+/// Where a model keeps a parameter.
+enum Slot<'a> {
+    Value(&'a mut f64),
+    /// A principal distance, which may be unknown.
+    Distance(&'a mut Option<f64>),
 }
 
 impl Interior {
@@ -130,61 +271,110 @@ impl Interior {
         Self::Brown { c: Some(c), x0: 0.0, y0: 0.0, k1: 0.0, k2: 0.0, k3: 0.0, p1: 0.0, p2: 0.0, b1: 0.0, b2: 0.0 }
     }
 
+    /// What is known of its model.
+    pub fn model(&self) -> &'static CameraModel {
+        match self {
+            Self::Brown { .. } => &CameraModel::BROWN,
+            Self::Opencv { .. } => &CameraModel::OPENCV,
+            Self::OpencvRational { .. } => &CameraModel::OPENCV_RATIONAL,
+            Self::OpencvFisheye { .. } => &CameraModel::OPENCV_FISHEYE,
+        }
+    }
+
     /// Parameters of the model, in its order.
     pub fn parameters(&self) -> &'static [Parameter] {
-        match self {
-            Self::Brown { .. } => &Parameter::BROWN,
-            Self::Opencv { .. } => &Parameter::OPENCV,
-        }
+        self.model().parameters
+    }
+
+    /// Where a parameter stands; none where the model lacks it, and for `F`, which is two.
+    fn slot(&mut self, parameter: Parameter) -> Option<Slot<'_>> {
+        use Parameter as P;
+        let value = match self {
+            Self::Brown { c, x0, y0, k1, k2, k3, p1, p2, b1, b2 } => match parameter {
+                P::C => return Some(Slot::Distance(c)),
+                P::X0 => x0,
+                P::Y0 => y0,
+                P::K1 => k1,
+                P::K2 => k2,
+                P::K3 => k3,
+                P::P1 => p1,
+                P::P2 => p2,
+                P::B1 => b1,
+                P::B2 => b2,
+                _ => return None,
+            },
+            Self::Opencv { fx, fy, cx, cy, k1, k2, p1, p2, k3 } => match parameter {
+                P::Fx => return Some(Slot::Distance(fx)),
+                P::Fy => return Some(Slot::Distance(fy)),
+                P::Cx => cx,
+                P::Cy => cy,
+                P::K1 => k1,
+                P::K2 => k2,
+                P::P1 => p1,
+                P::P2 => p2,
+                P::K3 => k3,
+                _ => return None,
+            },
+            Self::OpencvRational { fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6 } => match parameter {
+                P::Fx => return Some(Slot::Distance(fx)),
+                P::Fy => return Some(Slot::Distance(fy)),
+                P::Cx => cx,
+                P::Cy => cy,
+                P::K1 => k1,
+                P::K2 => k2,
+                P::P1 => p1,
+                P::P2 => p2,
+                P::K3 => k3,
+                P::K4 => k4,
+                P::K5 => k5,
+                P::K6 => k6,
+                _ => return None,
+            },
+            Self::OpencvFisheye { fx, fy, cx, cy, k1, k2, k3, k4 } => match parameter {
+                P::Fx => return Some(Slot::Distance(fx)),
+                P::Fy => return Some(Slot::Distance(fy)),
+                P::Cx => cx,
+                P::Cy => cy,
+                P::K1 => k1,
+                P::K2 => k2,
+                P::K3 => k3,
+                P::K4 => k4,
+                _ => return None,
+            },
+        };
+        Some(Slot::Value(value))
     }
 
     /// Value of a parameter; none where the model lacks it or it is not known. `F` is fx.
     pub fn get(&self, parameter: Parameter) -> Option<f64> {
-        use Parameter as P;
-        match (*self, parameter) {
-            (Self::Brown { c, .. }, P::C) => c,
-            (Self::Brown { x0: value, .. }, P::X0)
-            | (Self::Brown { y0: value, .. }, P::Y0)
-            | (Self::Brown { k1: value, .. } | Self::Opencv { k1: value, .. }, P::K1)
-            | (Self::Brown { k2: value, .. } | Self::Opencv { k2: value, .. }, P::K2)
-            | (Self::Brown { k3: value, .. } | Self::Opencv { k3: value, .. }, P::K3)
-            | (Self::Brown { p1: value, .. } | Self::Opencv { p1: value, .. }, P::P1)
-            | (Self::Brown { p2: value, .. } | Self::Opencv { p2: value, .. }, P::P2)
-            | (Self::Brown { b1: value, .. }, P::B1)
-            | (Self::Brown { b2: value, .. }, P::B2)
-            | (Self::Opencv { cx: value, .. }, P::Cx)
-            | (Self::Opencv { cy: value, .. }, P::Cy) => Some(value),
-            (Self::Opencv { fx, .. }, P::F | P::Fx) => fx,
-            (Self::Opencv { fy, .. }, P::Fy) => fy,
-            _ => None,
+        let mut own = *self;
+        match own.slot(if parameter == Parameter::F { Parameter::Fx } else { parameter })? {
+            Slot::Value(value) => Some(*value),
+            Slot::Distance(value) => *value,
         }
     }
 
     /// Sets a parameter, if the model has it. `F` moves fx to `value` and keeps the ratio fy : fx.
     pub fn set(&mut self, parameter: Parameter, value: f64) {
-        use Parameter as P;
-        let place = match (self, parameter) {
-            (Self::Brown { c, .. }, P::C) => c.insert(value),
-            (Self::Opencv { fx, fy, .. }, P::F) => {
-                let ratio = fx.map_or(1.0, |fx| value / fx);
-                *fy = Some(fy.map_or(value, |fy| fy * ratio));
-                fx.insert(value)
+        if parameter == Parameter::F {
+            let ratio = self.get(Parameter::Fx).map_or(1.0, |fx| value / fx);
+            let fy = self.get(Parameter::Fy).map_or(value, |fy| fy * ratio);
+            self.set(Parameter::Fy, fy);
+            return self.set(Parameter::Fx, value);
+        }
+        match self.slot(parameter) {
+            Some(Slot::Value(place)) => *place = value,
+            Some(Slot::Distance(place)) => *place = Some(value),
+            None => {}
+        }
+    }
+
+    /// Makes the principal distance unknown.
+    pub fn forget_principal_distance(&mut self) {
+        for parameter in [Parameter::C, Parameter::Fx, Parameter::Fy] {
+            if let Some(Slot::Distance(place)) = self.slot(parameter) {
+                *place = None;
             }
-            (Self::Opencv { fx, .. }, P::Fx) => fx.insert(value),
-            (Self::Opencv { fy, .. }, P::Fy) => fy.insert(value),
-            (Self::Brown { x0: place, .. }, P::X0)
-            | (Self::Brown { y0: place, .. }, P::Y0)
-            | (Self::Brown { k1: place, .. } | Self::Opencv { k1: place, .. }, P::K1)
-            | (Self::Brown { k2: place, .. } | Self::Opencv { k2: place, .. }, P::K2)
-            | (Self::Brown { k3: place, .. } | Self::Opencv { k3: place, .. }, P::K3)
-            | (Self::Brown { p1: place, .. } | Self::Opencv { p1: place, .. }, P::P1)
-            | (Self::Brown { p2: place, .. } | Self::Opencv { p2: place, .. }, P::P2)
-            | (Self::Brown { b1: place, .. }, P::B1)
-            | (Self::Brown { b2: place, .. }, P::B2)
-            | (Self::Opencv { cx: place, .. }, P::Cx)
-            | (Self::Opencv { cy: place, .. }, P::Cy) => place,
-            _ => return,
-        };
-        *place = value;
+        }
     }
 }

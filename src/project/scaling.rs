@@ -5,9 +5,8 @@
 //! and ratios stay. Each type is taken apart field by field, so that a new field does not compile before somebody has decided what it is.
 
 use super::{
-    CoordinateSystem, Distance, Feature, FeatureKind, Form, GivenPoint, Interior, LengthLimit, Lens, Photo, Plan,
-    PlanDistance, PlanFace, PlanStation, Point, Project, Region, ReportSettings, SystemKind, Variant, Wanted,
-    validation::LARGEST,
+    CoordinateSystem, Distance, Feature, FeatureKind, Form, GivenPoint, LengthLimit, Lens, Photo, Plan, PlanDistance,
+    PlanFace, PlanStation, Point, Project, Region, ReportSettings, SystemKind, Variant, Wanted, validation::LARGEST,
 };
 use crate::error::{Error, Place, Reason, Result};
 
@@ -97,6 +96,8 @@ impl Scale {
             layers: _,
             report,
             plan,
+            epoch: _,
+            origin: _,
         } = project;
         photos.iter_mut().for_each(|photo| self.photo(photo));
         points.iter_mut().for_each(|point| self.point(point));
@@ -121,15 +122,12 @@ impl Scale {
             position,
             rotation: _,
             sigma_position,
-            interior,
+            // In the unit of the sensor: pixels or millimetres.
+            interior: _,
             enabled: _,
             sha256: _,
             colour: _,
         } = photo;
-        // In the unit of the sensor: pixels or millimetres.
-        match interior {
-            Some(Interior::Brown { .. } | Interior::Opencv { .. }) | None => {}
-        }
         self.at = Place::photo(id.as_str()).with_field("position");
         self.lengths(position.iter_mut().flatten());
         self.lengths(sigma_position.iter_mut().flatten().flatten());

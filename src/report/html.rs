@@ -170,7 +170,11 @@ impl Table {
         let class = |kind: Kind| if kind == Kind::Words { " class=\"words\"" } else { "" };
         let _ = write!(text, "<table class=\"data{whole} {}\"><thead><tr>", self.class);
         for (head, kind) in &self.columns {
-            let _ = write!(text, "<th scope=\"col\"{}>{head}</th>", class(*kind));
+            // A heading without words is none, for readers of screens too.
+            let _ = match head.is_empty() {
+                true => write!(text, "<td{}></td>", class(*kind)),
+                false => write!(text, "<th scope=\"col\"{}>{head}</th>", class(*kind)),
+            };
         }
         text.push_str("</tr></thead><tbody>\n");
         for (cells, row_class) in &self.rows {

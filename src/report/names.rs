@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::adjustment::{Adjustment, PhotoUnit};
-use crate::project::{Camera, Interior, Parameter};
+use crate::project::{Camera, Parameter};
 
 /// A parameter as people write it.
 pub fn parameter_name(parameter: Parameter) -> &'static str {
@@ -23,13 +23,16 @@ pub fn parameter_name(parameter: Parameter) -> &'static str {
         Parameter::P2 => "P₂",
         Parameter::B1 => "B₁",
         Parameter::B2 => "B₂",
+        Parameter::K4 => "K₄",
+        Parameter::K5 => "K₅",
+        Parameter::K6 => "K₆",
     }
 }
 
 /// The unit of a parameter, from the camera's photo unit.
 pub fn parameter_unit(camera: &Camera, parameter: Parameter) -> String {
     let unit = if camera.pixel_pitch.is_some() { "mm" } else { "px" };
-    if matches!(camera.interior, Interior::Opencv { .. }) {
+    if !camera.interior.model().in_photo_units {
         let in_pixels =
             matches!(parameter, Parameter::F | Parameter::Fx | Parameter::Fy | Parameter::Cx | Parameter::Cy);
         return if in_pixels { "px".to_owned() } else { String::new() };

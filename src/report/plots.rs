@@ -9,7 +9,7 @@ mod convergence;
 mod deviations;
 mod distortion;
 mod histogram;
-mod network;
+pub(super) mod network;
 mod radius;
 mod rays;
 mod redundancy;
@@ -78,6 +78,7 @@ pub(super) fn all(context: &Context) -> Vec<Plot> {
     let mut all = Vec::new();
     all.extend(distortion::plots(context));
     all.extend(significance::plots(context));
+    all.extend(network::picture(context));
     all.extend(network::plots(context));
     all.extend(rays::plots(context));
     all.extend(sigmas::plots(context));

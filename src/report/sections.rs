@@ -10,6 +10,7 @@ mod left_out;
 mod lengths;
 mod network;
 mod observations;
+mod patterns;
 mod photos;
 mod points;
 mod residuals;
@@ -34,7 +35,10 @@ pub fn all(context: &Context) -> String {
         let mut content = Html::default();
         write(section, context, &mut content);
         if let Some(group) = group(section) {
-            figures(&mut content, plots.iter().filter(|plot| plot.group == group));
+            figures(
+                &mut content,
+                plots.iter().filter(|plot| plot.group == group && plot.name != plots::network::PICTURE),
+            );
         }
         let content = content.finish();
         if content.is_empty() {

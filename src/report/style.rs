@@ -1,25 +1,32 @@
 //! How the report looks: on paper black on white with one blue and one orange, whatever the theme of the desk.
 
 use super::context::Context;
-use crate::project::Paper;
+use crate::project::{Paper, ReportSettings};
 
 /// Size of the page, its margins, the lines that run above and below every page, and their numbers.
 pub fn page(context: &Context) -> String {
-    let size = match context.settings().paper {
+    let words = context.words;
+    pages(context.settings(), context.title(), words.report_title(), &words.all_sigmas(&context.unit))
+}
+
+/// The same of any report: its title, what kind of report it is, and what holds for all its numbers.
+pub fn pages(settings: &ReportSettings, title: &str, kind: &str, holds: &str) -> String {
+    let size = match settings.paper {
         Paper::A4 => "A4",
         Paper::Letter => "letter",
     };
-    let words = context.words;
     let version = format!("Sightline {}", env!("CARGO_PKG_VERSION"));
     // Alike on both sides of the middle, so that their lines meet.
     let boxes = [
-        ("top-left", "left", 35, quoted(context.title())),
-        ("top-center", "center", 30, quoted(words.report_title())),
+        ("top-left", "left", 35, quoted(title)),
+        ("top-center", "center", 30, quoted(kind)),
         ("top-right", "right", 35, "counter(page) \" / \" counter(pages)".to_owned()),
-        ("bottom-left", "left", 35, quoted(&words.all_sigmas(&context.unit))),
+        ("bottom-left", "left", 35, quoted(holds)),
         ("bottom-center", "center", 30, quoted(&version)),
-        ("bottom-right", "right", 35, quoted(&context.settings().date)),
+        ("bottom-right", "right", 35, quoted(&settings.date)),
     ];
+    // A report without a title of its own is called what it is: that stands once.
+    let boxes = boxes.into_iter().filter(|(place, ..)| *place != "top-center" || title != kind);
     let mut text = format!("@page {{\n  size: {size};\n  margin: 24mm 18mm 22mm;\n");
     for (place, align, width, content) in boxes {
         let (edge, baseline) = if place.starts_with("top") { ("bottom", "bottom") } else { ("top", "top") };
@@ -34,6 +41,8 @@ pub fn page(context: &Context) -> String {
         ));
     }
     text.push_str("}\n");
+    // The first page has its title in large letters.
+    text.push_str("@page :first { @top-left { content: \"\"; } }\n");
     text
 }
 

@@ -3,14 +3,14 @@
 //! The distance of two codes is the smallest Hamming distance between one and any rotation of the other: so many sectors
 //! must be misread before one passes for the other. All codes have even parity, so that distances are even and at least 2. Codes
 //! are taken greedily, by number, for each distance d from the largest down: one is taken when it is d away from all that
-//! were taken before. What lies closer to a code than d is found by turning over every choice of fewer than d of its bits.
+//! were taken before. Codes whose arcs all end on a coarser grid come last of all: alone in a photo they are not read. What lies closer to a code than d is found by turning over every choice of fewer than d of its bits.
 
-use super::{Family, smallest_rotation};
+use super::{Family, coarser_grid, smallest_rotation};
 
 /// A family's codes, those with the largest mutual distance first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Spread {
-    /// All numbers of the family.
+    /// All numbers of the family; those on a coarser grid ([`coarser_grid`]) last.
     pub numbers: Vec<u32>,
     /// Distance, and how many of the first `numbers` are at least so far from each other; descending by distance.
     pub counts: Vec<(u32, usize)>,
@@ -26,6 +26,7 @@ pub fn distance(a: u32, b: u32, bits: u32) -> u32 {
 pub fn spread(family: Family) -> Spread {
     let (codes, bits) = (family.codes(), family.bits());
     let mut taken = vec![false; codes.len()];
+    let coarse: Vec<bool> = codes.iter().map(|code| coarser_grid(*code, bits).is_some()).collect();
     let mut found = Spread { numbers: Vec::with_capacity(codes.len()), counts: Vec::new() };
     // half of the bits is further than two codes can be from each other in every rotation
     for least in (2..=bits / 2).rev().filter(|d| d.is_multiple_of(2)) {
@@ -41,7 +42,7 @@ pub fn spread(family: Family) -> Spread {
         };
         found.numbers.iter().for_each(|number| exclude(codes[*number as usize - 1], &mut near));
         for k in 0..codes.len() {
-            if taken[k] || near[k] {
+            if taken[k] || near[k] || coarse[k] {
                 continue;
             }
             taken[k] = true;
@@ -49,6 +50,9 @@ pub fn spread(family: Family) -> Spread {
             if least > 2 {
                 exclude(codes[k], &mut near);
             }
+        }
+        if least == 2 {
+            found.numbers.extend((0..codes.len()).filter(|k| coarse[*k]).map(|k| k as u32 + 1));
         }
         if found.numbers.len() > 1 && found.counts.last().is_none_or(|(_, count)| *count < found.numbers.len()) {
             found.counts.push((least, found.numbers.len()));
@@ -87,10 +91,20 @@ mod tests {
                 assert!(pairs().all(|(a, b)| distance(a, b, bits) >= *least));
                 // and no other code could have been added
                 let others = spread.numbers[*count..].iter().map(|n| codes[*n as usize - 1]);
-                for other in others {
+                for other in others.filter(|other| coarser_grid(*other, bits).is_none()) {
                     assert!(first.iter().any(|code| distance(*code, other, bits) < *least));
                 }
             }
+        }
+    }
+
+    #[test]
+    fn codes_on_a_coarser_grid_come_last() {
+        for family in [Family::Ring12, Family::Ring16, Family::Metashape14] {
+            let coarse = |n: &u32| coarser_grid(family.codes()[*n as usize - 1], family.bits()).is_some();
+            let numbers = spread(family).numbers;
+            let first = numbers.iter().position(coarse).unwrap();
+            assert!(first > 100 && numbers[first..].iter().all(coarse), "{first}");
         }
     }
 

@@ -15,6 +15,7 @@ mod adjust {
     mod forms;
     mod gross_errors;
     mod inside;
+    pub mod models;
     mod monte_carlo;
     mod oracle;
     mod order;
@@ -23,10 +24,20 @@ mod adjust {
     mod slips;
 }
 
+/// Whether a calibration is good.
+mod calibration {
+    mod patterns;
+    mod uncertainty;
+}
+
 /// Pictures: what is found, how well, and what is not.
 mod detect {
+    mod cases;
+    mod coarse;
     mod codes;
+    mod compression;
     mod formats;
+    mod light;
     mod ordinary;
     mod panel;
     mod photos;
@@ -39,6 +50,7 @@ mod detect {
 mod exchange {
     mod foreign;
     mod interchange;
+    mod lists;
     mod round_trips;
     mod spatial;
     mod tables;
@@ -60,6 +72,7 @@ mod monitoring {
 
 /// From names to initial values.
 mod orient {
+    mod doubles;
     mod left_out;
     mod naming;
     mod orientation;
@@ -92,17 +105,23 @@ mod sheets {
     mod printed;
 }
 
+/// The adjustment for those who learn.
+mod teaching;
+
 /// What several tests share; benches and fuzz targets use some of it.
 mod support {
     pub mod camera_model;
     #[allow(dead_code, reason = "the benchmark uses the rest")]
     pub mod coded_patch;
+    pub mod compression;
     pub mod conditions;
     pub mod data;
     pub mod dense;
     pub mod epochs;
     pub mod extent;
     pub mod grid_fit;
+    pub mod lenses;
+    pub mod light;
     pub mod networks;
     pub mod painter;
     pub mod print_shot;

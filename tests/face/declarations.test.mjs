@@ -136,6 +136,7 @@ test('every field that the engine returns is declared, and every declared field 
   const literals = [
     literal('request', 'S.CompareOptions', request),
     literal('monitoring', 'S.Monitoring', monitoring),
+    literal('list', 'S.PointList', sightline.readList('id,X,Y,Z,sigma,diameter\na,1.5,2.5,3.5,0.1,12.5\nb,4,x,6,0.1,5\n', { sigma: { constant: 2, unit: 'mm', ppm: 2 } })),
     literal('coordinates', 'S.CoordinateList', sightline.readCoordinates('a,1,2,3,0.1,0.1,0.1\nb,4,5,6,0.1,0.1,0.1\n')),
     literal('matrix', 'S.ListedCovariance', sightline.readCovariance('1\n0 1\n0 0 1\n', ['a'])),
     literal('colours', 'NonNullable<S.Camera["colours"]>', colours),

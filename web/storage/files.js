@@ -6,12 +6,16 @@ import { framed, itemsOf, unframed } from './frames.js';
 const PHOTOS = 'sightline photos';
 
 /** Tries again while another holder of a file goes away: that of a killed page is there for a moment. */
-async function patiently(work) {
+const patiently = (work) => again(work, 'NoModificationAllowedError');
+/** Tries again while another window writes into the file that is read: what was looked at before is refused then. */
+const undisturbed = (work) => again(work, 'NotReadableError');
+
+async function again(work, name) {
   for (let attempt = 0; ; attempt++) {
     try {
       return await work();
     } catch (error) {
-      if (error.name !== 'NoModificationAllowedError' || attempt === 60) throw error;
+      if (error.name !== name || attempt === 60) throw error;
       await pause(50);
     }
   }
@@ -77,10 +81,11 @@ export async function fileSystem() {
       throw error;
     }
   };
-  const bytes = async (folder, name) => {
-    const found = await file(folder, name);
-    return found ? new Uint8Array(await found.arrayBuffer()) : new Uint8Array();
-  };
+  const bytes = (folder, name) =>
+    undisturbed(async () => {
+      const found = await file(folder, name);
+      return found ? new Uint8Array(await found.arrayBuffer()) : new Uint8Array();
+    });
   const generations = async (folder) => (await names(folder)).filter((name) => name.startsWith('journal-')).map((name) => Number(name.slice(8))).sort((a, b) => b - a);
   const drop = (folder, name) => folder.removeEntry(name, { recursive: true }).catch(() => {});
   /** The newer of two files that are written in turns: one of them is always whole. */
@@ -106,19 +111,25 @@ export async function fileSystem() {
     /** The newest journal of which a frame is whole: a newer one without was being written. */
     async journal(id) {
       const folder = await projects.getDirectoryHandle(id);
-      const all = await generations(folder);
-      let damaged = false;
-      for (const generation of all) {
-        const read = unframed(await bytes(folder, `journal-${generation}`));
-        if (read.frames.length > 0) return journalOf(generation, all[0], read, read.end);
-        damaged ||= read.damaged;
+      for (let [all, damaged] = [await generations(folder), false]; ; damaged = false) {
+        for (const generation of all) {
+          const read = unframed(await bytes(folder, `journal-${generation}`));
+          if (read.frames.length > 0) return journalOf(generation, all[0], read, read.end);
+          damaged ||= read.damaged;
+        }
+        // A new one that was being written when it was looked at may be whole by now, and those before it gone.
+        const now = await generations(folder);
+        if (now.join() === all.join()) throw damaged ? fault('DamagedError', 'no frame is whole') : fault('NotFoundError', 'no journal');
+        all = now;
       }
-      throw damaged ? fault('DamagedError', 'no frame is whole') : fault('NotFoundError', 'no journal');
     },
     /** What was appended since a journal was read to its end. */
     async since(id, generation, end) {
-      const found = await file(await projects.getDirectoryHandle(id), `journal-${generation}`);
-      return itemsOf(unframed(new Uint8Array(await found.slice(end).arrayBuffer())).frames);
+      const folder = await projects.getDirectoryHandle(id);
+      return undisturbed(async () => {
+        const found = await file(folder, `journal-${generation}`);
+        return itemsOf(unframed(new Uint8Array(await found.slice(end).arrayBuffer())).frames);
+      });
     },
     /** Whether a journal is there still: a browser that makes room takes it away under a page that is open. */
     async has(id, generation) {

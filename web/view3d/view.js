@@ -460,7 +460,6 @@ export function open(host, tell) {
 
   function pick(x, y, reach) {
     let best = [reach, undefined];
-    for (const { box: [a, b, w, h], name } of shownNames) if (name !== undefined && x >= a && x <= a + w && y >= b && y <= b + h) return { kind: 'point', index: name };
     for (let k = 0; k < scene.points.length / 3; k++) {
       const place = screen(scene.points[3 * k], scene.points[3 * k + 1], scene.points[3 * k + 2]);
       const distance = near(place, x, y);

@@ -10,7 +10,7 @@ use wasm_bindgen_cli_support::Bindgen;
 
 use crate::install::{self, TARGET};
 use crate::process::{cargo, output, program, root, run};
-use crate::{Outcome, kept, offline, page, parts};
+use crate::{Outcome, kept, notices, offline, page, parts};
 
 /// How modules are compiled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,6 +91,27 @@ impl Products {
     }
 }
 
+/// What stands for the exports of pkg/, and they as a text: of the conditions the first that holds counts, and JSON objects here are sorted.
+const EXPORTS: (&str, &str) = (
+    "@exports",
+    r#"{
+    ".": { "types": "./sightline.d.ts", "node": "./node.js", "default": "./sightline.js" },
+    "./sightline.js": { "types": "./sightline.d.ts", "default": "./sightline.js" },
+    "./codecs.js": { "types": "./codecs.d.ts", "default": "./codecs.js" },
+    "./*.wasm": "./*.wasm",
+    "./package.json": "./package.json"
+  }"#,
+);
+/// What Node imports by the package's name: the engine, started.
+const NODE: &str = "\
+// In Node the module is read from beside this file, at once.
+import { readFileSync } from 'node:fs';
+import { initSync } from './sightline.js';
+initSync({ module: readFileSync(new URL('./sightline_bg.wasm', import.meta.url)) });
+export * from './sightline.js';
+export { default } from './sightline.js';
+";
+
 fn assemble_pkg(profile: Profile, folder: &Path) -> Outcome {
     empty(folder)?;
     bindings(profile, "sightline_face", folder, "sightline", true)?;
@@ -107,10 +128,24 @@ fn assemble_pkg(profile: Profile, folder: &Path) -> Outcome {
         "main": "sightline.js",
         "module": "sightline.js",
         "types": "sightline.d.ts",
-        "files": ["sightline.js", "sightline.d.ts", "sightline_bg.wasm", "sightline_bg.wasm.d.ts", "codecs.js", "codecs.d.ts", "codecs_bg.wasm", "codecs_bg.wasm.d.ts", "snippets"],
-        "sideEffects": ["./snippets/*"],
+        "exports": EXPORTS.0,
+        "engines": { "node": ">=20.16" },
+        "keywords": ["photogrammetry", "bundle-adjustment", "camera-calibration", "webassembly"],
+        "files": [
+            "sightline.js", "sightline.d.ts", "sightline_bg.wasm", "sightline_bg.wasm.d.ts", "node.js", "codecs.js", "codecs.d.ts",
+            "codecs_bg.wasm", "codecs_bg.wasm.d.ts", "snippets", notices::NAME, "LICENSE-MIT", "LICENSE-APACHE", "README.md",
+        ],
+        "sideEffects": ["./snippets/*", "./node.js"],
     });
-    write(&folder.join("package.json"), format!("{package:#}\n").as_bytes())?;
+    write(&folder.join("node.js"), NODE.as_bytes())?;
+    notices::write_to(folder)?;
+    for (from, name) in
+        [("LICENSE-MIT", "LICENSE-MIT"), ("LICENSE-APACHE", "LICENSE-APACHE"), ("docs/javascript.md", "README.md")]
+    {
+        fs::copy(root().join(from), folder.join(name)).map_err(|error| format!("{from}: {error}"))?;
+    }
+    let text = format!("{package:#}\n").replace(&format!("\"{}\"", EXPORTS.0), EXPORTS.1);
+    write(&folder.join("package.json"), text.as_bytes())?;
     report("pkg", &folder.join("sightline_bg.wasm"));
     report("pkg", &folder.join("codecs_bg.wasm"));
     Ok(())
@@ -132,11 +167,13 @@ fn assemble_dist(profile: Profile, folder: &Path, decoders: Decoders) -> Outcome
             first(&parts::WORKER, "sightline-worker", folder)?;
             view3d(folder)?;
             offline::icons(folder)?;
+            notices::write_to(folder)?;
         }
         Profile::Fast => {
             let view = files(&root().join("web/view3d"))?;
             kept::product(&shelf()?, "view3d", &view, folder, view3d)?;
             kept::product(&shelf()?, "icons", &[], folder, offline::icons)?;
+            kept::product(&shelf()?, "notices", &notices::sources(), folder, notices::write_to)?;
             changed(folder, &[("sightline-desk", page::MODULE), ("sightline-worker", page::WORKER)])?;
         }
     }
@@ -168,23 +205,41 @@ fn modules(profile: Profile, packages: &[&str]) -> Outcome {
     let [name, _] = profile.names();
     let mut arguments = vec!["build", "--profile", name, "--target", TARGET];
     arguments.extend(packages.iter().flat_map(|package| ["--package", package]));
+    // What is handed out does not name folders of who built it; cargo puts these flags behind those of its configuration.
+    let short = format!("target.{TARGET}.rustflags = {:?}", remapped());
+    if profile == Profile::Release {
+        arguments.extend(["--config", &short]);
+    }
     run(&mut cargo(&arguments))
+}
+
+/// Folders of this machine that a module would name where it can panic: the repository, and cargo's.
+pub fn folders() -> Vec<PathBuf> {
+    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".cargo")));
+    home.into_iter().chain([root()]).collect()
+}
+
+/// Flags of the compiler that name them otherwise.
+fn remapped() -> Vec<String> {
+    folders()
+        .iter()
+        .zip(["cargo", "."])
+        .map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display()))
+        .collect()
 }
 
 /// What cargo knows of the workspace on this machine and as wasm, from the lock file; offline where all is downloaded.
 pub fn metadata() -> Outcome<Value> {
-    let host = host()?;
-    let text = known_offline(&[
-        "metadata",
-        "--format-version",
-        "1",
-        "--locked",
-        "--filter-platform",
-        &host,
-        "--filter-platform",
-        TARGET,
-    ])?;
+    let text = metadata_of(&[&host()?, TARGET])?;
     serde_json::from_str(&text).map_err(|error| format!("cargo metadata: {error}"))
+}
+
+/// The same for some targets, as a text.
+pub fn metadata_of(targets: &[&str]) -> Outcome<String> {
+    let mut arguments = vec!["metadata", "--format-version", "1", "--locked"];
+    arguments.extend(targets.iter().flat_map(|target| ["--filter-platform", target]));
+    known_offline(&arguments)
 }
 
 /// Packages that are built in several versions on this machine or as wasm, a line each; some with one version stand there too.

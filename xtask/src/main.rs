@@ -5,10 +5,12 @@ mod build;
 mod check;
 mod install;
 mod kept;
+mod notices;
 mod offline;
 mod page;
 mod parts;
 mod process;
+mod release;
 mod serve;
 mod single;
 mod suites;
@@ -26,6 +28,7 @@ cargo xtask <command>
   build [--single-file]
                        leave the page in dist/ and the engine with its JavaScript face in pkg/; with --single-file also
                        dist/sightline.html, the whole page in one file that opens from a disk
+  release              build everything into release/: the site, the page as one file, pkg, licences, digests
   test [all] [suite ...]
                        run every suite, or only those named: native wasm face types page; the daily extent, on modules that are
                        compiled fast. With `all` the full extent, on the modules that are handed out: see CONTRIBUTING.md
@@ -59,6 +62,10 @@ fn run(arguments: &[String]) -> Outcome {
                 Products::of(Profile::Release)?.build_all()
             }
         },
+        "release" => {
+            none_of(rest)?;
+            release::command()
+        }
         "test" => suites::command(rest),
         "bench" => bench::command(rest),
         "check" => {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use crate::build::write;
-use crate::{Outcome, offline, parts};
+use crate::{Outcome, notices, offline, parts};
 
 /// Name of the page's own module in dist/.
 pub const MODULE: &str = "desk";
@@ -24,7 +24,7 @@ const PAGE: &str = "index.html";
 const BUILD: &str = "@build/";
 /// What lies beside the page and not in the folder of its build: browsers and systems know it by its name, or it has to come where the rest of
 /// the build does not.
-const OUTSIDE: [&str; 4] = [PAGE, "service.js", "check.js", "manifest.webmanifest"];
+const OUTSIDE: [&str; 5] = [PAGE, "service.js", "check.js", "manifest.webmanifest", notices::NAME];
 
 /// Copies what index.html names into `dist` and writes the page there.
 pub fn assemble(root: &Path, dist: &Path) -> Outcome {

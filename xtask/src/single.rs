@@ -1,40 +1,58 @@
 //! The page as one file that opens from a disk or a USB stick: everything of dist/ inside one HTML, nothing fetched.
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use flate2::Compression;
+use flate2::write::GzEncoder;
 use sha2::{Digest, Sha256};
 
-use crate::Outcome;
 use crate::build::write;
 use crate::page::{self, CODECS, MODULE, VIEW3D, WORKER};
 use crate::parts::{self, Parts};
+use crate::{Outcome, notices};
 
 /// Name of the file in dist/.
 pub const NAME: &str = "sightline.html";
 
-/// Puts the parts into scripts that are data, gives them addresses, and starts the page.
+/// Bytes of a text that [`packed`] made.
+const UNPACKED: &str = "
+const unpacked = async (text) => {
+  const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  return new Uint8Array(await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
+};
+";
+
+/// Gives the parts, which are in scripts that are data, addresses, and starts the page.
 const OPENING: &str = "
-const bytes = (id) => {
-  const text = atob(document.getElementById(id).textContent);
-  const all = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i++) all[i] = text.charCodeAt(i);
-  return all;
-};
-const address = (id, type) => URL.createObjectURL(new Blob([bytes(id)], { type }));
+if (!self.DecompressionStream) {
+  document.body.append('This browser is too old for Sightline: use Chrome, Edge, Firefox or Safari of 2023 or later.');
+  throw new Error('DecompressionStream is missing');
+}
+const bytes = (id) => unpacked(document.getElementById(id).textContent);
+const address = async (id, type) => URL.createObjectURL(new Blob([await bytes(id)], { type }));
 self.sightlineTold = [];
-self.sightlineFiles = {
-  'worker.js': address('worker', 'text/javascript'),
-  'storage.js': address('storage', 'text/javascript'),
-  'sightline-worker_bg.wasm': address('engine', 'application/wasm'),
-};
+self.sightlineFiles = {};
+const named = [['worker.js', 'worker', 'text/javascript'], ['storage.js', 'storage', 'text/javascript'], ['sightline-worker_bg.wasm', 'engine', 'application/wasm']];
 // Parts of the page's module, by the names that its glue has for them.
-for (const part of document.querySelectorAll('script[data-part]')) sightlineFiles[part.id] = address(part.id, 'application/wasm');
+for (const part of document.querySelectorAll('script[data-part]')) named.push([part.id, part.id, 'application/wasm']);
+await Promise.all(named.map(async ([name, id, type]) => (sightlineFiles[name] = await address(id, type))));
+// A page from a disk has no file beside it: the licences are inside, and are saved.
+addEventListener('click', async (event) => {
+  const link = event.target.closest?.('a[href=\"THIRD-PARTY.txt\"]');
+  if (!link) return;
+  event.preventDefault();
+  link.href = await address('licences', 'text/plain;charset=utf-8');
+  link.download = 'THIRD-PARTY.txt';
+  link.click();
+});
 const parts = { 'view3d.js': 'view3d' };
+const loading = {};
 // The same address every time: one at another address would be loaded again.
-self.sightlineLoad = (name) => import((sightlineFiles[name] ??= address(parts[name], 'text/javascript')));
+self.sightlineLoad = async (name) => import(await (loading[name] ??= address(parts[name], 'text/javascript')));
 ";
 
 /// Writes the file out of an assembled dist/.
@@ -43,7 +61,7 @@ pub fn write_to(dist: &Path) -> Outcome {
     let text = |name: &str| fs::read_to_string(build.join(name)).map_err(|error| format!("{name}: {error}"));
     let coded = |name: &str| {
         let bytes = fs::read(build.join(name)).map_err(|error| format!("{name}: {error}"))?;
-        Ok::<_, String>(BASE64_STANDARD.encode(bytes))
+        packed(&bytes)
     };
     // While the page is worked on, its modules are whole.
     let glue_of = |module: &Parts| {
@@ -66,20 +84,18 @@ pub fn write_to(dist: &Path) -> Outcome {
         let (decoders, module) = (inlined(&text(&format!("{CODECS}.js"))?)?, coded(&format!("{CODECS}_bg.wasm"))?);
         let decoders = format!(
             "const decoders = () => {{\n{decoders}\n\
-             const module = () => Uint8Array.from(atob('{module}'), (c) => c.charCodeAt(0));\n\
+             const module = () => unpacked('{module}');\n\
              return {{ default: () => __wbg_init({{ module_or_path: module() }}), unpack, trapped }};\n}};"
         );
         let start = start.replace(&import, "__wbg_init").replace(&codecs, "decoders()");
-        let own = |name: String| {
-            Ok(format!("'{name}': () => Uint8Array.from(atob('{}'), (c) => c.charCodeAt(0)),\n", coded(&name)?))
-        };
+        let own = |name: String| Ok(format!("'{name}': () => unpacked('{}'),\n", coded(&name)?));
         let own = parts::WORKER.later(build)?.into_iter().map(own).collect::<Outcome<Vec<String>>>()?.concat();
-        format!("self.sightlineBytes = {{\n{own}}};\n{decoders}\n{}\n{start}", glue_of(&parts::WORKER)?)
+        format!("{UNPACKED}self.sightlineBytes = {{\n{own}}};\n{decoders}\n{}\n{start}", glue_of(&parts::WORKER)?)
     };
     let style = styles(&page)?.into_iter().map(|name| text(name.rsplit('/').next().unwrap_or_default()));
     let style = style.collect::<Outcome<Vec<_>>>()?.concat();
     let desk = glue_of(&parts::PAGE)?;
-    let script = format!("{OPENING}{desk}\nawait __wbg_init({{ module_or_path: bytes('desk') }});\n");
+    let script = format!("{UNPACKED}{OPENING}{desk}\nawait __wbg_init({{ module_or_path: await bytes('desk') }});\n");
     if script.contains("</script") || style.contains("</style") {
         return Err("a part of the page ends the element that it would be in".into());
     }
@@ -99,21 +115,32 @@ pub fn write_to(dist: &Path) -> Outcome {
         "<!doctype html>\n<html lang=\"en\" data-theme=\"light\">\n<head>\n<meta charset=\"utf-8\">\n".into(),
         format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n"),
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Sightline</title>\n".into(),
-        format!("<link rel=\"icon\" href=\"data:image/svg+xml;base64,{}\">\n", coded("../icon.svg")?),
+        format!(
+            "<link rel=\"icon\" href=\"data:image/svg+xml;base64,{}\">\n",
+            BASE64_STANDARD.encode(text("../icon.svg")?)
+        ),
         format!("<style>{style}</style>\n</head>\n<body>\n"),
         "<noscript>Sightline needs JavaScript and WebAssembly.</noscript>\n".into(),
-        data("worker", BASE64_STANDARD.encode(worker)),
-        data("storage", BASE64_STANDARD.encode(bundled(build, "storage.js", &mut Vec::new())?)),
+        data("worker", packed(worker.as_bytes())?),
+        data("storage", packed(bundled(build, "storage.js", &mut Vec::new())?.as_bytes())?),
         data("view3d", coded(VIEW3D)?),
         data("engine", coded(&format!("{WORKER}_bg.wasm"))?),
         data("desk", coded(&format!("{MODULE}_bg.wasm"))?),
         later,
+        data("licences", coded(&format!("../{}", notices::NAME))?),
         format!("<script type=\"module\">{script}</script>\n</body>\n</html>\n"),
     ]
     .concat();
     write(&dist.join(NAME), html.as_bytes())?;
     println!("dist/{NAME} is ready ({} kB)", html.len() / 1024);
     Ok(())
+}
+
+/// Bytes compressed, as a text.
+fn packed(bytes: &[u8]) -> Outcome<String> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+    let packed = encoder.write_all(bytes).and_then(|()| encoder.finish());
+    Ok(BASE64_STANDARD.encode(packed.map_err(|error| error.to_string())?))
 }
 
 fn digest(text: &str) -> String {

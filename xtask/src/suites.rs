@@ -188,8 +188,17 @@ fn peers(_: &Run, out: &mut dyn Write) -> Outcome<Count> {
         let _ = writeln!(out, "skipped: {python} has no numpy");
         return Ok(Count { skipped: 1, ..Count::default() });
     }
-    let example = format!("{examples}/interchange");
-    counted(out, &mut program(&python, &["tests/peers/interchange.py", &example]), peers_count)
+    let mut all = Count::default();
+    for name in ["interchange", "equations"] {
+        let (script, example) = (format!("tests/peers/{name}.py"), format!("{examples}/{name}"));
+        let count = counted(out, &mut program(&python, &[&script, &example]), peers_count)?;
+        all = Count {
+            passed: all.passed + count.passed,
+            failed: all.failed + count.failed,
+            skipped: all.skipped + count.skipped,
+        };
+    }
+    Ok(all)
 }
 
 /// "32 passed, 0 failed, 1 skipped", the last line of `tests/peers/interchange.py`.

@@ -99,7 +99,9 @@ pub fn advice(project: &Project, network: &Network, state: &State, adjustment: &
         if rays.len() >= 2 && !given && angle < NARROW_INTERSECTION {
             narrow.push((id(), angle));
         }
-        for ray in rays.iter().filter(|ray| state.poses[ray.photo].camera_point(x)[2] >= 0.0) {
+        let is_wide = |photo: usize| state.interiors[network.photos[photo].interior].model().is_wide;
+        let lies_behind = |photo: usize| !is_wide(photo) && state.poses[photo].camera_point(x)[2] >= 0.0;
+        for ray in rays.iter().filter(|ray| lies_behind(ray.photo)) {
             behind.push((photo_id(project, network, ray.photo), id()));
         }
     }

@@ -21,6 +21,11 @@ pub fn judgement(adjustment: &Adjustment, unmodelled: Option<f64>) -> Vec<Advice
 /// What σ0 says of the standard errors of the image coordinates.
 fn standard_errors(adjustment: &Adjustment, unmodelled: Option<f64>) -> Option<Advice> {
     let (sigma0, test) = (adjustment.sigma0?, adjustment.global_test.as_ref()?);
+    // A systematic error is not noise: the standard errors are judged by σ0 without the named pattern.
+    let pattern = adjustment.patterns.iter().find(|pattern| pattern.named);
+    if pattern.is_some_and(|pattern| pattern.sigma0 <= adjustment.criteria.sigma0) {
+        return None;
+    }
     if test.statistic > test.upper && sigma0 > adjustment.criteria.sigma0 {
         return Some(Advice::SigmasTooSmall { sigma0, unmodelled });
     }

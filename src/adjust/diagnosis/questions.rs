@@ -45,6 +45,11 @@ pub fn is_cause(advice: &Advice) -> bool {
     matches!(advice, Advice::MirroredControl(_) | Advice::UndecidedAxes(_) | Advice::UnitRatio(_))
 }
 
+/// Whether it says that something given bends the fit of the photos, so that their residuals are systematic for that reason.
+pub fn bends(advice: &Advice) -> bool {
+    is_cause(advice) || matches!(advice, Advice::ControlMisfit { .. } | Advice::ExchangedPoints { .. })
+}
+
 /// Given coordinates against the adjusted ones. Those of control points are drawn towards what is given: where they lie in a plane the form
 /// is the photos' own all the same, and check points are free.
 fn axes(project: &Project, adjustment: &Adjustment) -> Option<Question> {

@@ -4,7 +4,7 @@
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;
 use crate::error::{Error, Number, Place, Reason};
-use crate::project::{Interior, Project};
+use crate::project::Project;
 
 use super::structure::photo_id;
 
@@ -48,10 +48,9 @@ fn standard_error(project: &Project, network: &Network, state: &State) -> Option
             all.extend(o.sigma.both().map(|sigma| (sigma, sigma, at.clone().with_field("sigma"))));
             let interior = network.photos[ray.photo].interior;
             let camera = &project.cameras[network.interiors[interior].camera];
-            let distance_px = match state.interiors[interior] {
-                Interior::Brown { c, .. } => c.unwrap_or_default() / camera.pitch()[0],
-                Interior::Opencv { fx, .. } => fx.unwrap_or_default(),
-            };
+            let model = state.interiors[interior].model();
+            let distance = state.interiors[interior].get(model.distance).unwrap_or_default();
+            let distance_px = distance / camera.residual_pitch()[0];
             let depth = -state.poses[ray.photo].camera_point(x)[2] * network.frame.scale;
             if depth > 0.0 {
                 scales.push(distance_px / depth);

@@ -115,7 +115,7 @@ impl<const N: usize> Seen<'_, N> {
         std::array::from_fn(|s| self.ray.measured[s] - self.shift[s])
     }
 
-    /// Fills the rows in; `by_unknown` gives the derivatives of a side. Returns 1 behind the camera, else 0.
+    /// Fills the rows in; `by_unknown` gives the derivatives of a side. Returns 1 for a depth that is not in front, else 0.
     #[inline(always)]
     fn fill(
         &self,
@@ -168,11 +168,12 @@ fn model_row<const N: usize>(
 ) -> Option<usize> {
     let p = seen.pose.camera_point(x);
     let linear = model.linearise(seen.measured(), p, place)?;
-    Some(seen.fill(p, &linear, row, |by_parameter, to| {
+    let behind = seen.fill(p, &linear, row, |by_parameter, to| {
         for (to, (column, scale)) in to.iter_mut().zip(seen.columns) {
             *to = by_parameter[*column] * scale;
         }
-    }))
+    });
+    Some(if model.is_wide() { 0 } else { behind })
 }
 
 /// Equations of the point alone, given coordinates included: normal matrix (xx, xy, xz, yy, yz, zz), Aᵀe, squares.

@@ -60,7 +60,8 @@ macro_rules! with_interior_size {
             4 => $call::<4>($($argument),*),
             6 => $call::<6>($($argument),*),
             8 => $call::<8>($($argument),*),
-            _ => $call::<10>($($argument),*),
+            10 => $call::<10>($($argument),*),
+            _ => $call::<12>($($argument),*),
         }
     };
 }

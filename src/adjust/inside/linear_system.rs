@@ -24,7 +24,7 @@ use crate::adjust::solve::session::{Session, unsound};
 use crate::adjustment::{AdjustOptions, Given};
 use crate::camera::{parameter_unit, photo_unit};
 use crate::error::Result;
-use crate::project::{Interior, Project};
+use crate::project::Project;
 
 /// Kind of an unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -288,10 +288,7 @@ fn image_rows<const N: usize>(
                     axis: Some(axis.to_owned()),
                     value: ray.measured[side] - weighting.shift.get(k).map_or(0.0, |shift| shift[side]),
                     sigma: 1.0 / weight,
-                    unit: match camera.interior {
-                        Interior::Brown { .. } => photo_unit(camera).to_owned(),
-                        Interior::Opencv { .. } => "px".to_owned(),
-                    },
+                    unit: photo_unit(camera).to_owned(),
                 };
                 all.push(((ray.row, side), Row { equation, a, l: -row.e[side] / weight }));
             }

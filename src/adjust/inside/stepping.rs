@@ -99,7 +99,7 @@ impl Adjuster {
 }
 
 /// The session with which [`adjust`] begins.
-pub(super) fn with_session<T>(
+pub(in crate::adjust) fn with_session<T>(
     project: &Project,
     options: &AdjustOptions,
     work: impl FnOnce(Session<'_>) -> Result<T>,

@@ -104,7 +104,8 @@ fn determined(session: &Session<'_>, rows: &[usize]) -> Vec<usize> {
     let stands = |row: &&usize| {
         let (photo, point) = session.numbering.sights[**row];
         let pose = photos.get(&photo).map(|k| &session.state.poses[*k]);
-        pose.zip(place(point)).is_some_and(|(pose, x)| pose.camera_point(&x)[2] < 0.0)
+        let is_wide = project.cameras[session.numbering.cameras[photo]].interior.model().is_wide;
+        pose.zip(place(point)).is_some_and(|(pose, x)| is_wide || pose.camera_point(&x)[2] < 0.0)
     };
     rows.iter().filter(stands).copied().collect()
 }

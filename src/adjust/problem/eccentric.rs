@@ -18,7 +18,7 @@ use std::borrow::Cow;
 use crate::adjustment::PointEccentricity;
 use crate::eccentricity::{Circle, pixels};
 use crate::error::{Error, Place, Reason, Result};
-use crate::project::{Interior, Project};
+use crate::project::Project;
 
 use super::network::Network;
 use super::state::State;
@@ -81,13 +81,9 @@ pub fn shifts(project: &Project, network: &Network, state: &State) -> Vec<[f64; 
             let centre = Vector3::from(pose.camera_point(&state.points[k]));
             let circle = Circle { centre, normal: pose.matrix() * normal, diameter };
             let Some([du, dv]) = pixels(camera, &circle) else { continue };
-            shifts[ray] = match camera.interior {
-                Interior::Brown { .. } => {
-                    let pitch = camera.pitch();
-                    [du * pitch[0], -dv * pitch[1]]
-                }
-                Interior::Opencv { .. } => [du, dv],
-            };
+            let pitch = camera.residual_pitch();
+            let down = if camera.interior.model().in_photo_units { -1.0 } else { 1.0 };
+            shifts[ray] = [du * pitch[0], down * dv * pitch[1]];
         }
     }
     shifts
@@ -169,7 +165,7 @@ pub fn told(project: &Project, network: &Network, shift: &[[f64; 2]]) -> Vec<Poi
         }
         let length = |ray: usize| {
             let camera = &project.cameras[network.interiors[network.photos[network.rays[ray].photo].interior].camera];
-            let pitch = if matches!(camera.interior, Interior::Brown { .. }) { camera.pitch() } else { [1.0; 2] };
+            let pitch = camera.residual_pitch();
             shift.get(ray).map_or(0.0, |s| (s[0] / pitch[0]).hypot(s[1] / pitch[1]))
         };
         let largest = block.rays.clone().map(length).fold(0.0, f64::max);
@@ -188,6 +184,7 @@ mod tests {
     use crate::adjustment::{AdjustOptions, Adjustment};
     use crate::camera::pixel_from_camera_point;
     use crate::detect::conic;
+    use crate::project::Interior;
     use crate::project::{Camera, DatumKind, Observation, Parameter, Photo, Point, Sigma};
     use crate::rotation::{angles, object_to_camera};
 

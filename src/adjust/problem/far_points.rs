@@ -71,7 +71,8 @@ fn behind(project: &Project, numbering: &Numbering, role: Role) -> Vec<usize> {
     let measured = numbering.sights.iter().zip(&project.observations).filter(|(_, o)| o.enabled);
     let off = measured.filter_map(|(&(photo, point), _)| {
         let xyz = project.points[point].xyz.filter(|_| project.points[point].role == role)?;
-        (poses[photo].as_ref()?.to_camera(&nalgebra::Vector3::from(xyz)).z >= 0.0).then_some(point)
+        let is_wide = project.cameras[numbering.cameras[photo]].interior.model().is_wide;
+        (poses[photo].as_ref()?.to_camera(&nalgebra::Vector3::from(xyz)).z >= 0.0 && !is_wide).then_some(point)
     });
     off.collect()
 }

@@ -253,10 +253,7 @@ impl Network {
             for &(photo, row) in &rays_of_point[k] {
                 let o = &project.observations[row];
                 let camera = &project.cameras[numbering.cameras[photo]];
-                let unit = match camera.interior {
-                    Interior::Brown { .. } => camera.pitch(),
-                    Interior::Opencv { .. } => [1.0, 1.0],
-                };
+                let unit = camera.residual_pitch();
                 let sigma = o.sigma.both();
                 network.rays.push(Ray {
                     photo: place_of_photo[photo],
@@ -290,7 +287,7 @@ impl Network {
         self.imagings.iter().map(|imaging| state.interiors[imaging.interior].plus(&imaging.differences))
     }
 
-    /// Room for the unknowns of an interior orientation: the largest number of them, made even; 0 to 10.
+    /// Room for the unknowns of an interior orientation: the largest number of them, made even; 0 to 12.
     pub fn interior_size(&self) -> usize {
         self.interiors.iter().map(|i| i.estimated.len()).max().unwrap_or(0).next_multiple_of(2)
     }
@@ -315,24 +312,14 @@ impl Network {
 
 /// What is estimated of a camera, with scales that make every unknown move an image point by about as much.
 fn estimated(camera: &Camera, interior: &Interior, used: impl Fn(Parameter) -> bool) -> Vec<Estimated> {
-    let [pitch_x, pitch_y] = camera.pitch();
-    let (distance, radius) = match interior {
-        Interior::Brown { c, .. } => {
-            let half = (f64::from(camera.width) * pitch_x).hypot(f64::from(camera.height) * pitch_y) / 2.0;
-            (c.unwrap_or(1.0), half)
-        }
-        Interior::Opencv { fx, .. } => {
-            let f = fx.unwrap_or(1.0);
-            (f, f64::from(camera.width).hypot(f64::from(camera.height)) / 2.0)
-        }
-    };
-    let brown = matches!(interior, Interior::Brown { .. });
-    // A change of the ideal image by `distance` at `radius`; the opencv model's own unit is the principal distance.
-    let (effect, r) = if brown { (distance, radius) } else { (1.0, radius / distance) };
+    let [pitch_x, pitch_y] = camera.residual_pitch();
+    let model = interior.model();
+    let distance = interior.get(model.distance).unwrap_or(1.0);
+    let radius = (f64::from(camera.width) * pitch_x).hypot(f64::from(camera.height) * pitch_y) / 2.0;
+    // A change of the ideal image by `distance` at `radius`; the unit of normalised coordinates is the principal distance.
+    let (effect, r) = if model.in_photo_units { (distance, radius) } else { (1.0, radius / distance) };
     let scale = |p: Parameter| match p {
-        Parameter::K1 => effect / r.powi(3),
-        Parameter::K2 => effect / r.powi(5),
-        Parameter::K3 => effect / r.powi(7),
+        p if model.radial_power(p).is_some() => effect / r.powi(model.radial_power(p).unwrap_or(1)),
         Parameter::P1 | Parameter::P2 => effect / r.powi(2),
         Parameter::B1 | Parameter::B2 => effect / r,
         _ => distance,

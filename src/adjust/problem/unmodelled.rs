@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use crate::adjustment::Adjustment;
 use crate::error::{Error, Place, Reason, Result};
-use crate::project::{Interior, Project, Sigma};
+use crate::project::{Project, Sigma};
 
 /// The project with `px` added in quadrature to the standard errors of all image coordinates.
 ///
@@ -40,8 +40,7 @@ pub fn estimate(project: &Project, adjustment: &Adjustment) -> Option<f64> {
         .iter()
         .filter_map(|photo| {
             let camera = project.cameras.iter().find(|camera| camera.id == photo.camera)?;
-            let in_pixels = matches!(camera.interior, Interior::Opencv { .. });
-            Some((photo.id.as_str(), if in_pixels { [1.0; 2] } else { camera.pitch() }))
+            Some((photo.id.as_str(), camera.residual_pitch()))
         })
         .collect();
     let (mut squares, mut redundancy, mut own, mut count) = (0.0, 0.0, 0.0, 0.0);
@@ -63,6 +62,7 @@ mod tests {
     use crate::adjust::adjust;
     use crate::adjustment::AdjustOptions;
     use crate::network::{Network, NetworkPoint, Station, simulate};
+    use crate::project::Interior;
     use crate::project::{Camera, DatumKind};
     #[cfg(target_arch = "wasm32")]
     use wasm_bindgen_test::wasm_bindgen_test as test;

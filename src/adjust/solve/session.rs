@@ -1,5 +1,7 @@
 //! One network on its way to a solution: iteration, cofactors; the search for gross errors is in [`crate::adjust::gross_errors::search`].
 
+mod calibration;
+
 use nalgebra::{DMatrix, Vector3};
 
 use crate::adjust::datum::free::{self, FreeDatum, SIMILARITY, at_point};
@@ -13,7 +15,7 @@ use crate::adjust::problem::additional::LeftOut;
 use crate::adjust::problem::eccentric;
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::numbering::Numbering;
-use crate::adjust::problem::state::State;
+use crate::adjust::problem::state::{State, Step};
 use crate::adjust::statistics::cofactors::{Cofactors, cofactors};
 use crate::adjustment::{AdjustOptions, Covariance, Iteration, ResidualPlace, StatisticsChoice, Termination};
 use crate::error::{Error, Place, Reason, Result, Thing};
@@ -154,6 +156,18 @@ impl<'a> Session<'a> {
     /// The network at the present values.
     pub fn context(&self, place: ResidualPlace) -> Context<'_> {
         context!(self, place)
+    }
+
+    /// The step that the factored equations still ask for at the present values: what [`Self::finish`] leaves as negligible. None where
+    /// a projection does not exist.
+    pub fn remaining_step(&mut self, place: ResidualPlace) -> Option<Step> {
+        let sound = self.normal.renew(context!(self, place));
+        sound.then(|| self.normal.solve(&self.network, &self.layout).step)
+    }
+
+    /// The equations that [`Self::finish`] has factored, with their layout.
+    pub fn factored(&self) -> (&Normal, &Layout) {
+        (&self.normal, &self.layout)
     }
 
     fn pins(&self) -> Vec<usize> {

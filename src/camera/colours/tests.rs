@@ -2,8 +2,10 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use super::*;
+use crate::camera::ideal_from_pixel;
 use crate::camera::pixel_from_camera_point;
 use crate::noise::Noise;
+use crate::project::Interior;
 use crate::project::Photo;
 
 const CENTRE: [f64; 2] = [2004.0, 1496.0];

@@ -14,7 +14,7 @@ use super::radial::Radial;
 use super::sectors::Division;
 use crate::detect::acceptance::code as limits;
 use crate::detection::CodeNote;
-use crate::ring_code::{Family, smallest_rotation};
+use crate::ring_code::{Family, coarser_grid, smallest_rotation};
 
 /// A ring under one tone curve, and its divisions.
 pub(super) type Tone = (Radial, Divisions);
@@ -185,7 +185,12 @@ pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
         return Reading::Plain;
     }
     let numbers = ring.numbers(family, &in_doubt);
+    // a ring of 8 sectors is one of 16 that come in pairs
+    let is_coarse = in_doubt.is_empty() && set.len() < ring.n && coarser_grid(division.bits, family.bits()).is_some();
     if numbers.is_empty() {
+        if is_coarse {
+            return Reading::Coarse { number: None, margin };
+        }
         let note = if set.len() == ring.n { CodeNote::AllSet } else { CodeNote::NoCode };
         return Reading::NoCode { margin, note };
     }
@@ -197,6 +202,11 @@ pub(super) fn judge(family: Family, tones: &[Tone]) -> Reading {
         CodeNote::BetweenLevels
     } else if of_discs > doubtful || ratio > limits::AS_GOOD || off_grid > 1.0 || left > 1.0 {
         CodeNote::OtherFamily
+    } else if is_coarse && is_by_chance(shares, division.arcs(), radial) {
+        // two doubts are more than the company of other codes settles
+        CodeNote::OtherFamily
+    } else if is_coarse {
+        return Reading::Coarse { number: Some(numbers[0]), margin };
     } else if is_by_chance(shares, division.arcs(), radial) {
         CodeNote::Uncertain
     } else {

@@ -4,6 +4,9 @@
 //! taken when exactly one family explains it. A ring that several families read in the same way tells them not apart: it
 //! counts with whatever family the other rings show.
 //!
+//! A ring whose arcs all end on a coarser grid is of a family of fewer sectors, or by chance a code (one in 20 of 12 sectors, in
+//! 80 of 16): the rings beside it tell which.
+//!
 //! What a ring alone leaves uncertain the others settle: among several that are codes beyond doubt one more is no chance, unless it has a
 //! number that another one has.
 
@@ -34,6 +37,7 @@ pub(crate) fn read_all(
         targets.iter().enumerate().map(|(k, target)| read(k, target, families)).collect();
     let chosen = chosen(&readings, families.len());
     if let Some(family) = chosen {
+        settle_coarse(&mut readings, family, families.len() == 1);
         settle(&mut readings, family);
     }
     for (target, readings) in targets.iter_mut().zip(readings) {
@@ -45,12 +49,33 @@ pub(crate) fn read_all(
 /// The family that alone explains all readings.
 fn chosen(readings: &[Vec<Reading>], families: usize) -> Option<usize> {
     let rings = readings.iter().filter(|ring| ring.iter().any(|reading| matches!(reading, Reading::Code { .. })));
-    let explains =
-        |ring: &[Reading], family: usize| matches!(ring[family], Reading::Code { .. } | Reading::Doubtful { .. });
+    let explains = |ring: &[Reading], family: usize| {
+        matches!(
+            ring[family],
+            Reading::Code { .. } | Reading::Doubtful { .. } | Reading::Coarse { number: Some(_), .. }
+        )
+    };
     let reads = |family: usize| readings.iter().any(|ring| matches!(ring[family], Reading::Code { .. }));
     let mut all = (0..families).filter(|family| reads(*family) && rings.clone().all(|ring| explains(ring, *family)));
     let first = all.next()?;
     all.next().is_none().then_some(first)
+}
+
+/// Takes the rings of a family that lie on a coarser grid for codes where so few do, against those that lie on its own grid alone, that they
+/// are its codes by chance; where its user has named the family one such code tells that its sheets are in the photo.
+fn settle_coarse(readings: &mut [Vec<Reading>], family: usize, is_named: bool) {
+    let count = |is: fn(&Reading) -> bool| readings.iter().filter(|ring| is(&ring[family])).count();
+    let fine = count(|reading| matches!(reading, Reading::Code { .. }));
+    let coarse = count(|reading| matches!(reading, Reading::Coarse { .. }));
+    let expected = fine / COMPANY + usize::from(is_named && fine > 0);
+    if coarse > expected {
+        return;
+    }
+    for reading in readings.iter_mut().map(|ring| &mut ring[family]) {
+        if let Reading::Coarse { number: Some(number), margin } = *reading {
+            *reading = Reading::Code { number, margin };
+        }
+    }
 }
 
 /// Takes the uncertain rings of a family for codes where enough others are.
@@ -103,6 +128,15 @@ fn enter(target: &mut Target, families: &[Family], readings: Vec<Reading>, chose
                     target.quality.code_note = Some(note);
                 }
             }
+            Reading::Coarse { number, margin } => {
+                if let Some(number) = number {
+                    target.code_candidates.push(CodeCandidate { family: *family, number, margin: 0.0 });
+                }
+                if chosen.is_none_or(|chosen| chosen == k) {
+                    target.quality.code_margin = Some(margin);
+                    target.quality.code_note = Some(CodeNote::OtherFamily);
+                }
+            }
             Reading::NoCode { margin, note } => {
                 if chosen == Some(k) || families.len() == 1 {
                     target.quality.code_margin = Some(margin);
@@ -142,6 +176,24 @@ mod tests {
         };
         assert_eq!(settled(COMPANY as u32), [true, false, false, false, false]);
         assert_eq!(settled(COMPANY as u32 - 1), [false; 5]);
+    }
+
+    #[test]
+    fn rings_on_a_coarser_grid_are_codes_among_many_that_are_not() {
+        let taken = |fine: u32, coarse: u32, none: usize, is_named: bool| {
+            let mut readings: Vec<Vec<Reading>> =
+                (0..fine).map(|number| vec![Reading::Code { number, margin: 0.9 }]).collect();
+            let on_grid = |number| vec![Reading::Coarse { number, margin: 0.8 }];
+            readings.extend((0..coarse).map(|number| on_grid(Some(100 + number))));
+            readings.extend((0..none).map(|_| on_grid(None)));
+            settle_coarse(&mut readings, 0, is_named);
+            readings.iter().filter(|ring| matches!(ring[0], Reading::Code { .. })).count() as u32 - fine
+        };
+        for is_named in [false, true] {
+            assert_eq!([taken(0, 4, 4, is_named), taken(0, 1, 0, is_named), taken(4, 4, 0, is_named)], [0; 3]);
+            assert_eq!([taken(4, 1, 0, is_named), taken(40, 2, 3, is_named)], [1, 2]);
+        }
+        assert_eq!([taken(1, 1, 0, false), taken(1, 1, 0, true), taken(1, 1, 1, true)], [0, 1, 0]);
     }
 
     /// A photo whose targets read like this, and the family that it shows.

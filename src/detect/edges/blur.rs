@@ -39,6 +39,7 @@ pub(crate) fn profile(outline: &Outline, surround: &Surround, strength: f64, mut
         slope: surround.slope,
         origin: [outline.u, outline.v],
         contrast,
+        light: [0.0; 2],
         blur: (blur * blur + 1.0 / 12.0).sqrt(),
     }
 }

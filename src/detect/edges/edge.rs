@@ -268,6 +268,8 @@ pub(crate) struct Profile {
     pub origin: [f64; 2],
     /// Inside minus outside.
     pub contrast: f64,
+    /// Slope of the light, as a share of it a pixel.
+    pub light: [f64; 2],
     /// Blur of the edge in the pixels, sigma.
     pub blur: f64,
 }
@@ -351,9 +353,11 @@ fn draw<T: Sample>(plane: &Plane<T>, outline: &Outline, profile: &Profile, x: f6
     let weights = [(1.0 - fx) * (1.0 - fy), fx * (1.0 - fy), (1.0 - fx) * fy, fx * fy];
     let places = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[dx, dy]| [left + dx + 0.5, top + dy + 0.5]);
     let [slope_x, slope_y] = profile.slope;
-    let background = profile.level + slope_x * (x - profile.origin[0]) + slope_y * (y - profile.origin[1]);
+    let (dx, dy) = (x - profile.origin[0], y - profile.origin[1]);
+    let background = profile.level + slope_x * dx + slope_y * dy;
+    let contrast = profile.contrast * (1.0 + profile.light[0] * dx + profile.light[1] * dy);
     let level = places.iter().zip(weights).map(|([x, y], w)| w * f64::from(plane.nearest(*x, *y))).sum::<f64>();
-    ((level - background) / profile.contrast, weights, places.map(|[x, y]| outline.nearest(x, y).1))
+    ((level - background) / contrast, weights, places.map(|[x, y]| outline.nearest(x, y).1))
 }
 
 /// Φ(z) and its density.

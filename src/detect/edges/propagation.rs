@@ -6,19 +6,27 @@
 //! slope comes from other pixels; its errors move the centre by the same weights.
 
 use nalgebra::SMatrix;
+use wide::f32x4;
 
 use super::edge::{Edges, Profile, slopes};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::ellipse::rays::rim_points;
+use crate::detect::normal::normal_distribution;
 
 /// Sensitivity of a centre to its pixels.
 pub(crate) struct Influence {
     /// Covariance (uu, uv, vv) of the centre for pixels of unit noise.
     pub noise: [f64; 3],
-    /// Change of the centre with the slope of the background that is taken off.
+    /// Change of the centre with the slope of the background that is taken off, and with that of the contrast.
     pub slope: [[f64; 2]; 2],
+    pub light: [[f64; 2]; 2],
     /// Mean variance of a single edge, for pixels of unit noise.
     pub edge: f64,
+}
+
+/// Φ(z).
+fn normal_share(z: f64) -> f64 {
+    f64::from(normal_distribution(f32x4::splat(z.clamp(-5.5, 5.5) as f32)).0.to_array()[0])
 }
 
 /// Influence of the pixels on the centre of an ellipse.
@@ -69,13 +77,17 @@ pub(crate) fn influence(
         used += 1;
     }
     let sum = |i: usize, j: usize| weights.iter().map(|weight| weight[i] * weight[j]).sum();
-    let mut slope = [[0.0; 2]; 2];
-    for (at, weight) in weights.iter().enumerate() {
-        let place =
-            [(at % width) as f64 + 0.5 + left - profile.origin[0], (at / width) as f64 + 0.5 + top - profile.origin[1]];
-        for (row, weight) in slope.iter_mut().zip(weight) {
-            *row = [row[0] - weight * place[0], row[1] - weight * place[1]];
+    let (mut slope, mut light) = ([[0.0; 2]; 2], [[0.0; 2]; 2]);
+    for (at, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != [0.0; 2]) {
+        let [x, y] = [(at % width) as f64 + 0.5 + left, (at / width) as f64 + 0.5 + top];
+        let place = [x - profile.origin[0], y - profile.origin[1]];
+        let disc = 1.0 - normal_share(cast.distance(x, y) / profile.blur);
+        for ((row, lit), weight) in slope.iter_mut().zip(&mut light).zip(weight) {
+            for (k, place) in place.into_iter().enumerate() {
+                row[k] -= weight * place;
+                lit[k] -= weight * place * disc;
+            }
         }
     }
-    Influence { noise: [sum(0, 0), sum(0, 1), sum(1, 1)], slope, edge: edges / used.max(1) as f64 }
+    Influence { noise: [sum(0, 0), sum(0, 1), sum(1, 1)], slope, light, edge: edges / used.max(1) as f64 }
 }

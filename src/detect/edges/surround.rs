@@ -2,7 +2,7 @@
 //!
 //! Rings of single pixels are read outside of the rim, from where its blur ends to a radius beyond. The nearest ring fixes a
 //! plane robustly; every further ring that agrees with it in mean and spread is added, the first that does not ends the
-//! surround: a card's edge, a code ring, a neighbour. A wide background matters: over a narrow one its slope cannot be
+//! surround: a card's edge, a code ring, a neighbour. A wide background matters: over a narrow one the slope of the light cannot be
 //! told from a shift of the target.
 
 use nalgebra::{Matrix3, Vector3};
@@ -33,6 +33,10 @@ pub(crate) struct Surround {
     pub outer: f64,
 }
 
+/// Width of the surround at most, in mean radii and six pixels: there the unknown slope of the light costs the centre of a bright disc on a
+/// ground of a sixth of its level 1 to 3 % of its standard error, against 3 to 12 % in a width of 1; in a wider one light is no plane.
+const WIDTH: f64 = 2.0;
+
 /// A sample: place relative to the centre, level less that of the centre.
 type Spot = [f64; 3];
 
@@ -48,7 +52,7 @@ pub(crate) fn measure<T: Sample>(
     let rims = Rims::of(plane, outline, kept);
     let (a, b) = outline.semi_axes();
     let start = 3.0 * blur + 0.6;
-    let width = (a * b).sqrt() + 6.0;
+    let width = WIDTH * ((a * b).sqrt() + 6.0);
     let spacing = (width / 24.0).max(1.0);
     let mut spots: Vec<Spot> = Vec::with_capacity(2 * kept.len());
     let mut sums = Sums::default();
@@ -267,15 +271,6 @@ struct Sums {
     gx: f64,
     gy: f64,
     gg: f64,
-}
-
-impl Surround {
-    /// Covariance of a centre (uu, uv, vv) that moves by M g when the slope changes by g: M S M'.
-    pub fn carried(&self, m: [[f64; 2]; 2]) -> [f64; 3] {
-        let [uu, uv, vv] = self.slope_covariance;
-        let product = |a: [f64; 2], b: [f64; 2]| a[0] * (uu * b[0] + uv * b[1]) + a[1] * (uv * b[0] + vv * b[1]);
-        [product(m[0], m[0]), product(m[0], m[1]), product(m[1], m[1])]
-    }
 }
 
 impl Sums {

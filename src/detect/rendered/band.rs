@@ -7,6 +7,7 @@ use nalgebra::{SMatrix, SVector};
 use wide::{f32x4, f32x8};
 
 use super::flats::Flats;
+use super::lit::Lit;
 use super::scatter::Lights;
 use super::strip::Strip;
 use crate::detect::edges::surround::Surround;
@@ -15,7 +16,7 @@ use crate::detect::median;
 use crate::detect::rendered::{DERIVATIVES, Field, Span};
 use crate::image::{Plane, Sample};
 
-/// Unknowns of the fit: u, v, p, q, r, s, C, B, gx, gy.
+/// Unknowns of the fit: u, v, p, q, r, s, C, B, and the slope of the light, gx and gy.
 pub(crate) const UNKNOWNS: usize = 10;
 pub(crate) type Normal = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
 pub(crate) type Unknowns = SVector<f64, UNKNOWNS>;
@@ -29,6 +30,11 @@ pub(crate) struct Region<'a> {
     /// Half the width of the band, in pixels.
     pub half_band: f64,
     pub surround: &'a Surround,
+    /// Slope of the light as a share of it a pixel, where it is known: flat parts are chosen around it. Without it they still hold what a
+    /// tenth across the target does.
+    pub light: [f64; 2],
+    /// Whether it multiplies the levels ([`lit`](super::lit)).
+    pub multiplies: bool,
     /// One for each ray of the outline: false where the rim is hidden.
     pub kept: &'a [bool],
     /// Whether all of them are true.
@@ -98,6 +104,8 @@ pub(crate) struct Band {
     /// After u, v and s as rendered, then after p, q and r.
     pub(super) derivatives: [Vec<f32>; 2 * DERIVATIVES],
     pub(super) residual: Vec<f32>,
+    /// After the slopes of the light.
+    lit: [Vec<f32>; 2],
     sizes: Vec<u32>,
 }
 
@@ -153,7 +161,7 @@ impl Band {
         let count = self.fill(plane, field, region);
         let padded = count.next_multiple_of(8);
         // the pixels themselves are written by the first rendering
-        for column in self.derivatives.iter_mut().chain([&mut self.share, &mut self.residual]) {
+        for column in self.derivatives.iter_mut().chain(&mut self.lit).chain([&mut self.share, &mut self.residual]) {
             column.resize(padded, 0.0);
             column[count..].fill(0.0);
         }
@@ -241,12 +249,17 @@ impl Band {
         }
     }
 
-    /// Residuals, grey less model, for contrast and background (level, slope).
-    pub fn subtract(&mut self, contrast: f64, background: [f64; 3]) {
-        let (contrast, [level, gx, gy]) = (contrast as f32, background.map(|b| b as f32));
+    /// Residuals, grey less model, and the derivatives after the slopes of the light.
+    pub fn subtract(&mut self, lit: &Lit) {
+        let [level, contrast, gx, gy] = [lit.ground, lit.contrast, lit.slope[0], lit.slope[1]].map(|b| b as f32);
+        let [ground, disc] = [lit.steepness(0.0), lit.steepness(1.0) - lit.steepness(0.0)].map(|s| s as f32);
+        let [lit_x, lit_y] = &mut self.lit;
         let columns = self.grey.iter().zip(&self.kept).zip(&self.x).zip(&self.y).zip(&self.share);
-        for (residual, ((((grey, kept), x), y), share)) in self.residual.iter_mut().zip(columns) {
-            *residual = grey - (level * kept + gx * x + gy * y + contrast * share);
+        let results = self.residual.iter_mut().zip(lit_x).zip(lit_y);
+        for (((residual, lit_x), lit_y), ((((grey, kept), x), y), share)) in results.zip(columns) {
+            let steep = ground * kept + disc * share;
+            (*lit_x, *lit_y) = (steep * x, steep * y);
+            *residual = grey - (level * kept + contrast * share + gx * *lit_x + gy * *lit_y);
         }
     }
 
@@ -275,7 +288,7 @@ impl Band {
                 {
                     column[i] = 0.0;
                 }
-                for column in &mut self.derivatives {
+                for column in self.derivatives.iter_mut().chain(&mut self.lit) {
                     column[i] = 0.0;
                 }
             }
@@ -374,7 +387,7 @@ impl Band {
 
     pub(super) fn columns(&self) -> [&[f32]; UNKNOWNS] {
         let [u, v, s, p, q, r] = &self.derivatives;
-        [u, v, p, q, r, s, &self.share, &self.kept, &self.x, &self.y]
+        [u, v, p, q, r, s, &self.share, &self.kept, &self.lit[0], &self.lit[1]]
     }
 
     /// J'J of the band. Derivatives of the outline are scaled by the contrast.

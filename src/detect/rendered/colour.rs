@@ -3,20 +3,33 @@
 //! Sharpening, demosaicing, compression and every mean correlate the noise of neighbours: E r_i r_j = σ² ρ(i - j). The centre is
 //! Σ z_i r_i, so that its variance is Σ σ² ρ(i - j) z_i z_j = σ² Σ_d ρ(d) A(d), with A(d) = Σ z_i z_{i+d}. ρ is the mean of all
 //! targets of the picture, of residuals less their mean profile across the rim: what sharpening leaves there all around moves no
-//! centre. A fit of p unknowns takes about p / n of the variance of n residuals off every product of neighbours.
+//! centre.
+//!
+//! A fit takes the slow part of the noise off its residuals, and with it the part that moves the centre ([`taken`](super::taken)): of white
+//! noise it leaves neighbours that are negatively correlated. With ρ of the residuals as they are, ρ₀ that of noise of a known
+//! correlation, white or that of a mean through which the picture has gone, each over its own number of pairs, and f₀ the variance of the centre in
+//! the latter over that in white noise of the same residuals,
+//!
+//! f = f₀ Σ_d ρ(d) A(d) / Σ_d ρ₀(d) A(d),
+//!
+//! which is f₀ where the noise is the known one, whatever the fit took. To solve for the part that was taken instead, by the sum of all ρ, is
+//! unstable: there are as many neighbours within reach as a small target has pixels for each unknown, and white noise came out with six
+//! times its variance.
 
 use wide::f32x4;
 
-use super::band::{Band, Normal, UNKNOWNS};
-use super::{DERIVATIVES, Field};
+use super::Field;
+use super::band::{Band, Normal};
+use super::taken::{TOGETHER, Taken, correlation};
 use crate::detect::ellipse::outline::Outline;
 
 /// Farthest neighbours, in pixels.
 const REACH: i32 = 5;
 /// Half of the neighbours: the others are the same, seen from there.
 const NEIGHBOURS: usize = 41;
-/// Neighbours whose products are summed at a time.
-const TOGETHER: usize = 4;
+/// Least sum Σ ρ₀ A / A(0) that is divided by: it is 0.6 and more of targets from 6 px. With less, of hardly more pixels than unknowns, chance
+/// would decide the factor.
+const LEAST_LEFT: f64 = 0.4;
 /// Bins of the profile, two a pixel.
 const BINS: usize = 64;
 
@@ -48,6 +61,10 @@ pub(crate) struct Colour {
     /// Of residuals, and how many pairs there are.
     residuals: [f64; NEIGHBOURS],
     pairs: [f64; NEIGHBOURS],
+    /// The same of residuals that the fit leaves of the known noise of variance 1.
+    known: [f64; NEIGHBOURS],
+    /// Variance of the centre in the known noise over that in white noise of as large residuals.
+    natural: f64,
 }
 
 impl Colour {
@@ -60,47 +77,39 @@ impl Colour {
     }
 }
 
-/// Correlation of neighbours, mean of a picture's targets.
+/// Correlation of neighbours, mean of a picture's targets: of their residuals, and of those that fits leave of the known noise.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Correlation([f64; NEIGHBOURS]);
+pub(crate) struct Correlation {
+    left: [f64; NEIGHBOURS],
+    known: [f64; NEIGHBOURS],
+}
 
 impl Correlation {
     /// None without targets.
     pub fn of<'a>(targets: impl Iterator<Item = &'a Colour>) -> Option<Self> {
-        let (mut sums, mut weights, mut count) = ([0.0; NEIGHBOURS], 0.0, 0.0);
+        let (mut left, mut known, mut weights) = ([0.0; NEIGHBOURS], [0.0; NEIGHBOURS], 0.0);
         for target in targets {
-            let own = target.residuals[0] / target.pairs[0];
-            if !(own > 0.0) {
+            let weight = target.pairs[0];
+            let (own, free) = (target.residuals[0] / weight, target.known[0] / weight);
+            if !(own > 0.0 && free > 0.0) {
                 continue;
             }
-            let weight = target.pairs[0];
-            for (sum, (residual, pairs)) in sums.iter_mut().zip(target.residuals.iter().zip(&target.pairs)) {
-                *sum += weight * residual / pairs.max(1.0) / own;
+            for (k, pairs) in target.pairs.iter().enumerate() {
+                left[k] += weight * target.residuals[k] / pairs.max(1.0) / own;
+                known[k] += weight * target.known[k] / pairs.max(1.0) / free;
             }
             weights += weight;
-            count += 1.0;
         }
-        if weights <= 0.0 {
-            return None;
-        }
-        let lost = UNKNOWNS as f64 * count / weights;
-        let raw = sums.map(|sum| sum / weights);
-        let mut all = 1.0;
-        for _ in 0..3 {
-            let taken = lost * all;
-            all = 1.0 + 2.0 * raw[1..].iter().map(|rho| rho + taken * (1.0 - rho)).sum::<f64>();
-            all = all.clamp(0.3, 0.5 / lost);
-        }
-        let taken = lost * all;
-        let mut rho = raw.map(|rho| rho + taken * (1.0 - rho));
-        rho[0] = 1.0;
-        Some(Self(rho))
+        (weights > 0.0).then(|| Self { left: left.map(|sum| sum / weights), known: known.map(|sum| sum / weights) })
     }
 
     /// Variance of a target's centre over what it would be without correlation.
     pub fn factor(&self, target: &Colour) -> f64 {
-        let sum: f64 = self.0[1..].iter().zip(&target.moved[1..]).map(|(rho, moved)| rho * moved).sum();
-        (1.0 + 2.0 * sum / target.moved[0].max(1e-300)).clamp(0.05, 40.0)
+        let moved = |rho: &[f64; NEIGHBOURS]| -> f64 {
+            let sum: f64 = rho[1..].iter().zip(&target.moved[1..]).map(|(rho, moved)| rho * moved).sum();
+            1.0 + 2.0 * sum / target.moved[0].max(1e-300)
+        };
+        (target.natural * moved(&self.left) / moved(&self.known).max(LEAST_LEFT)).clamp(0.05, 100.0)
     }
 }
 
@@ -139,7 +148,8 @@ impl Band {
         (places.iter().map(|(place, _)| between(*place) as f32).collect(), means.len())
     }
 
-    /// Products of neighbours, from the residuals, the columns and the cofactors of a fit.
+    /// Products of neighbours, from the residuals and the cofactors of a fit, for known noise that a mean of this sigma has passed; none where
+    /// the cofactors are not positive definite.
     pub fn colour(
         &self,
         field: &Field,
@@ -147,27 +157,25 @@ impl Band {
         contrast: f64,
         outline: &Outline,
         origin: [f64; 2],
-    ) -> Colour {
-        let columns = self.columns();
-        let scale = |i: usize| if i < 2 * DERIVATIVES { contrast } else { 1.0 };
-        let factors: [[f64; UNKNOWNS]; 2] =
-            std::array::from_fn(|which| std::array::from_fn(|j| cofactors[(which, j)] * scale(j)));
-        let moved = |which: usize, k: usize| -> f64 {
-            factors[which].iter().zip(columns).map(|(factor, column)| factor * f64::from(column[k])).sum()
-        };
+        mean: f64,
+    ) -> Option<Colour> {
+        let taken = Taken::of(self, field, cofactors, contrast, mean)?;
         let mut profile = self.profile(outline, origin).0.into_iter();
         let mut grid = vec![[0f32; 4]; field.width * field.height];
         let mut k = 0;
         for &(row, column, length) in &self.spans {
-            for pixel in &mut grid[row * field.width + column..][..length] {
+            let from = row * field.width + column;
+            for (at, pixel) in (from..).zip(&mut grid[from..from + length]) {
                 if self.kept[k] > 0.0 {
                     let mean = profile.next().unwrap_or_default();
-                    *pixel = [moved(0, k) as f32, moved(1, k) as f32, self.residual[k] - mean, 1.0];
+                    let [u, v] = taken.moved(at);
+                    *pixel = [u, v, self.residual[k] - mean, 1.0];
                 }
                 k += 1;
             }
         }
-        let mut colour = Colour { moved: [0.0; NEIGHBOURS], residuals: [0.0; NEIGHBOURS], pairs: [0.0; NEIGHBOURS] };
+        let none = [0.0; NEIGHBOURS];
+        let mut colour = Colour { moved: none, residuals: none, pairs: none, known: none, natural: 1.0 };
         // only what lies in a span counts, which of a large field is little; several neighbours at once do not wait for each other
         for first in (0..NEIGHBOURS).step_by(TOGETHER) {
             let shifts: [usize; TOGETHER] = std::array::from_fn(|i| {
@@ -185,12 +193,19 @@ impl Band {
                     }
                 }
             }
-            for (i, sum) in sums.into_iter().enumerate().take_while(|(i, _)| first + i < NEIGHBOURS) {
+            let taken = taken.products(self, field.width, shifts);
+            for (i, (sum, taken)) in sums.into_iter().zip(taken).enumerate().take_while(|(i, _)| first + i < NEIGHBOURS)
+            {
+                let at = first + i;
                 let [u, v, r, n] = sum.to_array().map(f64::from);
-                (colour.moved[first + i], colour.residuals[first + i], colour.pairs[first + i]) = (u + v, r, n);
+                (colour.moved[at], colour.residuals[at], colour.pairs[at]) = (u + v, r, n);
+                let (dx, dy) = OFFSETS[at];
+                colour.known[at] = correlation(dx, dy, mean) * n - taken;
             }
         }
-        colour
+        // the variance is that of white residuals, and the known noise leaves others
+        colour.natural = taken.natural * (colour.pairs[0] - taken.trace).max(1.0) / colour.known[0].max(1.0);
+        Some(colour)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Least-squares fit of a rendered ellipse, the default measurement.
 //!
-//! g(x, y) = B + gx x + gy y + C I(x, y; u, v, p, q, r, s) for all pixels around the target, with I the exact image of the
-//! blurred ellipse ([`rendered`](super::rendered)): ten unknowns, weights equal. No pixel is lost and none is
-//! interpolated, so the centre reaches the Cramér-Rao bound of the photograph.
+//! g(x, y) = (B + C I(x, y; u, v, p, q, r, s)) (1 + h·(x, y)) for all pixels around the target, with I the exact image of the
+//! blurred ellipse ([`rendered`](super::rendered)) and h the slope of the light ([`lit`](super::lit)): ten unknowns, weights equal. No pixel
+//! is lost and none is interpolated, so the centre reaches the Cramér-Rao bound of the photograph.
 //!
 //! Light that blur carries from what stands around onto those pixels pulls the centre; in the end it is taken back to first order
 //! ([`neighbours`](super::neighbours)), δ = N⁻¹ J'l, and δ δ' is added to the covariance.
@@ -14,6 +14,7 @@
 use super::band::{Band, Normal, Prior, Region, Unknowns};
 use super::colour::Colour;
 use super::flats::Flats;
+use super::lit::Lit;
 use super::neighbours::Neighbours;
 use super::scatter;
 use crate::detect::acceptance::fit as limits;
@@ -68,11 +69,13 @@ pub(crate) struct Workspace {
     origin: [f64; 2],
     /// Whether neighbouring pixels may share their noise.
     pub coloured: bool,
+    /// Sigma of the mean that the picture was made by; 0 of one as it was taken.
+    pub mean: f64,
     /// Whether the last fit was given up for what its corrections promised.
     pub hopeless: bool,
 }
 
-/// Outline, blur and contrast of a fit of a sketched ellipse ([`Band::sketch`]) to all pixels, which only needs to be good
+/// Outline, blur and levels of a fit of a sketched ellipse ([`Band::sketch`]) to all pixels, which only needs to be good
 /// enough to choose the pixels of the next one: corrections below `converged` pixels are expected. None when the steps lead
 /// nowhere.
 pub(crate) fn approach<T: Sample>(
@@ -81,7 +84,7 @@ pub(crate) fn approach<T: Sample>(
     blur: f64,
     converged: f64,
     work: &mut Workspace,
-) -> Option<(Outline, f64, f64)> {
+) -> Option<(Outline, f64, Lit)> {
     let (mut state, flats) = work.begin(plane, region, blur)?;
     let (mut normal, mut anew, mut last) = (Normal::zeros(), true, state.first());
     for round in 0.. {
@@ -99,7 +102,7 @@ pub(crate) fn approach<T: Sample>(
             // only the foot of its profile shows, where a sketch is not good enough
             work.residuals(&state, false)?;
         } else {
-            work.band.subtract(state.contrast, state.background);
+            work.band.subtract(&state.lit);
         }
         if anew {
             normal = work.normal(&state, &flats);
@@ -108,7 +111,7 @@ pub(crate) fn approach<T: Sample>(
         normal = used;
         let near = size <= NEAR * state.pixel();
         if near && size * (size / last).min(1.0) < converged && last.is_finite() {
-            return Some((state.outline, state.blur, state.contrast));
+            return Some((state.outline, state.blur, state.lit));
         }
         anew = !near || size > SLOW * last;
         last = size;
@@ -158,7 +161,7 @@ pub(crate) fn fit<T: Sample>(
             if let Some(prior) = &region.prior {
                 let promised = solve(&normal, &right)?;
                 work.hopeless =
-                    prior.is_hopeless(work.band.promised_rms(&promised, &right), state.contrast + promised[6]);
+                    prior.is_hopeless(work.band.promised_rms(&promised, &right), state.lit.contrast + promised[6]);
                 if work.hopeless {
                     return None;
                 }
@@ -179,7 +182,7 @@ pub(crate) fn fit<T: Sample>(
     let (variance, used) = work.band.variance();
     // at the largest contrast nothing is left of the rim's profile but a step, and its sigma would promise too much
     if used < limits::PIXELS
-        || state.contrast.abs() > (limits::STEP_LEFT * state.brightest).max(limits::STEP_LEAST * state.shown)
+        || state.lit.contrast.abs() > (limits::STEP_LEFT * state.brightest).max(limits::STEP_LEAST * state.shown)
     {
         return None;
     }
@@ -191,17 +194,21 @@ pub(crate) fn fit<T: Sample>(
     // edges, which no lens has softened, it depends on where the pixels lie.
     let all_around = region.whole && region.developed && (work.coloured || beyond);
     let values = if all_around { work.band.take_profile(&state.outline, work.origin) } else { 0 };
-    let lights = work.band.lights(&cofactors, state.contrast).of_profile(values);
-    let mut covariance = scatter::covariance(&cofactors, &lights, &flats);
+    // a value takes the noise of a ring half a pixel wide, of which a mean has left that many times the variance
+    let taken = values as f64 * (work.mean * std::f64::consts::PI.sqrt()).max(1.0);
+    let lights = work.band.lights(&cofactors, state.lit.contrast).of_profile(taken);
+    let mut covariance = scatter::covariance(&cofactors, &lights, &flats, &state.lit);
     // what is left around a disturbance follows no light: the mean of all may tell more of it
     let mean = cofactors[(0, 0)] + cofactors[(1, 1)];
     let variance = if all_around { lights.variance() } else { variance };
     if dropped > 0 && mean * variance > covariance[0] + covariance[2] {
         covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
     }
-    let Workspace { band, field, origin, coloured, .. } = work;
-    let mut colour =
-        (*coloured || beyond).then(|| band.colour(field, &cofactors, state.contrast, &state.outline, *origin));
+    let Workspace { band, field, origin, coloured, mean, .. } = work;
+    let mut colour = None;
+    if *coloured || beyond {
+        colour = Some(band.colour(field, &cofactors, state.lit.contrast, &state.outline, *origin, *mean)?);
+    }
     if !*coloured && let Some(colour) = colour.take() {
         // what is left beyond the noise and shared by neighbours is a shape that the model does not have: a moved camera's
         if colour.shared() > limits::SHARED {
@@ -211,9 +218,9 @@ pub(crate) fn fit<T: Sample>(
     }
     let mut outline = state.outline;
     let reach = region.half_band.min(region.surround.outer.max(1.0)) + 0.3;
-    if let Some(neighbours) = Neighbours::of(plane, &outline, state.blur, state.contrast, reach, rms) {
+    if let Some(neighbours) = Neighbours::of(plane, &outline, state.blur, state.lit.contrast, reach, rms) {
         let [u, v] = work.origin;
-        let pulled = cofactors * work.band.right_of_light(state.contrast, |x, y| neighbours.light(x + u, y + v));
+        let pulled = cofactors * work.band.right_of_light(state.lit.contrast, |x, y| neighbours.light(x + u, y + v));
         let [pu, pv] = [pulled[0], pulled[1]];
         (outline.u, outline.v) = (outline.u - pu, outline.v - pv);
         // the light is known to about its own size
@@ -223,7 +230,7 @@ pub(crate) fn fit<T: Sample>(
         colour,
         outline,
         blur: state.blur,
-        contrast: state.contrast,
+        contrast: state.lit.contrast,
         rms,
         uneven,
         disturbed: dropped as f64 / used as f64,
@@ -241,8 +248,7 @@ impl Workspace {
             brightest: (limits::OVEREXPOSED * shown).max(surround.contrast.abs()),
             outline: region.outline,
             blur: blur.clamp(BLUR.0, BLUR.1),
-            contrast: surround.contrast,
-            background: [surround.level, surround.slope[0], surround.slope[1]],
+            lit: Lit::of(surround, region.light, region.multiplies),
             prior: region.prior,
             before: f64::INFINITY,
             share: 1.0,
@@ -259,25 +265,26 @@ impl Workspace {
         }
         self.field.render(&state.outline, state.blur, derivatives, &self.band.spans);
         self.band.gather(&self.field, self.origin, derivatives.then_some(&state.outline));
-        self.band.subtract(state.contrast, state.background);
+        self.band.subtract(&state.lit);
         Some(())
     }
 
     /// Residual beyond which, near the end, a pixel is not the target's.
     fn outlier_limit(&mut self, state: &State, region: &Region) -> f64 {
         // an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel
-        let sharp = if state.blur <= BLUR.0 { limits::SHARP * state.contrast.abs() } else { 0.0 };
+        let sharp = if state.blur <= BLUR.0 { limits::SHARP * state.lit.contrast.abs() } else { 0.0 };
         let profile = if region.stairs { limits::STAIRS } else { limits::LENS };
-        let least =
-            (limits::OUTLIER * region.surround.noise.max(limits::QUIET)).max(sharp).max(profile * state.contrast.abs());
+        let least = (limits::OUTLIER * region.surround.noise.max(limits::QUIET))
+            .max(sharp)
+            .max(profile * state.lit.contrast.abs());
         // rounding to levels that lie apart moves a sample by up to half of that
         let least = least + (region.quantum - 1.0) / 2.0;
         least.max(limits::OUTLIER * self.band.robust_deviation(least / limits::OUTLIER))
     }
 
     fn normal(&self, state: &State, flats: &Flats) -> Normal {
-        let mut normal = self.band.normal(state.contrast);
-        flats.add_normal(&mut normal);
+        let mut normal = self.band.normal(state.lit.contrast);
+        flats.add_normal(&state.lit, &mut normal);
         if let Some(prior) = &state.prior {
             prior.add_normal(&mut normal);
         }
@@ -285,10 +292,10 @@ impl Workspace {
     }
 
     fn right(&self, state: &State, flats: &Flats) -> Unknowns {
-        let mut right = self.band.right(state.contrast);
-        flats.add_right(state.contrast, state.background, &mut right);
+        let mut right = self.band.right(state.lit.contrast);
+        flats.add_right(&state.lit, &mut right);
         if let Some(prior) = &state.prior {
-            prior.add_right(state.blur, state.contrast, &mut right);
+            prior.add_right(state.blur, state.lit.contrast, &mut right);
         }
         right
     }
@@ -298,8 +305,7 @@ impl Workspace {
 struct State {
     outline: Outline,
     blur: f64,
-    contrast: f64,
-    background: [f64; 3],
+    lit: Lit,
     prior: Option<Prior>,
     /// Contrast that the scale has room for, and the largest that is believed.
     shown: f64,
@@ -317,7 +323,7 @@ impl State {
 
     /// Whether a bright target seems to go on beyond the scale.
     fn is_clipped(&self) -> bool {
-        self.contrast > limits::CLIPPED * self.shown
+        self.lit.contrast > limits::CLIPPED * self.shown
     }
 
     /// What the first correction is compared with: Newton's steps shrink in the ratio of the correction to the profile's
@@ -341,7 +347,7 @@ impl State {
     /// None when there were rounds enough.
     fn may_go_on(&self, round: u32) -> Option<()> {
         let [usual, swallowed, clipped] = ROUNDS;
-        let rounds = if self.contrast.abs() > self.shown { clipped } else { usual };
+        let rounds = if self.lit.contrast.abs() > self.shown { clipped } else { usual };
         (round < if self.prior.is_some() { rounds.max(swallowed) } else { rounds }).then_some(())
     }
 
@@ -354,7 +360,7 @@ impl State {
             hold(5, &mut normal, &mut right);
             step = solve(&normal, &right)?;
         }
-        if self.contrast.abs() >= self.brightest && step[6] * self.contrast > 0.0 {
+        if self.lit.contrast.abs() >= self.brightest && step[6] * self.lit.contrast > 0.0 {
             hold(6, &mut normal, &mut right);
             step = solve(&normal, &right)?;
         }
@@ -363,24 +369,21 @@ impl State {
             return None;
         }
         let limit = 0.8 * self.pixel();
-        let whole = (limit / size).min(0.6 * self.contrast.abs() / step[6].abs()).min(1.0);
+        let whole = (limit / size).min(0.6 * self.lit.contrast.abs() / step[6].abs()).min(1.0);
         // where contrast and blur nearly stand for each other whole corrections may go to and fro for ever
         if self.is_clipped() && size > STUCK * self.before {
             self.share = (HALTING * self.share).max(LEAST_SHARE);
         }
         self.before = size;
         self.add(&(step * self.share * if whole > 0.0 { whole } else { 1.0 }));
-        self.contrast = self.contrast.clamp(-self.brightest, self.brightest);
+        self.lit.contrast = self.lit.contrast.clamp(-self.brightest, self.brightest);
         self.outline.is_proper().then_some((size, normal))
     }
 
     fn add(&mut self, step: &Unknowns) {
         self.outline = self.outline.plus(&step.as_slice()[..5]);
         self.blur = (self.blur + step[5]).clamp(BLUR.0, BLUR.1);
-        self.contrast += step[6];
-        for (value, correction) in self.background.iter_mut().zip(&step.as_slice()[7..]) {
-            *value += correction;
-        }
+        self.lit.add(&step.as_slice()[6..]);
     }
 }
 

@@ -1,9 +1,10 @@
 //! The flat parts of a fit, inside and outside of the rim's band.
 //!
-//! Their model, B + gx x + gy y (+ C inside), is linear: only moments of their pixels are kept, summed row by row in whole
-//! numbers.
+//! Their model, B or B + C in light that changes ([`lit`](super::lit)), is linear in each: only moments of their pixels are kept, summed row
+//! by row in whole numbers.
 
 use super::band::{Normal, Region, Unknowns};
+use super::lit::Lit;
 use crate::detect::acceptance::fit::FLAT;
 use crate::image::Sample;
 
@@ -30,10 +31,12 @@ pub(crate) struct Moments {
 
 impl Flats {
     /// Adds J'J of the flat parts.
-    pub fn add_normal(&self, normal: &mut Normal) {
+    pub fn add_normal(&self, lit: &Lit, normal: &mut Normal) {
         for (m, share) in [(&self.inside, 1.0), (&self.outside, 0.0)] {
-            let first = [m.n, m.x, m.y];
-            let second = [[m.n, m.x, m.y], [m.x, m.xx, m.xy], [m.y, m.xy, m.yy]];
+            let steep = lit.steepness(share);
+            let first = [m.n, steep * m.x, steep * m.y];
+            let [xx, xy, yy] = [m.xx, m.xy, m.yy].map(|sum| steep * steep * sum);
+            let second = [first, [first[1], xx, xy], [first[2], xy, yy]];
             normal[(6, 6)] += share * m.n;
             for i in 0..3 {
                 normal[(6, 7 + i)] += share * first[i];
@@ -45,15 +48,16 @@ impl Flats {
         }
     }
 
-    /// Adds J'r of the flat parts for contrast and background (level, slope).
-    pub fn add_right(&self, contrast: f64, [level, gx, gy]: [f64; 3], right: &mut Unknowns) {
+    /// Adds J'r of the flat parts.
+    pub fn add_right(&self, lit: &Lit, right: &mut Unknowns) {
         for (m, share) in [(&self.inside, 1.0), (&self.outside, 0.0)] {
-            let level = level + share * contrast;
+            let (level, steep) = (lit.tone(share), lit.steepness(share));
+            let [gx, gy] = lit.slope.map(|slope| steep * slope);
             let sum = m.g - level * m.n - gx * m.x - gy * m.y;
             right[6] += share * sum;
             right[7] += sum;
-            right[8] += m.gx - level * m.x - gx * m.xx - gy * m.xy;
-            right[9] += m.gy - level * m.y - gx * m.xy - gy * m.yy;
+            right[8] += steep * (m.gx - level * m.x - gx * m.xx - gy * m.xy);
+            right[9] += steep * (m.gy - level * m.y - gx * m.xy - gy * m.yy);
         }
     }
 }
@@ -76,7 +80,7 @@ impl Moments {
         let (whole, rest) = (near as i32, (level - near) as f32);
         let [sigmas, quiet, print] = FLAT;
         let limit = sigmas * surround.noise.max(quiet) + if inside { print * surround.contrast.abs() } else { 0.0 };
-        let (limit, slope) = (limit as f32, surround.slope[0] as f32);
+        let (limit, slope) = (limit as f32, expected_slope(region, inside)[0] as f32);
         let saturation = region.saturation as i32;
         let first = (first as i64 - middle) as i32;
         let mut sums = [0i32; 5];
@@ -142,6 +146,16 @@ fn nearest(level: f64) -> f64 {
 fn origin(y: usize, region: &Region, inside: bool) -> (i64, f64) {
     let surround = region.surround;
     let dy = y as f64 + 0.5 - region.outline.v;
-    let level = surround.level + surround.slope[1] * dy + if inside { surround.contrast } else { 0.0 };
+    let level = surround.level + expected_slope(region, inside)[1] * dy + if inside { surround.contrast } else { 0.0 };
     (region.outline.u.floor() as i64, level)
+}
+
+/// Slope of the levels expected there: as measured outside, that of the light inside.
+fn expected_slope(region: &Region, inside: bool) -> [f64; 2] {
+    let surround = region.surround;
+    if inside && region.multiplies {
+        region.light.map(|light| light * (surround.level + surround.contrast))
+    } else {
+        surround.slope
+    }
 }

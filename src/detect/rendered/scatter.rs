@@ -14,6 +14,7 @@
 
 use super::band::Normal;
 use super::flats::Flats;
+use super::lit::Lit;
 
 /// Sums over the pixels of the band.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,9 +28,9 @@ pub(crate) struct Lights {
 }
 
 impl Lights {
-    /// Of residuals from which a profile of so many values was taken: each has taken the square of one.
-    pub fn of_profile(self, values: usize) -> Self {
-        let free = (self.powers[0] - values as f64).max(0.5 * self.powers[0]);
+    /// Of residuals from which a profile has taken the squares of so many.
+    pub fn of_profile(self, taken: f64) -> Self {
+        let free = (self.powers[0] - taken).max(0.5 * self.powers[0]);
         Self { squares: self.squares.map(|sum| sum * self.powers[0] / free), ..self }
     }
 
@@ -40,10 +41,11 @@ impl Lights {
 }
 
 /// Covariance (uu, uv, vv) of the centre with the cofactors of all unknowns.
-pub(crate) fn covariance(cofactors: &Normal, band: &Lights, flats: &Flats) -> [f64; 3] {
+pub(crate) fn covariance(cofactors: &Normal, band: &Lights, flats: &Flats, lit: &Lit) -> [f64; 3] {
     let [ground, growth] = line(band.powers, band.squares);
-    // Inside, z is linear: the disc's level is that of the ground and the contrast.
-    let row = |i: usize| [cofactors[(i, 6)] + cofactors[(i, 7)], cofactors[(i, 8)], cofactors[(i, 9)]];
+    // Inside, z is linear: the disc's level is that of the ground and the contrast, and its slope follows the light.
+    let steep = lit.steepness(1.0);
+    let row = |i: usize| [cofactors[(i, 6)] + cofactors[(i, 7)], steep * cofactors[(i, 8)], steep * cofactors[(i, 9)]];
     let disc = flats.inside.products(&[row(0), row(1)]);
     let own = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place]);
     std::array::from_fn(|k| ground * own[k] + growth * (band.lit[k] + disc[k]))

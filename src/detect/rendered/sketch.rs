@@ -93,6 +93,8 @@ mod tests {
                 outline,
                 half_band,
                 surround: &surround,
+                light: [0.0; 2],
+                multiplies: true,
                 kept: &kept,
                 whole: true,
                 strip: None,

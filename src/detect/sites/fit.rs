@@ -1,6 +1,6 @@
 //! Least-squares fit of a rendered ellipse to the sites of one colour.
 //!
-//! g(x, y) = B + gx x + gy y + C I(x, y; u, v, p, q, r, s) as for pictures ([`rendered`](crate::detect::rendered)), here at the
+//! g(x, y) = (B + C I(x, y; u, v, p, q, r, s)) (1 + h·(x, y)) as for pictures ([`rendered`](crate::detect::rendered)), here at the
 //! sites alone, each weighted by the inverse of its variance r + g g(x, y). The variance follows the model, not the sample: weights that
 //! know a sample's noise would draw the fit to the dark. Which sites the white level clips follows the model too, so that the
 //! choice says nothing of their noise. The covariance is that of the Cramér-Rao bound of these sites where the model holds, and as
@@ -13,6 +13,7 @@ use super::Sites;
 use crate::detect::acceptance::sites::{DISTURBED, EXPLAINED, FAR, LENS, OVEREXPOSED};
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::normal::BLUR;
+use crate::detect::rendered::lit::Lit;
 use crate::detect::rendered::{Field, Span};
 use system::{System, UNKNOWNS, Unknowns, counts, modelled};
 
@@ -51,8 +52,7 @@ struct Site {
 struct State {
     outline: Outline,
     blur: f64,
-    contrast: f64,
-    background: [f64; 3],
+    lit: Lit,
 }
 
 /// Fits, from an outline and a blur on the whole grid; `outer` is the distance from the rim up to which the ground is free. What is
@@ -77,13 +77,11 @@ pub(super) fn fit<L: Fn(f64, f64) -> f64>(
     approach(sites, &mut chosen, &mut state, true, field)?;
     chosen = around(&state.outline, state.blur)?;
     let origin = [state.outline.u, state.outline.v];
-    // the plane of the ground goes through the new middle
-    let [level, gx, gy] = state.background;
-    state.background = [level + gx * (origin[0] - start.u) + gy * (origin[1] - start.v), gx, gy];
+    state.lit.shift(origin[0] - start.u, origin[1] - start.v);
     let origin = approach(sites, &mut chosen, &mut state, false, field)?;
     let (mut found, system) = finished(sites, &chosen, &state, field, origin)?;
     if let Some(light) = light(&found, reach(state.blur)) {
-        let [pu, pv] = system.pulled(sites, &chosen, &state, field, origin, |x, y| state.contrast * light(x, y))?;
+        let [pu, pv] = system.pulled(sites, &chosen, &state, field, origin, |x, y| state.lit.contrast * light(x, y))?;
         (found.outline.u, found.outline.v) = (found.outline.u - pu, found.outline.v - pv);
         // the light is known to about its own size
         let [uu, uv, vv] = found.covariance;
@@ -104,8 +102,8 @@ fn approach(
     let origin = [state.outline.u, state.outline.v];
     let black = sites.sensor.mosaic.black.at(origin[0].max(0.0) as usize, origin[1].max(0.0) as usize);
     let white = sites.clip - black;
-    let shown = if state.contrast > 0.0 { white - state.background[0] } else { state.background[0] }.max(1.0);
-    let most = OVEREXPOSED * shown.max(state.contrast.abs());
+    let shown = if state.lit.contrast > 0.0 { white - state.lit.ground } else { state.lit.ground }.max(1.0);
+    let most = OVEREXPOSED * shown.max(state.lit.contrast.abs());
     let (mut cleaned, mut last) = (0, f64::INFINITY);
     for round in 0..ROUNDS {
         render(field, state);
@@ -116,7 +114,7 @@ fn approach(
             return None;
         }
         let limit =
-            (0.6 * (state.blur + 0.3) / size).min(0.6 * state.contrast.abs() / step[6].abs().max(1e-12)).min(1.0);
+            (0.6 * (state.blur + 0.3) / size).min(0.6 * state.lit.contrast.abs() / step[6].abs().max(1e-12)).min(1.0);
         state.add(&(step * limit), most);
         if !state.outline.is_proper() {
             return None;
@@ -179,12 +177,7 @@ fn first(outline: &Outline, blur: f64, chosen: &[Site]) -> Option<State> {
         (!levels.is_empty()).then(|| *levels.select_nth_unstable_by(middle, f64::total_cmp).1)
     };
     let (disc, ground) = (median(&mut inside)?, median(&mut outside)?);
-    (disc != ground).then_some(State {
-        outline: *outline,
-        blur,
-        contrast: disc - ground,
-        background: [ground, 0.0, 0.0],
-    })
+    (disc != ground).then_some(State { outline: *outline, blur, lit: Lit::new(ground, disc - ground, [0.0; 2]) })
 }
 
 fn render(field: &mut Field, state: &State) {
@@ -199,10 +192,8 @@ impl State {
     fn add(&mut self, step: &Unknowns, most: f64) {
         self.outline = self.outline.plus(&step.as_slice()[..5]);
         self.blur = (self.blur + step[5]).clamp(BLUR.0, BLUR.1);
-        self.contrast = (self.contrast + step[6]).clamp(-most, most);
-        for (value, correction) in self.background.iter_mut().zip(&step.as_slice()[7..]) {
-            *value += correction;
-        }
+        self.lit.add(&step.as_slice()[6..]);
+        self.lit.contrast = self.lit.contrast.clamp(-most, most);
     }
 }
 
@@ -211,7 +202,7 @@ fn clean(sites: &Sites, chosen: &mut [Site], state: &State, field: &Field, origi
     let mut changed = false;
     for k in 0..chosen.len() {
         let model = modelled(&chosen[k], state, field, origin);
-        let limit = (FAR * sites.noise.deviation(model.level)).max(LENS * state.contrast.abs());
+        let limit = (FAR * sites.noise.deviation(model.level)).max(LENS * state.lit.contrast.abs());
         let clipped = !counts(sites, &Site { kept: true, ..chosen[k] }, model.level, false);
         let kept = clipped || (chosen[k].light - model.level).abs() <= limit;
         changed |= kept != chosen[k].kept;
@@ -230,10 +221,10 @@ fn finished(
     let system = System::of(sites, chosen, state, field, origin, false);
     let free = system.used.checked_sub(UNKNOWNS).filter(|free| *free >= UNKNOWNS)? as f64;
     let dropped = chosen.iter().filter(|site| !site.kept).count() as f64;
-    let ground = state.background[0];
+    let ground = state.lit.ground;
     let rms = (system.squares[1] / free).sqrt();
-    let noise = sites.noise.deviation(ground.max(ground + state.contrast));
-    let explained = rms <= EXPLAINED[0] * noise + EXPLAINED[1] * state.contrast.abs();
+    let noise = sites.noise.deviation(ground.max(ground + state.lit.contrast));
+    let explained = rms <= EXPLAINED[0] * noise + EXPLAINED[1] * state.lit.contrast.abs();
     if dropped > DISTURBED * chosen.len() as f64 || !explained {
         return None;
     }
@@ -251,6 +242,6 @@ fn finished(
     }
     let sound = covariance.iter().all(|part| part.is_finite()) && covariance[0] > 0.0 && covariance[2] > 0.0;
     let clipped = clipped / f64::max(inside, 1.0);
-    let State { outline, blur, contrast, .. } = *state;
+    let State { outline, blur, lit: Lit { contrast, .. } } = *state;
     sound.then_some((SiteFit { outline, blur, contrast, ground, rms, clipped, covariance }, system))
 }

@@ -4,6 +4,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::columns::Field;
+use super::sigma::SigmaRule;
+use crate::exchange::encoding::Encoding;
 use crate::units::Unit;
 
 /// Decimal sign of the numbers.
@@ -68,6 +70,43 @@ pub enum Basis {
     Undecided,
 }
 
+/// What kind of list it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ListFormat {
+    /// A table.
+    #[default]
+    Table,
+    /// Leica GSI, of 8 or 16 places.
+    LeicaGsi,
+    /// Sokkia SDR 2x or 33.
+    SokkiaSdr,
+    /// Trimble JobXML.
+    JobXml,
+    /// LandXML.
+    LandXml,
+    /// Ground control points of ODM, a row an image measurement.
+    OdmGcp,
+}
+
+/// What a list has beside points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Beside {
+    /// Lines before the heading or the first row.
+    LinesBefore,
+    /// Measurements of an instrument: directions, distances, heights of prisms.
+    Measurements,
+    /// Places of points in photos.
+    ImageMeasurements,
+    /// Points that are marked as deleted.
+    Deleted,
+    /// References to points given elsewhere.
+    References,
+    /// Points that are given by latitude and longitude only.
+    Geographic,
+}
+
 /// How a table was read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
@@ -117,6 +156,48 @@ pub enum Assumption {
         /// What it rests on.
         by: Basis,
     },
+    /// One standard error for the points that have none of their own.
+    CommonSigma {
+        /// The rule.
+        rule: SigmaRule,
+        /// How many points.
+        points: usize,
+        /// What it rests on; undecided: the unit of the coordinates has to be known first.
+        by: Basis,
+    },
+    /// What kind of list it is.
+    Format {
+        /// The kind.
+        format: ListFormat,
+        /// What it rests on.
+        by: Basis,
+    },
+    /// Encoding of the characters.
+    Encoding {
+        /// The encoding.
+        encoding: Encoding,
+        /// What it rests on; a convention: it is none of the others.
+        by: Basis,
+    },
+    /// The first row of points, where lines before it are passed over.
+    FirstRow {
+        /// Line, counted from 1.
+        line: usize,
+        /// What it rests on.
+        by: Basis,
+    },
+    /// What the list has beside its points and is not kept.
+    Beside {
+        /// What.
+        what: Beside,
+        /// How many.
+        count: usize,
+    },
+    /// Names that were made up, since the list has none: "GCP 1" and so on.
+    NamesMade {
+        /// How many.
+        count: usize,
+    },
     /// Columns whose headings are not understood, and which are left alone.
     Ignored {
         /// Their headings.
@@ -138,14 +219,20 @@ impl Assumption {
             | Self::Columns { by, .. }
             | Self::AxisOrder { by, .. }
             | Self::SigmaColumns { by, .. }
+            | Self::CommonSigma { by, .. }
+            | Self::Format { by, .. }
+            | Self::Encoding { by, .. }
+            | Self::FirstRow { by, .. }
             | Self::Unit { by, .. } => *by,
+            Self::Beside { .. } => Basis::Content,
+            Self::NamesMade { .. } => Basis::Convention,
             Self::Ignored { .. } | Self::Remarks { .. } => Basis::Heading,
         }
     }
 }
 
 /// What the reader of a table knows and the table does not say.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Choices {
     /// Decimal sign; null: from the rows.
@@ -154,4 +241,16 @@ pub struct Choices {
     pub axes: Option<Axes>,
     /// Unit of the coordinates of a table whose heading has none.
     pub unit: Option<Unit>,
+    /// What each column holds, null: it is left alone; in place of what heading and content say.
+    pub columns: Option<Vec<Option<Field>>>,
+    /// Encoding of the bytes; null: from what is in them.
+    pub encoding: Option<Encoding>,
+    /// What separates the fields; null: from the rows.
+    pub separator: Option<Separator>,
+    /// Line of the first row of points, counted from 1; the row before it is the heading. Null: from the rows.
+    pub first_line: Option<usize>,
+    /// Unit of columns of standard errors whose heading has none; null: that of the coordinates.
+    pub sigma_unit: Option<Unit>,
+    /// One standard error for all points that have none of their own.
+    pub sigma: Option<SigmaRule>,
 }

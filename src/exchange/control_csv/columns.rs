@@ -33,12 +33,18 @@ pub enum Field {
     /// Standard error of Z.
     #[serde(rename = "sZ")]
     Sz,
+    /// One standard error for X and Y.
+    #[serde(rename = "sXY")]
+    Sxy,
     /// One standard error for all axes.
     #[serde(rename = "sigma")]
     Sigma,
     /// Control, check or tie.
     #[serde(rename = "role")]
     Role,
+    /// Diameter of the target.
+    #[serde(rename = "diameter")]
+    Diameter,
 }
 
 /// What is wrong in which field.
@@ -60,8 +66,10 @@ impl Field {
             Self::Sx => "sX",
             Self::Sy => "sY",
             Self::Sz => "sZ",
+            Self::Sxy => "sXY",
             Self::Sigma => "sigma",
             Self::Role => "role",
+            Self::Diameter => "diameter",
         }
     }
 
@@ -71,7 +79,7 @@ impl Field {
 
     /// Whether it is a coordinate or a standard error.
     pub fn is_number(self) -> bool {
-        self.is_coordinate() || self.is_sigma()
+        self.is_coordinate() || self.is_sigma() || self == Self::Diameter
     }
 
     pub(super) fn is_coordinate(self) -> bool {
@@ -79,7 +87,7 @@ impl Field {
     }
 
     pub(super) fn is_sigma(self) -> bool {
-        matches!(self, Self::Sx | Self::Sy | Self::Sz | Self::Sigma)
+        matches!(self, Self::Sx | Self::Sy | Self::Sz | Self::Sxy | Self::Sigma)
     }
 }
 
@@ -110,6 +118,9 @@ impl Columns {
 
 /// The columns of a table without heading: id, perhaps a label, X, Y, Z, then one sigma or three, perhaps a description at the end; what
 /// follows is left alone.
+///
+/// One number more may be a standard error or a code: where it is a whole one beside decimals it is asked. Two more may be horizontal and
+/// vertical, as Pix4D writes them, or something else: they are asked too.
 ///
 /// Surveying instruments write point, north, east, height, description as often as point, east, north, height, description: with a
 /// description at the end the order is asked.
@@ -153,6 +164,15 @@ pub(super) fn guessed(rows: &[&[String]], axes: Option<Axes>) -> Result<Columns,
         fields.push(Some(Field::Label));
     }
     fields.resize(widest, None);
+    let column = |k: usize| rows.iter().filter_map(move |row| row.get(k)).filter(|word| !held(word));
+    let whole = |word: &String| word.bytes().all(|byte| byte.is_ascii_digit() || byte == b'-');
+    let decimals = (first..first + 3).any(|k| column(k).any(|word| numeric(word) && !whole(word)));
+    let behind = first + 3..first + 3 + sigmas.min(3);
+    let codes = decimals
+        && behind
+            .clone()
+            .any(|k| column(k).next().is_some() && column(k).all(whole) && column(k).any(|word| word != "0"));
+    let by = if sigmas == 2 || codes { Basis::Undecided } else { Basis::Convention };
     let order = match axes {
         Some(axes) => (axes, Basis::Given),
         None if description => (Axes::Xy, Basis::Undecided),
@@ -165,12 +185,5 @@ pub(super) fn guessed(rows: &[&[String]], axes: Option<Axes>) -> Result<Columns,
             fields.swap(x, y);
         }
     }
-    Ok(Columns {
-        units: vec![None; fields.len()],
-        fields,
-        by: Basis::Convention,
-        order,
-        ignored: Vec::new(),
-        remarks: Vec::new(),
-    })
+    Ok(Columns { units: vec![None; fields.len()], fields, by, order, ignored: Vec::new(), remarks: Vec::new() })
 }

@@ -39,6 +39,24 @@ pub fn sign_of(word: &str) -> Sign {
     }
 }
 
+/// Whether it is a number of either decimal sign.
+pub fn is_numeric(word: &str) -> bool {
+    word.replacen(',', ".", 1).parse::<f64>().is_ok()
+}
+
+/// Whether it is an angle in degrees: 37°30'15.2"N, 37-30-15.2, 37:30:15, N37.504.
+pub fn is_angle(word: &str) -> bool {
+    if word.contains(['°', '′', '″', '˚', 'º', '도']) {
+        return true;
+    }
+    let bare = word.trim_matches(|c: char| "NSEWnsew ".contains(c));
+    let marked = bare.len() < word.len() && is_numeric(bare) && word.starts_with(|c: char| "NSEW".contains(c));
+    let parts: Vec<&str> = bare.trim_start_matches(['-', '+']).split(['-', ':', '\'']).collect();
+    let all = |digits: &str| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    let sexagesimal = parts.len() == 3 && all(parts[0]) && all(parts[1]) && is_numeric(parts[2].trim_end_matches('"'));
+    marked || sexagesimal
+}
+
 /// The decimal sign of all numbers, what it rests on, and a number that stays undecided.
 pub fn decide<'a>(numbers: impl Iterator<Item = &'a str>, given: Option<Decimal>) -> (Decimal, Basis, Option<String>) {
     let mut either = None;

@@ -13,6 +13,8 @@ enum Said {
     Towards(usize),
     /// Its standard error.
     SigmaTowards(usize),
+    /// Latitude or longitude.
+    Geographic,
 }
 
 fn plain(text: &str) -> String {
@@ -21,32 +23,39 @@ fn plain(text: &str) -> String {
 
 /// A word of a heading, whatever its case and punctuation.
 fn said(word: &str) -> Option<Said> {
-    use Said::{Field as F, SigmaTowards, Towards};
+    use Said::{Field as F, Geographic, SigmaTowards, Towards};
     Some(match plain(word).as_str() {
         "id" | "point" | "pointid" | "pt" | "no" | "nr" | "number" | "pointno" | "pointnumber" | "punkt"
-        | "punktnummer" | "pktnr" | "점" | "점번호" | "번호" | "측점번호" => F(Field::Id),
+        | "punktnummer" | "pktnr" | "matricule" | "numéro" | "点番" | "点番号" | "番号" | "点号" | "점" | "점번호"
+        | "번호" | "측점번호" => F(Field::Id),
         "label" | "name" | "description" | "desc" | "descriptor" | "code" | "remark" | "remarks" | "pointname"
         | "이름" | "점명" | "점이름" | "측점" | "측점명" | "기준점" | "기준점명" | "비고" | "설명" | "코드"
-        | "bezeichnung" | "bemerkung" => F(Field::Label),
-        "x" | "xcoord" | "xcoordinate" | "x좌표" => F(Field::X),
-        "y" | "ycoord" | "ycoordinate" | "y좌표" => F(Field::Y),
-        "e" | "east" | "easting" | "rechts" | "rechtswert" | "ostwert" | "횡" | "횡좌표" | "동" | "동쪽" | "e좌표" => {
-            Towards(0)
-        }
-        "n" | "north" | "northing" | "hoch" | "hochwert" | "nordwert" | "종" | "종좌표" | "북" | "북쪽" | "n좌표" => {
-            Towards(1)
-        }
+        | "bezeichnung" | "bemerkung" | "nom" | "désignation" | "remarque" | "点名" | "名称" | "備考" | "编码"
+        | "代码" => F(Field::Label),
+        "x" | "xcoord" | "xcoordinate" | "x좌표" | "x座標" => F(Field::X),
+        "y" | "ycoord" | "ycoordinate" | "y좌표" | "y座標" => F(Field::Y),
+        "e" | "east" | "easting" | "rechts" | "rechtswert" | "ostwert" | "est" | "ost" | "横" | "東" | "东" | "횡"
+        | "횡좌표" | "동" | "동쪽" | "e좌표" => Towards(0),
+        "n" | "north" | "northing" | "hoch" | "hochwert" | "nordwert" | "nord" | "縦" | "北" | "종" | "종좌표"
+        | "북" | "북쪽" | "n좌표" => Towards(1),
         "z" | "h" | "height" | "elevation" | "elev" | "altitude" | "alt" | "zcoord" | "zcoordinate" | "höhe"
-        | "hoehe" | "z좌표" | "h좌표" | "표고" | "높이" | "고도" | "지반고" | "타원체고" => {
-            F(Field::Z)
-        }
-        "sx" | "sigmax" | "σx" | "stdx" | "mx" | "sdx" => F(Field::Sx),
-        "sy" | "sigmay" | "σy" | "stdy" | "my" | "sdy" => F(Field::Sy),
+        | "hoehe" | "hauteur" | "高程" | "標高" | "高さ" | "z座標" | "z좌표" | "h좌표" | "표고" | "높이" | "고도"
+        | "지반고" | "타원체고" => F(Field::Z),
+        "lat" | "latitude" | "lon" | "long" | "longitude" | "위도" | "경도" | "breite" | "länge" | "geogrbreite"
+        | "geogrlänge" | "緯度" | "経度" | "纬度" | "经度" => Geographic,
+        "sx" | "sigmax" | "σx" | "stdx" | "mx" | "sdx" | "xaccuracy" | "accuracyx" | "xacc" => F(Field::Sx),
+        "sy" | "sigmay" | "σy" | "stdy" | "my" | "sdy" | "yaccuracy" | "accuracyy" | "yacc" => F(Field::Sy),
+        "sxy" | "σxy" | "sigmaxy" | "horizontalaccuracy" | "accuracyhorizontal" | "xyaccuracy" | "accuracyxy"
+        | "hacc" | "수평정확도" => F(Field::Sxy),
         "se" | "sigmae" | "σe" | "stde" | "me" | "sde" => SigmaTowards(0),
         "sn" | "sigman" | "σn" | "stdn" | "mn" | "sdn" => SigmaTowards(1),
-        "sz" | "sigmaz" | "σz" | "stdz" | "mz" | "sdz" | "sh" | "sigmah" | "σh" => F(Field::Sz),
-        "s" | "sigma" | "σ" | "std" | "sd" | "sxyz" | "sigmaxyz" => F(Field::Sigma),
+        "sz" | "sigmaz" | "σz" | "stdz" | "mz" | "sdz" | "sh" | "sigmah" | "σh" | "zaccuracy" | "accuracyz"
+        | "zacc" | "verticalaccuracy" | "accuracyvertical" | "vacc" | "수직정확도" => F(Field::Sz),
+        "s" | "sigma" | "σ" | "std" | "sd" | "sxyz" | "sigmaxyz" | "accuracy" | "정확도" => F(Field::Sigma),
         "role" | "type" => F(Field::Role),
+        "diameter" | "dia" | "durchmesser" | "diametre" | "diamètre" | "지름" | "직경" | "直径" => {
+            F(Field::Diameter)
+        }
         _ => return None,
     })
 }
@@ -94,10 +103,17 @@ impl Named {
         let direction = |all: &[Option<Said>]| {
             all.iter().flatten().copied().find(|said| matches!(said, Said::Towards(_) | Said::SigmaTowards(_)))
         };
+        let degrees = parts.contains(&Some(Said::Geographic));
         // Of two parts at least one is known, and the others mean no other thing.
         let height = parts.contains(&Some(Said::Field(Field::Z)));
-        named.said =
-            if parts.len() > 1 && height { Some(Said::Field(Field::Z)) } else { direction(&parts).or(parts[0]) };
+        named.said = if degrees {
+            // "X/Longitude"
+            Some(Said::Geographic)
+        } else if parts.len() > 1 && height {
+            Some(Said::Field(Field::Z))
+        } else {
+            direction(&parts).or(parts[0])
+        };
         if named.said.is_none() {
             // "X_mm", "Easting m": a unit behind a name that is known without it.
             if let Some((name, unit)) = heading.name.rsplit_once(['_', ' ']) {
@@ -126,6 +142,11 @@ impl Named {
     }
 }
 
+/// Units of the columns, as a heading names them.
+pub(super) fn units(row: &[String]) -> Vec<Option<Unit>> {
+    row.iter().map(|text| Named::of(text).unit).collect()
+}
+
 /// The columns that a heading names: none where the row is no heading.
 ///
 /// # Errors
@@ -133,7 +154,7 @@ impl Named {
 pub(super) fn heading(row: &[String]) -> Option<Result<Columns, Fault>> {
     let all: Vec<Named> = row.iter().map(|text| Named::of(text)).collect();
     let axis = |said: Said| match said {
-        Said::Towards(_) | Said::SigmaTowards(_) => true,
+        Said::Towards(_) | Said::SigmaTowards(_) | Said::Geographic => true,
         Said::Field(field) => field.is_number(),
     };
     // A row with a number in it is no heading, and one coordinate by name may be a point called "X".
@@ -150,8 +171,13 @@ fn from_heading(row: &[String], all: &[Named]) -> Result<Columns, Fault> {
             Said::Field(field) => Some(field),
             Said::Towards(k) => Some([Field::X, Field::Y][k]),
             Said::SigmaTowards(k) => Some([Field::Sx, Field::Sy][k]),
+            Said::Geographic => None,
         })
         .collect();
+    let plane = [Field::X, Field::Y].iter().all(|field| fields.contains(&Some(*field)));
+    if !plane && all.iter().any(|named| named.said == Some(Said::Geographic)) {
+        return fault(Field::X, Reason::GeographicHeading);
+    }
     let towards = |k: usize| all.iter().position(|named| named.said == Some(Said::Towards(k)));
     let letter = |field: Field| all.iter().position(|named| named.said == Some(Said::Field(field)));
     let mut by = if towards(0).is_some() || towards(1).is_some() { Basis::Heading } else { Basis::Convention };

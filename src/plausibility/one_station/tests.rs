@@ -3,6 +3,7 @@
 use super::*;
 use crate::camera::pixel_from_camera_point;
 use crate::noise::Noise;
+use crate::project::Interior;
 use crate::project::{Observation, Photo, Point, Sigma};
 use crate::rotation::object_to_camera;
 #[cfg(target_arch = "wasm32")]

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::noise::Noise;
+use crate::project::Interior;
 use crate::project::{Camera, DatumKind, Distance, Observation, Photo, Point, Sigma};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

@@ -1,7 +1,7 @@
 //! Distortion over the image radius with its confidence band from the covariance of the parameters.
 //!
 //! Brown: Δr = K1 r³ + K2 r⁵ + K3 r⁷, the correction of the measurement; opencv: Δr = f (k1 ρ³ + k2 ρ⁵ + k3 ρ⁷) with ρ = r / f, the distortion of
-//! the ideal point. Balanced: Δr - (Δr(r₀) / r₀) r, which another principal distance gives the same images with; here r₀ is two thirds of the
+//! the ideal point; opencv_rational: Δr = r (R(ρ) - 1); opencv_fisheye: Δr = f (k1 θ³ + k2 θ⁵ + k3 θ⁷ + k4 θ⁹), and the radius is f θ. Balanced: Δr - (Δr(r₀) / r₀) r, which another principal distance gives the same images with; here r₀ is two thirds of the
 //! largest radius. Decentring: √(P1² + P2²) r² (D. C. Brown 1966; J. G. Fryer and D. C. Brown 1986). Band: σ² = gᵀ C g with g the derivative by the
 //! parameters.
 
@@ -9,7 +9,8 @@ use super::chart::{Axis, Chart};
 use super::svg::Anchor;
 use super::{Group, Plot, file_name};
 use crate::adjustment::AdjustedCamera;
-use crate::project::{Interior, Parameter};
+use crate::camera::Rational;
+use crate::project::Parameter;
 use crate::report::context::Context;
 use crate::report::number::{decimals_for, fixed, round, round_below};
 
@@ -65,16 +66,16 @@ struct Lens<'a> {
 impl<'a> Lens<'a> {
     fn of(context: &Context, adjusted: &'a AdjustedCamera) -> Option<Self> {
         let camera = &adjusted.camera;
-        let brown = matches!(camera.interior, Interior::Brown { .. });
-        let metric = brown && camera.pixel_pitch.is_some();
+        let model = camera.interior.model();
+        let metric = model.in_photo_units && camera.pixel_pitch.is_some();
         let get = |p| camera.interior.get(p).unwrap_or(0.0);
-        let (focal, centre) = if brown {
-            (1.0, [get(Parameter::X0), get(Parameter::Y0)])
+        let centre = model.centre.map(get);
+        let (focal, centre) = if model.in_photo_units {
+            (1.0, centre)
         } else {
-            let centre = camera.photo_from_pixel([get(Parameter::Cx), get(Parameter::Cy)]);
-            (get(Parameter::Fx), centre.map(|c| c / if brown { 1.0 } else { camera.pitch()[0] }))
+            (get(Parameter::Fx), camera.photo_from_pixel(centre).map(|c| c / camera.pitch()[0]))
         };
-        let pitch = if brown { camera.pitch() } else { [1.0; 2] };
+        let pitch = camera.residual_pitch();
         let (w, h) = (f64::from(camera.width) * pitch[0] / 2.0, f64::from(camera.height) * pitch[1] / 2.0);
         let corner = (w + centre[0].abs()).hypot(h + centre[1].abs());
         let radius = |u: f64, v: f64| {
@@ -109,14 +110,24 @@ impl<'a> Lens<'a> {
         variance(self.adjusted, terms)
     }
 
-    fn terms(&self, r: f64) -> [(Parameter, f64); 3] {
-        let rho = r / self.focal;
-        [(Parameter::K1, 3), (Parameter::K2, 5), (Parameter::K3, 7)].map(|(p, power)| (p, self.focal * rho.powi(power)))
-    }
-
+    /// The radial terms alone with their derivatives: each parameter with the power of the radius that it multiplies.
     fn radial_at(&self, r: f64) -> (f64, f64) {
-        let terms = self.terms(r);
-        let value = terms.iter().map(|(p, g)| self.value(*p) * g).sum();
+        let interior = &self.adjusted.camera.interior;
+        let rho = r / self.focal;
+        let power = |(p, power): &(Parameter, i32)| (*p, self.focal * rho.powi(*power));
+        let mut terms: Vec<(Parameter, f64)> = interior.model().radial.iter().map(power).collect();
+        let value = match Rational::new(interior) {
+            Some(lens) => {
+                // r R - r with R the ratio: by the numerator's terms over the denominator, by the denominator's -R times as much.
+                let (ratio, below) = lens.radial(rho * rho);
+                for (p, g) in &mut terms {
+                    let denominator = matches!(p, Parameter::K4 | Parameter::K5 | Parameter::K6);
+                    *g *= if denominator { -ratio / below } else { 1.0 / below };
+                }
+                r * (ratio - 1.0)
+            }
+            None => terms.iter().map(|(p, g)| self.value(*p) * g).sum(),
+        };
         (value, self.variance(&terms).max(0.0).sqrt())
     }
 
@@ -127,7 +138,7 @@ impl<'a> Lens<'a> {
 
     fn radial(&self, context: &Context) -> Option<Plot> {
         let words = context.words;
-        let any = [Parameter::K1, Parameter::K2, Parameter::K3].into_iter().any(|p| self.value(p) != 0.0);
+        let any = self.adjusted.camera.interior.model().radial.iter().any(|(p, _)| self.value(*p) != 0.0);
         if !any {
             return None;
         }

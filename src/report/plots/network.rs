@@ -1,4 +1,5 @@
-//! The network from above and from the front at one scale, with its error ellipses exaggerated by a round factor that is said.
+//! The network from above and from the front at one scale, and obliquely as a picture, with its error ellipses exaggerated by a round
+//! factor that is said.
 
 use super::svg::{Anchor, Svg};
 use super::{Group, Plot};
@@ -12,57 +13,105 @@ const WIDTH: f64 = 520.0;
 /// Rays that are drawn.
 const RAYS: usize = 1500;
 
+/// Name of the picture of the object.
+pub const PICTURE: &str = "network-object";
+/// From where the picture of the object is seen: from the front, from the left and from above, as the 3-D view begins.
+const FROM: [f64; 3] = [1.0, -1.35, 0.95];
+
 pub fn plots(context: &Context) -> Vec<Plot> {
     let words = context.words;
+    let above = Axes { right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0] };
+    let front = Axes { right: [1.0, 0.0, 0.0], up: [0.0, 0.0, 1.0] };
+    // One scale for both views: the widest or the highest of them decides.
+    let scale = [&above, &front].into_iter().filter_map(|axes| scale(context, axes)).reduce(f64::min);
+    let Some(scale) = scale else { return Vec::new() };
+    vec![
+        plot(context, "network-above", words.plot_network_above(), above, scale, &["X →  Y ↑"]),
+        plot(context, "network-front", words.plot_network_front(), front, scale, &["X →  Z ↑"]),
+    ]
+}
+
+/// The object with its photos, seen obliquely: what was measured, at a glance. None without points and photos.
+pub fn picture(context: &Context) -> Option<Plot> {
+    let norm = |v: [f64; 3]| {
+        let length = (0..3).map(|k| v[k] * v[k]).sum::<f64>().sqrt();
+        v.map(|x| x / length)
+    };
+    let [x, y, z] = norm(FROM);
+    // Right lies in the ground plane, up is across both.
+    let right = norm([-y, x, 0.0]);
+    let axes = Axes { right, up: [-z * right[1], z * right[0], x * right[1] - y * right[0]] };
+    let scale = scale(context, &axes)?;
+    Some(plot(context, PICTURE, context.words.plot_network_object(), axes, scale, &[]))
+}
+
+/// The plane of a drawing: unit vectors to the right and upwards, in object space.
+#[derive(Clone, Copy)]
+struct Axes {
+    right: [f64; 3],
+    up: [f64; 3],
+}
+
+impl Axes {
+    fn on(&self, v: [f64; 3]) -> [f64; 2] {
+        [self.right, self.up].map(|axis| (0..3).map(|k| axis[k] * v[k]).sum())
+    }
+}
+
+/// Low and high corner of points and photos in a drawing's plane; none without them.
+fn bounds(context: &Context, axes: &Axes) -> Option<[[f64; 2]; 2]> {
     let a = context.adjustment;
     if a.points.is_empty() || a.photos.is_empty() {
-        return Vec::new();
+        return None;
     }
     let all = a.points.iter().map(|p| p.xyz).chain(a.photos.iter().map(|p| p.position));
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for xyz in all {
-        for k in 0..3 {
-            (low[k], high[k]) = (low[k].min(xyz[k]), high[k].max(xyz[k]));
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for place in all.map(|xyz| axes.on(xyz)) {
+        for k in 0..2 {
+            (low[k], high[k]) = (low[k].min(place[k]), high[k].max(place[k]));
         }
     }
-    // One scale for both views: the widest or the highest of them decides.
+    Some([low, high])
+}
+
+/// Units of the drawing to a unit of length.
+fn scale(context: &Context, axes: &Axes) -> Option<f64> {
+    let [low, high] = bounds(context, axes)?;
     let side = |k: usize| (high[k] - low[k]).max(1e-12);
-    let scale = ((WIDTH - 70.0) / side(0)).min(360.0 / side(1)).min(360.0 / side(2));
+    Some(((WIDTH - 70.0) / side(0)).min(360.0 / side(1)))
+}
+
+fn plot(context: &Context, name: &str, title: &str, axes: Axes, scale: f64, legend: &[&str]) -> Plot {
+    let a = context.adjustment;
+    let [low, high] = bounds(context, &axes).unwrap_or_default();
     let typical = context.mean_sigma().unwrap_or(0.0);
     let exaggeration = if typical > 0.0 { round_below(7.0 / (typical * scale)).max(1.0) } else { 0.0 };
-    let view = |name: &str, title: &str, [h, v]: [usize; 2]| {
-        let view = View { context, low, high, scale, axes: [h, v], exaggeration };
-        let sentence = words.plot_network_says(&count(a.photos.len()), &count(a.points.len()), &round(exaggeration));
-        let svg = view.drawn(title, &sentence);
-        Plot { name: name.into(), group: Group::Network, small: false, title: title.into(), sentence, svg }
-    };
-    vec![
-        view("network-above", words.plot_network_above(), [0, 1]),
-        view("network-front", words.plot_network_front(), [0, 2]),
-    ]
+    let view = View { context, low, high, scale, axes, exaggeration };
+    let sentence =
+        context.words.plot_network_says(&count(a.photos.len()), &count(a.points.len()), &round(exaggeration));
+    let svg = view.drawn(title, &sentence, legend);
+    Plot { name: name.into(), group: Group::Network, small: false, title: title.into(), sentence, svg }
 }
 
 struct View<'a> {
     context: &'a Context<'a>,
-    low: [f64; 3],
-    high: [f64; 3],
+    low: [f64; 2],
+    high: [f64; 2],
     scale: f64,
-    /// To the right, and upwards.
-    axes: [usize; 2],
+    axes: Axes,
     exaggeration: f64,
 }
 
 impl View<'_> {
     fn at(&self, xyz: [f64; 3]) -> [f64; 2] {
-        let [h, v] = self.axes;
-        let middle = (self.low[h] + self.high[h]) / 2.0;
-        [WIDTH / 2.0 + (xyz[h] - middle) * self.scale, 24.0 + (self.high[v] - xyz[v]) * self.scale]
+        let [h, v] = self.axes.on(xyz);
+        let middle = (self.low[0] + self.high[0]) / 2.0;
+        [WIDTH / 2.0 + (h - middle) * self.scale, 24.0 + (self.high[1] - v) * self.scale]
     }
 
-    fn drawn(&self, title: &str, sentence: &str) -> String {
+    fn drawn(&self, title: &str, sentence: &str, legend: &[&str]) -> String {
         let a = self.context.adjustment;
-        let [h, v] = self.axes;
-        let height = (self.high[v] - self.low[v]) * self.scale + 76.0;
+        let height = (self.high[1] - self.low[1]) * self.scale + 76.0;
         let mut svg = Svg::new(WIDTH, height, title, sentence);
         self.rays(&mut svg);
         for point in &a.points {
@@ -86,10 +135,22 @@ impl View<'_> {
         let long = bar * self.scale;
         svg.path("edge", &[[14.0, bottom - 6.0], [14.0, bottom], [14.0 + long, bottom], [14.0 + long, bottom - 6.0]]);
         svg.label("axis", [20.0 + long, bottom], Anchor::Start, &self.context.in_unit(&round(bar)));
-        let names = ["X", "Y", "Z"];
-        let axes = format!("{} →  {} ↑", names[h], names[v]);
-        svg.label("strong", [WIDTH - 14.0, bottom], Anchor::End, &axes);
+        match legend {
+            [axes] => svg.label("strong", [WIDTH - 14.0, bottom], Anchor::End, axes),
+            _ => self.triad(&mut svg, [WIDTH - 44.0, bottom - 22.0]),
+        }
         svg.finish()
+    }
+
+    /// The directions of X, Y and Z.
+    fn triad(&self, svg: &mut Svg, origin: [f64; 2]) {
+        for (k, name) in ["X", "Y", "Z"].into_iter().enumerate() {
+            let [h, v] = [self.axes.right[k], self.axes.up[k]];
+            let at = |length: f64| [origin[0] + length * h, origin[1] - length * v];
+            svg.line("edge", origin, at(22.0));
+            let [x, y] = at(30.0);
+            svg.label("strong", [x, y + 4.0], Anchor::Middle, name);
+        }
     }
 
     fn rays(&self, svg: &mut Svg) {
@@ -111,8 +172,8 @@ impl View<'_> {
     fn ellipse(&self, svg: &mut Svg, point: &AdjustedPoint) {
         let Some(c) = point.covariance.filter(|_| self.exaggeration > 0.0) else { return };
         let full = [[c[0], c[1], c[2]], [c[1], c[3], c[4]], [c[2], c[4], c[5]]];
-        let [h, v] = self.axes;
-        let (p, q, r) = (full[h][h], full[h][v], full[v][v]);
+        let along = |v: [f64; 3]| self.axes.on(full.map(|row| (0..3).map(|k| row[k] * v[k]).sum()));
+        let ([p, q], [_, r]) = (along(self.axes.right), along(self.axes.up));
         let middle = (p + r) / 2.0;
         let half = ((p - r) / 2.0).hypot(q);
         let angle = 0.5 * (2.0 * q).atan2(p - r);
@@ -134,8 +195,8 @@ impl View<'_> {
         taken: &mut Vec<([f64; 2], f64)>,
     ) {
         let m = rotation::object_to_camera(angles);
-        let [h, v] = self.axes;
-        let view = [-m[(2, h)], m[(2, v)]];
+        let [h, v] = self.axes.on([m[(2, 0)], m[(2, 1)], m[(2, 2)]]);
+        let view = [-h, v];
         let place = self.at(position);
         let length = view[0].hypot(view[1]);
         let d = if length > 1e-6 { [view[0] / length, view[1] / length] } else { [0.0, 0.0] };

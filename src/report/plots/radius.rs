@@ -2,7 +2,6 @@
 
 use super::chart::{Axis, Chart};
 use super::{Group, Plot};
-use crate::project::{Interior, Parameter};
 use crate::report::context::Context;
 use crate::report::number::fixed;
 
@@ -21,21 +20,22 @@ pub fn plots(context: &Context) -> Vec<Plot> {
         let adjusted =
             context.adjustment.cameras.iter().find(|c| c.camera.id == camera.id).map_or(camera, |c| &c.camera);
         let get = |p| adjusted.interior.get(p).unwrap_or(0.0);
-        let brown = matches!(camera.interior, Interior::Brown { .. });
-        let (at, centre) = if brown {
-            (camera.photo_from_pixel([o.u, o.v]).map(|x| x), [get(Parameter::X0), get(Parameter::Y0)])
+        let model = camera.interior.model();
+        let [x0, y0] = model.centre.map(get);
+        let (at, centre) = if model.in_photo_units {
+            (camera.photo_from_pixel([o.u, o.v]), [x0, y0])
         } else {
-            ([o.u, -o.v], [get(Parameter::Cx), -get(Parameter::Cy)])
+            ([o.u, -o.v], [x0, -y0])
         };
-        let pitch = if brown { camera.pitch() } else { [1.0; 2] };
+        let pitch = camera.residual_pitch();
         let d = [at[0] - centre[0], at[1] - centre[1]];
         let r = d[0].hypot(d[1]);
         if !(r > 0.0) {
             continue;
         }
         let [fx, fy] = context.residual_factors(&o.photo);
-        // Opencv counts v downwards.
-        let vy = if brown { vy } else { -vy };
+        // Pixels count v downwards.
+        let vy = if model.in_photo_units { vy } else { -vy };
         let along = (vx * fx * d[0] + vy * fy * d[1]) / r;
         all.push([r / pitch[0], along]);
     }

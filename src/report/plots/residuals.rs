@@ -55,8 +55,8 @@ pub fn all_in_one(context: &Context) -> Vec<Plot> {
 fn of(context: &Context, photo: impl Fn(&str) -> bool, camera: &Camera) -> Vec<Vector> {
     let [px, py] = PhotoUnit::of(camera).1;
     let (w, h) = (f64::from(camera.width), f64::from(camera.height));
-    // Residuals in pixels of the opencv model count downwards.
-    let down = if matches!(camera.interior, crate::project::Interior::Opencv { .. }) { -1.0 } else { 1.0 };
+    // Residuals in pixels count downwards.
+    let down = if camera.interior.model().in_photo_units { 1.0 } else { -1.0 };
     let pairs = context.project.observations.iter().zip(&context.adjustment.observations);
     let here = pairs.filter(|(o, r)| r.enabled && photo(&o.photo));
     here.filter_map(|(o, r)| {

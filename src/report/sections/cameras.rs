@@ -25,17 +25,21 @@ fn one(context: &Context, adjusted: &AdjustedCamera, html: &mut Html) {
     let model = match camera.interior {
         Interior::Brown { .. } => words.model_brown(),
         Interior::Opencv { .. } => words.model_opencv(),
+        Interior::OpencvRational { .. } => words.model_opencv_rational(),
+        Interior::OpencvFisheye { .. } => words.model_opencv_fisheye(),
     };
     let photo = adjusted.photo.as_ref().map(|photo| format!(" · {} {photo}", words.photo())).unwrap_or_default();
     html.h3(&format!("{} {}{photo}, {model}", words.camera(), camera.id));
     let photos = context.project.photos.iter().filter(|p| p.camera == camera.id && p.enabled).count();
-    let pitch = match camera.pixel_pitch {
-        Some([x, y]) if x == y => format!("{} µm", compact(1000.0 * x)),
-        Some([x, y]) => format!("{} × {} µm", compact(1000.0 * x), compact(1000.0 * y)),
-        None => words.pitch_unknown().to_owned(),
-    };
+    let pitch = camera.pixel_pitch.map(|pitch| match pitch.map(|side| compact(1000.0 * side)) {
+        [x, y] if x == y => format!("{x} µm"),
+        [x, y] => format!("{x} × {y} µm"),
+    });
     let size = format!("{} × {} px", camera.width, camera.height);
-    html.note(&words.camera_line(&size, &pitch, &count(photos)));
+    html.note(&match pitch {
+        Some(pitch) => words.camera_line(&size, &pitch, &count(photos)),
+        None => words.camera_line_without_pitch(&size, &count(photos)),
+    });
     let mut table = Table::new()
         .words("")
         .words(words.parameter())
@@ -177,5 +181,6 @@ fn long_name(context: &Context, parameter: Parameter) -> &'static str {
         P::P1 | P::P2 => words.decentring_distortion(),
         P::B1 => words.affinity(),
         P::B2 => words.shear(),
+        P::K4 | P::K5 | P::K6 => words.radial_distortion(),
     }
 }

@@ -1,8 +1,9 @@
-//! The head of the first page: what was measured, by whom and when.
+//! The head of the first page: what was measured, by whom and when, and a picture of it.
 
 use crate::report::context::Context;
 use crate::report::html::{Html, escaped};
 use crate::report::number::{count, fixed, three_digits};
+use crate::report::plots::network;
 
 pub fn write(context: &Context, html: &mut Html) {
     let (words, settings, adjustment) = (context.words, context.settings(), context.adjustment);
@@ -40,5 +41,10 @@ pub fn write(context: &Context, html: &mut Html) {
     for (name, value) in key {
         html.open("div", "").element("span", "", &name).element("b", "", &value).close("div");
     }
-    html.close("div").close("header");
+    html.close("div");
+    if let Some(picture) = network::picture(context) {
+        html.open("figure", "picture").raw(&picture.svg);
+        html.open("figcaption", "").raw(&escaped(&picture.sentence)).close("figcaption").close("figure");
+    }
+    html.close("header");
 }

@@ -38,6 +38,9 @@ fn figures<'a>(context: &Context<'a>, html: &mut Html, measured: &dyn Fn(&str) -
                     let missing = listed(found.missing.iter().map(String::as_str), LISTED);
                     notes.push(words.feature_lacks(&feature.id, &missing));
                 }
+                if let (Some(misfit), Some(rms)) = (found.misfit, found.rms) {
+                    notes.push(words.feature_misfit(&feature.id, &context.with_unit(rms), &fixed(100.0 * misfit, 0)));
+                }
                 if let Some(weak) = found.weak {
                     notes.push(words.feature_weak(&feature.id, &fixed(100.0 * weak, 0)));
                 }

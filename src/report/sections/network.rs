@@ -8,6 +8,8 @@ use crate::report::html::{Html, Table};
 use crate::report::names::parameter_name;
 use crate::report::number::{compact, count, factor, fixed};
 
+use super::patterns;
+
 pub fn write(context: &Context, html: &mut Html) {
     let (words, a) = (context.words, context.adjustment);
     let rays: usize = a.points.iter().map(|p| p.rays).sum();
@@ -92,6 +94,9 @@ pub fn said(context: &Context, advice: &Advice) -> String {
         }
         Advice::GrossErrorsUnsettled => words.weak_unsettled().to_owned(),
         Advice::VarianceComponentsUnsettled => words.weak_components().to_owned(),
+        Advice::ResidualPattern { camera, pattern, photos, max_px, remedy, .. } => {
+            patterns::said(context, camera, (*pattern, photos), *max_px, remedy)
+        }
         Advice::SigmasTooSmall { sigma0, .. } => words.weak_sigmas(&fixed(*sigma0, 3)),
         Advice::UnmodelledAgain { sigma0, .. } => words.weak_unmodelled(&fixed(*sigma0, 3)),
         Advice::Insignificant { camera, parameter, ratio, .. } => {

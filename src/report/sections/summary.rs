@@ -22,15 +22,21 @@ pub fn write(context: &Context, html: &mut Html) {
     } else {
         words.measured(&points, &photos, &cameras)
     };
-    for sentence in [datum(context), scale(context), tested(context)] {
+    for sentence in [datum(context), scale(context)] {
         lead = format!("{lead} {sentence}");
     }
     let left_out = LeftOut::of(context);
     if !left_out.is_empty() {
         lead = format!("{lead} {}", left_out.sentence(context));
     }
-    html.element("p", "lead", &lead);
-    for question in super::network::questions(context) {
+    let questions = super::network::questions(context);
+    let mut verdict = tested(context);
+    if !questions.is_empty() {
+        // A test that passes hides none of them.
+        verdict = format!("{verdict} {}", words.open_questions(&count(questions.len())));
+    }
+    html.element("p", "verdict", &verdict).element("p", "lead", &lead);
+    for question in questions {
         html.p(&question);
     }
     accuracy(context, html);

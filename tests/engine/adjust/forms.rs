@@ -282,3 +282,27 @@ fn a_cylinder_of_a_nearly_flat_patch_is_a_minimum_or_refused() {
     println!("{fitted} fitted, {refused} refused");
     assert!(fitted >= extent::cases(12, 20) && refused >= 5, "{fitted} {refused}");
 }
+
+#[test]
+fn points_that_hardly_form_what_is_asked_of_them_are_told() {
+    for seed in 0..40 {
+        let mut random = Uniform(700 + seed);
+        let side = 10.0_f64.powf(random.between(-2.0, 4.0));
+        // Corners of a box whose third side is no less than a third of the others, and a plate that is bent by a two-hundredth.
+        let names = |n: usize| (0..n).map(|k| k.to_string()).collect();
+        let corners: Vec<_> = (0..8)
+            .map(|k| {
+                Vector3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2) * random.between(0.33, 1.0))
+                    * side
+            })
+            .collect();
+        let told = measured(&FeatureKind::Plane { points: names(8) }, &corners, None);
+        let share = told.misfit.unwrap_or_else(|| panic!("{seed}: rms {:?} of {side}", told.rms));
+        assert!(share > 0.05 && share < 0.5, "{seed}: {share}");
+        let plate: Vec<_> = (0..20)
+            .map(|_| [random.between(-0.5, 0.5), random.between(-0.5, 0.5)])
+            .map(|[x, y]| Vector3::new(x, y, 0.01 * x * x) * side)
+            .collect();
+        assert_eq!(measured(&FeatureKind::Plane { points: names(20) }, &plate, None).misfit, None, "{seed}");
+    }
+}

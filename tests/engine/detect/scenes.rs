@@ -190,7 +190,9 @@ fn clipped_targets_are_as_good_as_their_sigma() {
     ] {
         let name = format!("diameter {diameter}, blur {blur}, contrast {contrast} on {level}");
         let (errors, found) = all_found(&name, |_| circle(diameter, contrast), level, blur, noise);
-        assert!(errors.rms() < 0.006, "{name}: {}", errors.rms());
+        // before black nothing but the foot of the profile shows the slope of the light
+        let most = if level < 5.0 { 0.0065 } else { 0.006 };
+        assert!(errors.rms() < most, "{name}: {}", errors.rms());
         assert!(found.targets.iter().all(|t| t.quality.saturated > 0.1), "{name}");
         all.push(errors);
     }
@@ -219,7 +221,8 @@ fn targets_up_to_400_pixels_are_measured() {
         assert_eq!(found.targets.len(), spots.len(), "{:?}", found.rejected);
         for spot in &spots {
             let target = near(&found, spot.u, spot.v).expect("found");
-            assert!(target.sigma_u < 0.004 && target.sigma_v < 0.004, "{target:?}");
+            // the unknown slope of the light costs 1 %
+            assert!(target.sigma_u < 0.0041 && target.sigma_v < 0.0041, "{target:?}");
             let (du, dv) = ((target.u - spot.u) / target.sigma_u, (target.v - spot.v) / target.sigma_v);
             assert!(du.hypot(dv) < 3.7, "blur {blur}: {du} {dv} sigma"); // one in a thousand
         }
@@ -335,12 +338,13 @@ fn a_gradient_of_light_does_not_move_the_centre() {
     for (diameter, slope, bow) in [(12.0, 0.9, 0.0), (12.0, 0.0, 60.0), (30.0, 0.7, 0.0), (30.0, 0.0, 60.0)] {
         let pitch = diameter + 40.0;
         let spots = grid(8, pitch, 3, |_| circle(diameter, 80.0));
-        let mut canvas = painted(&spots, 8.0 * pitch, 40.0, 0.7);
+        let mut canvas = painted(&spots, 8.0 * pitch, 70.0, 0.7);
         for y in 0..canvas.height {
             for x in 0..canvas.width {
+                // light multiplies ground and disc
                 let [dx, dy] = [x, y].map(|i| (i as f64 + 0.5) % pitch - pitch / 2.0);
-                canvas.levels[y * canvas.width + x] +=
-                    30.0 + slope * (dx - 0.5 * dy) + bow * (dx * dx + dy * dy) / (pitch * pitch);
+                canvas.levels[y * canvas.width + x] *=
+                    1.0 + (slope * (dx - 0.5 * dy) + bow * (dx * dx + dy * dy) / (pitch * pitch)) / 70.0;
             }
         }
         let found = detected(&canvas.expose(2.0, 7));

@@ -63,12 +63,14 @@ const BOUNDS: [(f64, f64); 4] = [(5.0, 0.00614), (10.0, 0.00422), (20.0, 0.00296
 #[test]
 fn every_method_keeps_its_scatter_and_states_it() {
     // rms over the bound, and rms of error over sigma, each with the range it may have over all 1152 errors: chance moves
-    // an rms by 2 %. Centroids scatter more, as they must.
+    // an rms by 2 %. Centroids scatter more, as they must. The bound is that of known light; all methods estimate its slope, the ellipse
+    // method from what lies outside the blur of the rim alone, which costs it 2 % (1.16 without), and the standard error of the intensity
+    // method has the whole cost where a slope of zero was right.
     let methods = [
         (Method::LeastSquares, 1.05, 0.95..1.05),
-        (Method::Ellipse, 1.16, 0.95..1.05),
+        (Method::Ellipse, 1.2, 0.95..1.05),
         (Method::Gradient, 10.0, 0.95..1.05),
-        (Method::Intensity, 4.2, 0.95..1.05),
+        (Method::Intensity, 4.2, 0.93..1.05),
     ];
     let mut sums = [(0.0, 0.0); 4];
     for (diameter, bound) in BOUNDS {
@@ -99,14 +101,10 @@ fn every_method_keeps_its_scatter_and_states_it() {
     }
 }
 
-/// Tilted ellipses of both polarities and many sizes on a slope.
-fn mixed() -> (Canvas, Vec<Spot>) {
-    let mut canvas = Canvas::new(620, 480, 0.0);
-    for y in 0..480 {
-        for x in 0..620 {
-            canvas.levels[y * 620 + x] = 110.0 + 0.03 * x as f64 - 0.02 * y as f64;
-        }
-    }
+/// Tilted ellipses of both polarities and many sizes in light that changes from side to side by this share.
+fn mixed(change: f64) -> (Canvas, Vec<Spot>) {
+    let mut canvas = Canvas::new(620, 480, 110.0);
+    let light = |u: f64, v: f64| 1.0 + change * ((u - 310.0) / 620.0 - 0.5 * (v - 240.0) / 480.0);
     let mut random = Uniform(5);
     let spots: Vec<Spot> = (0..30)
         .map(|k| {
@@ -120,7 +118,11 @@ fn mixed() -> (Canvas, Vec<Spot>) {
     for spot in &spots {
         canvas.add(spot, 0.8);
     }
-    (canvas, spots)
+    for (i, level) in canvas.levels.iter_mut().enumerate() {
+        *level *= light((i % 620) as f64 + 0.5, (i / 620) as f64 + 0.5);
+    }
+    let lit = |spot: Spot| Spot { contrast: spot.contrast * light(spot.u, spot.v), ..spot };
+    (canvas, spots.into_iter().map(lit).collect())
 }
 
 fn turned(picture: &Grey, place: impl Fn(usize, usize) -> (usize, usize), width: usize, height: usize) -> Grey {
@@ -135,19 +137,20 @@ fn turned(picture: &Grey, place: impl Fn(usize, usize) -> (usize, usize), width:
     Grey { width, height, samples: Samples::U8(out) }
 }
 
-fn same(before: &Detection, after: &Detection, map: impl Fn(f64, f64) -> (f64, f64)) {
+/// Whether all targets are where they were, to this share of their sigmas.
+fn same(before: &Detection, after: &Detection, most: f64, map: impl Fn(f64, f64) -> (f64, f64)) {
     assert_eq!(before.targets.len(), after.targets.len());
     for target in &before.targets {
         let (u, v) = map(target.u, target.v);
         let other = nearest(&after.targets, u, v).unwrap_or_else(|| panic!("nothing at {u} {v}"));
         let off = (other.u - u).hypot(other.v - v);
-        assert!(off < 0.05 * target.sigma_u.min(target.sigma_v), "{off} at {u} {v}, sigma {}", target.sigma_u);
+        assert!(off < most * target.sigma_u.min(target.sigma_v), "{off} at {u} {v}, sigma {}", target.sigma_u);
     }
 }
 
 #[test]
 fn all_targets_of_a_mixed_picture_are_found_and_nothing_else() {
-    let (canvas, spots) = mixed();
+    let (canvas, spots) = mixed(0.17);
     let found = detected(&canvas.expose(2.0, 3), &DetectOptions::default());
     assert_eq!(found.targets.len(), spots.len(), "{:?}", found.rejected);
     for spot in &spots {
@@ -160,27 +163,35 @@ fn all_targets_of_a_mixed_picture_are_found_and_nothing_else() {
 
 #[test]
 fn turns_mirrors_and_inversion_move_the_centres_with_the_picture() {
-    let picture = mixed().0.expose(2.0, 3);
+    let picture = mixed(0.17).0.expose(2.0, 3);
     let (w, h) = (picture.width, picture.height);
     let before = detected(&picture, &DetectOptions::default());
     let check = |after: &Grey, map: &dyn Fn(f64, f64) -> (f64, f64)| {
-        same(&before, &detected(after, &DetectOptions::default()), map);
+        same(&before, &detected(after, &DetectOptions::default()), 0.05, map);
     };
     let (fw, fh) = (w as f64, h as f64);
     check(&turned(&picture, |x, y| (w - 1 - x, y), w, h), &|u, v| (fw - u, v));
     check(&turned(&picture, |x, y| (w - 1 - x, h - 1 - y), w, h), &|u, v| (fw - u, fh - v));
     check(&turned(&picture, |x, y| (h - 1 - y, x), h, w), &|u, v| (fh - v, u));
+    // the same picture in 16 bits
     let Samples::U8(samples) = &picture.samples else { panic!("8 bits") };
-    let inverse = Samples::U8(samples.iter().map(|sample| 255 - sample).collect());
-    check(&Grey { samples: inverse, ..picture.clone() }, &|u, v| (u, v));
-    // the same picture in 16 bits, stretched and lifted
-    let wide = Samples::U16(samples.iter().map(|sample| 900 + 190 * u16::from(*sample)).collect());
+    let wide = Samples::U16(samples.iter().map(|sample| 190 * u16::from(*sample)).collect());
     check(&Grey { samples: wide, ..picture.clone() }, &|u, v| (u, v));
+    // Light multiplies levels from black on: in even light, where its slope is nothing but noise, a lift of black changes nothing, and a negative
+    // sees another share of that noise.
+    let even = mixed(0.0).0.expose(2.0, 3);
+    let before = detected(&even, &DetectOptions::default());
+    let Samples::U8(samples) = &even.samples else { panic!("8 bits") };
+    let lifted = Samples::U16(samples.iter().map(|sample| 900 + 190 * u16::from(*sample)).collect());
+    let inverse = Samples::U8(samples.iter().map(|sample| 255 - sample).collect());
+    for (samples, most) in [(lifted, 0.05), (inverse, 0.2)] {
+        same(&before, &detected(&Grey { samples, ..even.clone() }, &DetectOptions::default()), most, |u, v| (u, v));
+    }
 }
 
 #[test]
 fn a_shift_by_whole_pixels_shifts_the_centres() {
-    let picture = mixed().0.expose(2.0, 3);
+    let picture = mixed(0.17).0.expose(2.0, 3);
     let Samples::U8(samples) = &picture.samples else { panic!("8 bits") };
     let (left, top) = (3, 5);
     let mut cut = Vec::new();
@@ -189,12 +200,12 @@ fn a_shift_by_whole_pixels_shifts_the_centres() {
     }
     let cut = Grey { width: picture.width - left, height: picture.height - top, samples: Samples::U8(cut) };
     let map = |u: f64, v: f64| (u - left as f64, v - top as f64);
-    same(&detected(&picture, &DetectOptions::default()), &detected(&cut, &DetectOptions::default()), map);
+    same(&detected(&picture, &DetectOptions::default()), &detected(&cut, &DetectOptions::default()), 0.05, map);
 }
 
 #[test]
 fn a_click_measures_what_the_search_measures_by_every_method() {
-    let (canvas, spots) = mixed();
+    let (canvas, spots) = mixed(0.17);
     let picture = canvas.expose(2.0, 3);
     let view = picture.view().expect("a picture");
     let all = detected(&picture, &DetectOptions::default());
@@ -277,7 +288,7 @@ fn no_picture_and_no_option_makes_it_fail() {
 
 #[test]
 fn damaged_files_end_in_a_result_or_an_error() {
-    let picture = mixed().0.expose(2.0, 3);
+    let picture = mixed(0.17).0.expose(2.0, 3);
     let Samples::U8(samples) = &picture.samples else { panic!("8 bits") };
     let cut: Vec<u8> = samples.chunks(picture.width).take(96).flat_map(|row| row[..128].to_vec()).collect();
     let image = image::GrayImage::from_raw(128, 96, cut).expect("as many samples");

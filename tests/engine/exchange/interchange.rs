@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use sightline::camera::pixel_from_camera_point;
 use sightline::error::{Error, Reason};
+use sightline::exchange::conversion::Covariance;
 use sightline::exchange::foreign::{Assumed, CameraOptions};
 use sightline::exchange::{self, Choices, Files, cameras};
 use sightline::project::{Camera, Interior, Observation, Photo, Point, Project, Role, Sigma};
@@ -68,13 +69,12 @@ fn opencv_sample_camera() {
 }
 
 #[test]
-fn mrcal_models_are_converted_or_refused() {
+fn mrcal_models_are_read_without_conversion() {
     let Some(bytes) = data("interchange/cam0.opencv8.cameramodel") else { return };
     let read = camera("auto", &file("cam0.cameramodel", bytes));
     assert_eq!(read.format, "mrcal");
     let found = &read.cameras[0];
-    let conversion = found.conversion.as_ref().expect("eight coefficients");
-    assert!(conversion.warning && conversion.max_px < 0.2 && conversion.rms_px < 0.06, "{conversion:?}");
+    assert_eq!((found.conversion.as_ref(), found.camera.interior.model().name), (None, "opencv_rational"));
     let k = [1761.181055, 1761.250444, 1965.706996, 1087.518797];
     let d = [
         -0.01266096516,
@@ -88,7 +88,7 @@ fn mrcal_models_are_converted_or_refused() {
     ];
     for point in POINTS {
         let [u, v] = by_opencv(k, &d, point);
-        near(pixel(&found.camera, point), [u + 0.5, v + 0.5], conversion.max_px, "cam0");
+        near(pixel(&found.camera, point), [u + 0.5, v + 0.5], 1e-9, "cam0");
     }
     // Reference to camera: x_camera = R x + t.
     let rotation = Rotation3::new(Vector3::new(2e-2, -3e-1, -1e-2));
@@ -98,18 +98,12 @@ fn mrcal_models_are_converted_or_refused() {
     let turned = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)) * rotation.matrix();
     let apart = object_to_camera(found.rotation.expect("extrinsics")) - turned;
     assert!(apart.amax() < 1e-12, "{apart}");
-    // A lens too wide for the engine's models is an error with the difference, and converted where that is asked for.
     let wide =
         file("overpass.cameramodel", data("interchange/overpass-opencv8.cameramodel").expect("beside the other"));
-    let error = cameras::import("mrcal", &wide, &CameraOptions::default()).unwrap_err();
-    assert!(matches!(error, Error::Invalid { reason: Reason::ConversionTooLarge { .. }, .. }), "{error}");
-    let part = vec![[2000.0, 1200.0], [4000.0, 1200.0], [4000.0, 2800.0], [2000.0, 2800.0]];
-    let options = CameraOptions { region: Some(part), ..CameraOptions::default() };
-    let read = cameras::import("mrcal", &wide, &options).unwrap();
-    assert!(
-        read.cameras[0].conversion.as_ref().is_some_and(|conversion| !conversion.warning),
-        "{:?}",
-        read.cameras[0].conversion
+    let read = cameras::import("mrcal", &wide, &CameraOptions::default()).unwrap();
+    assert_eq!(
+        (read.cameras[0].conversion.as_ref(), read.cameras[0].camera.interior.model().name),
+        (None, "opencv_rational")
     );
     assert!(read.ignored.iter().any(|ignored| ignored.name == "optimization_inputs"));
     assert_eq!(read.cameras[0].region.as_ref().map(Vec::len), Some(42));
@@ -291,17 +285,15 @@ fn micmac_calibration() {
 
 #[test]
 fn what_has_no_model_is_refused_by_name() {
-    let opencv = "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\nfisheye_model: 1\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 500., 0., 320., 0., 500., 240., 0., 0., 1. ]\ndistortion_coefficients: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ 0., 0., 0., 0. ]\n";
-    let kalibr = "cam0:\n  camera_model: pinhole\n  distortion_model: equidistant\n  distortion_coeffs: [0, 0, 0, 0]\n  intrinsics: [500, 500, 320, 240]\n  resolution: [640, 480]\n";
+    let kalibr = "cam0:\n  camera_model: pinhole\n  distortion_model: fov\n  distortion_coeffs: [0, 0, 0, 0]\n  intrinsics: [500, 500, 320, 240]\n  resolution: [640, 480]\n";
     let cases = [
-        ("opencv", "a.yml", opencv.to_owned(), "OpenCV fisheye"),
-        ("kalibr", "a.yaml", kalibr.to_owned(), "pinhole-equidistant"),
+        ("kalibr", "a.yaml", kalibr.to_owned(), "pinhole-fov"),
         ("kalibr", "a.yaml", kalibr.replace("pinhole", "omni"), "omni"),
-        ("ros", "a.yaml", "image_width: 640\nimage_height: 480\ncamera_matrix: {rows: 3, cols: 3, data: [500, 0, 320, 0, 500, 240, 0, 0, 1]}\ndistortion_model: equidistant\ndistortion_coefficients: {rows: 1, cols: 4, data: [0, 0, 0, 0]}\n".into(), "equidistant"),
+        ("ros", "a.yaml", "image_width: 640\nimage_height: 480\ncamera_matrix: {rows: 3, cols: 3, data: [500, 0, 320, 0, 500, 240, 0, 0, 1]}\ndistortion_model: omni\ndistortion_coefficients: {rows: 1, cols: 4, data: [0, 0, 0, 0]}\n".into(), "omni"),
         ("mrcal", "a.cameramodel", "{'lensmodel': 'LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=30_Ny=20_fov_x_deg=170', 'intrinsics': [1.0], 'imagersize': [6, 4]}".into(), "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=30_Ny=20_fov_x_deg=170"),
-        ("colmap", "cameras.txt", "1 OPENCV_FISHEYE 640 480 500 500 320 240 0 0 0 0\n".into(), "OPENCV_FISHEYE"),
+        ("colmap", "cameras.txt", "1 THIN_PRISM_FISHEYE 640 480 500 500 320 240 0 0 0 0 0 0 0 0\n".into(), "THIN_PRISM_FISHEYE"),
         ("agisoft-lens", "a.xml", "<calibration><projection>fisheye</projection><width>6</width><height>4</height><f>3</f></calibration>".into(), "Metashape fisheye"),
-        ("meshroom", "a.sfm", r#"{"version": ["1","2","5"], "intrinsics": [{"intrinsicId": "1", "width": "6", "height": "4", "type": "fisheye4", "focalLength": "3", "principalPoint": ["0","0"], "distortionParams": []}]}"#.into(), "fisheye4 "),
+        ("meshroom", "a.sfm", r#"{"version": ["1","2","5"], "intrinsics": [{"intrinsicId": "1", "width": "6", "height": "4", "type": "fisheye1", "focalLength": "3", "principalPoint": ["0","0"], "distortionParams": []}]}"#.into(), "fisheye1 "),
         ("micmac", "a.xml", "<ExportAPERO><CalibrationInternConique><PP>3 2</PP><F>5</F><SzIm>6 4</SzIm><CalibDistortion><ModUnif><TypeModele>eModele_FishEye_10_5_5</TypeModele></ModUnif></CalibDistortion></CalibrationInternConique></ExportAPERO>".into(), "MicMac ModUnif eModele_FishEye_10_5_5"),
     ];
     for (format, name, content, model) in cases {
@@ -310,6 +302,52 @@ fn what_has_no_model_is_refused_by_name() {
                 assert_eq!((named.as_str(), at.file.as_deref()), (model, Some(name)));
             }
             other => panic!("{format}: {other:?}"),
+        }
+    }
+}
+
+/// The rational and the fisheye model through every format that has them: the same camera back, and nothing converted.
+#[test]
+fn rational_and_fisheye_cameras_come_back_as_they_went() {
+    let (fx, fy, cx, cy) = (Some(903.25), Some(911.5), 641.5, 472.25);
+    let rational = Interior::OpencvRational {
+        fx,
+        fy,
+        cx,
+        cy,
+        k1: 0.31,
+        k2: 0.07,
+        p1: 4e-4,
+        p2: -3e-4,
+        k3: 0.01,
+        k4: 0.42,
+        k5: 0.08,
+        k6: 0.015,
+    };
+    let fisheye = Interior::OpencvFisheye { fx, fy, cx, cy, k1: -0.012, k2: 0.004, k3: -0.0011, k4: 0.00011 };
+    let cases: [(Interior, &[&str]); 2] =
+        [(rational, &["opencv", "ros", "mrcal", "colmap"]), (fisheye, &["opencv", "ros", "kalibr", "colmap"])];
+    for (interior, formats) in cases {
+        let camera = Camera::new("1", 1280, 960, interior);
+        let names: Vec<String> = interior.parameters().iter().skip(1).map(|p| p.name().to_owned()).collect();
+        let variance = |i: usize, k: usize| if i == k { 1e-6 * (1.0 + i as f64) } else { 1e-8 };
+        let matrix = (0..names.len()).map(|i| (0..names.len()).map(|k| variance(i, k)).collect()).collect();
+        let covariance = Covariance { parameters: names, matrix };
+        for format in formats {
+            let options = CameraOptions { covariance: Some(covariance.clone()), ..CameraOptions::default() };
+            let written = cameras::export(format, &camera, &options).unwrap();
+            assert_eq!(written.conversion, None, "{format}");
+            let carried = written.covariance.clone().expect("converted");
+            for (i, name) in covariance.parameters.iter().enumerate() {
+                let place = carried.parameters.iter().position(|other| other == name).expect("by its name");
+                let (ours, theirs) = (covariance.matrix[i][i], carried.matrix[place][place]);
+                assert!((ours / theirs - 1.0).abs() < 1e-4, "{format} {name}: {ours} {theirs}");
+            }
+            let files = written.files.iter().filter(|(name, _)| !name.contains("covariance"));
+            let files: Files = files.map(|(name, bytes)| (name.clone(), bytes.clone())).collect();
+            let read = cameras::import(format, &files, &CameraOptions::default()).unwrap();
+            assert_eq!(read.cameras[0].conversion, None, "{format}");
+            assert_eq!(read.cameras[0].camera.interior, interior, "{format}");
         }
     }
 }
@@ -515,4 +553,32 @@ fn lengths_in_an_unknown_unit_are_not_written_as_metres() {
     project.unit = "span".into();
     let refused = exchange::export("metashape", &project, None).expect_err("an unknown unit").to_string();
     assert!(refused.contains("span") && refused.contains("mm"), "{refused}");
+}
+
+#[test]
+fn a_lens_whose_principal_distances_do_not_fit_in_f_and_b1_is_refused() {
+    let mut camera = network(&mut ChaCha8Rng::seed_from_u64(3), false).cameras.remove(0);
+    camera.interior = Interior::Opencv {
+        fx: Some(2.8e-306),
+        fy: Some(500.0),
+        cx: 320.0,
+        cy: 240.0,
+        k1: 0.0,
+        k2: 0.0,
+        k3: 0.0,
+        p1: 0.0,
+        p2: 0.0,
+    };
+    (camera.width, camera.height) = (640, 480);
+    let refused =
+        cameras::export("agisoft-lens", &camera, &CameraOptions::default()).expect_err("too small").to_string();
+    assert!(refused.contains("fx"), "{refused}");
+}
+
+#[test]
+fn a_size_that_no_picture_has_is_refused_in_every_format() {
+    let files =
+        Files::from([("cameras.txt".to_owned(), b"1 OPENCV 163840 140575200 500 500 320 240 0 0 0 0\n".to_vec())]);
+    let refused = cameras::import("colmap", &files, &CameraOptions::default()).expect_err("damage").to_string();
+    assert!(refused.contains("163840 140575200"), "{refused}");
 }

@@ -1,6 +1,7 @@
 //! What page and workers say to each other. A task, what is said on its way and what it ends with belong together by
 //! type; pictures and files travel beside these as bytes.
 
+mod inside;
 mod pieces;
 
 use std::collections::BTreeMap;
@@ -11,17 +12,23 @@ use serde::{Deserialize, Serialize};
 use sightline::adjustment::{AdjustOptions, AdjustedPhoto, Adjustment, Iteration, Measured};
 use sightline::comparison::Comparison;
 use sightline::detection::{ColoursApart, DetectOptions, Detection, Target};
+use sightline::exchange::foreign::{CameraOptions, ImportedCamera};
 use sightline::exif::PhotoInfo;
 use sightline::experiments::{Experiment, ExperimentOptions};
 use sightline::matching::{Matching, PhotoTargets, PredictOptions, Prediction};
+use sightline::monitoring::{Epoch, Monitoring, Options as MonitoringOptions};
 use sightline::orient::Note;
 use sightline::plan::{Criterion, Made, MakeOptions, Prediction as PlanPrediction, Suggested};
-use sightline::project::{Camera, ColourDifferences, Datum, LensColour, PhotoColours, Plan, Project};
+use sightline::project::{
+    Camera, ColourDifferences, Conversion, Datum, Ignored, LensColour, Origin, PhotoColours, Plan, Project,
+    ReportSettings,
+};
 use sightline::report::plots::Plot;
 use sightline::sheets::{CodeCount, SheetOptions};
 pub use sightline::tiles::Pyramid;
 use sightline::{Error, Result};
 
+pub use inside::{Found, Inquiry, InsideOf, Looked, matrices, matrices_from};
 pub use pieces::{Long, Piece, from_pieces, to_pieces, written};
 
 /// Work for a worker. The files it needs come with it.
@@ -276,6 +283,24 @@ tasks! {
             /** What. */ pub project: Project,
             /** Of the project, where there is one. */ pub adjustment: Option<Adjustment>,
         } => Nothing, Vec<String>;
+        /// Sort files by content and read those of other programs.
+        ReadForeign {
+            /** Names of the files. */ pub names: Vec<String>,
+            /** Whether a camera is taken whose model differs by more than 1 px after conversion. */ pub convert: bool,
+        } => Nothing, Foreign;
+        /// Write a camera for another program; the files' bytes come along, in the order of their names.
+        WriteCamera {
+            /** Name of the format. */ pub format: String,
+            /** The camera. */ pub camera: Camera,
+            /** Region, covariance, and whether a difference of more than 1 px is accepted. */ pub options: CameraOptions,
+        } => Nothing, Written;
+        /// Write a network for another program; the files' bytes come along, in the order of their names.
+        WriteNetwork {
+            /** Name of the format. */ pub format: String,
+            /** The project. */ pub project: Project,
+            /** Its result, if there is one. */ pub adjustment: Option<Adjustment>,
+            /** Whether a difference of more than 1 px is accepted. */ pub convert: bool,
+        } => Nothing, Written;
         /// Make the report of a project.
         MakeReport {
             /** Adjusted, with what its report says. */ pub project: Project,
@@ -294,6 +319,23 @@ tasks! {
             /** What the later one was made from. */ pub after: Project,
             /** The later result. */ pub later: Adjustment,
         } => Nothing, Comparison;
+        /// Compare epochs of an object; progress in steps done of all.
+        CompareEpochs { /** The first is the reference. */ pub epochs: Vec<Epoch>, /** How. */ pub options: MonitoringOptions } => (usize, usize), Monitoring;
+        /// Write what a comparison of epochs found as a file: csv, json or dxf.
+        ExportMonitoring {
+            /** What was found. */ pub found: Monitoring,
+            /** Which file. */ pub format: String,
+            /** The pair that is drawn. */ pub pair: usize,
+            /** Times the length of displacements in the drawing. */ pub factor: f64,
+        } => Nothing, ();
+        /// Make the report of a comparison of epochs.
+        ReportEpochs {
+            /** What was found. */ pub found: Monitoring,
+            /** How. */ pub options: MonitoringOptions,
+            /** Language, paper and what the first page says. */ pub settings: ReportSettings,
+        } => Nothing, ReportMade;
+        /// Three epochs of the sample that is monitored, each simulated and adjusted; progress in epochs done of all.
+        SampleEpochs {} => (usize, usize), Vec<Epoch>;
         /// Run one of the papers' experiments; progress in steps done of all.
         RunExperiment {
             /** Which. */ pub name: String,
@@ -320,6 +362,12 @@ tasks! {
             /** As a PDF. */ pub pdf: bool,
             /** This sheet as SVG. */ pub svg: Option<usize>,
         } => Nothing, Vec<String>;
+        /// Lay an adjustment open after so many steps. A, N and S come along as bytes ([`matrices`]); the answer's own are empty.
+        LookInside { /** What; `None`: the network of the lessons. */ pub of: InsideOf, /** Steps taken. */ pub step: usize } => Nothing, Looked;
+        /// Explain, compare or simulate something of it.
+        Inquire { /** Of what. */ pub of: InsideOf, /** What. */ pub inquiry: Inquiry } => Nothing, Found;
+        /// Write its matrices as files in an archive, whose bytes come along.
+        ExportInside { /** Of what. */ pub of: InsideOf } => Nothing, ();
         /// The sample project, without its photos.
         Sample {} => Nothing, Project;
         /// Render a photo of the sample project and find its targets; its file and its small picture come along.
@@ -328,6 +376,41 @@ tasks! {
             /** Longest side of the small picture. */ pub max_side: u32,
         } => Nothing, SamplePhotoMade;
     }
+}
+
+/// Files of other programs that were read.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Foreign {
+    /// Networks, each with its origin.
+    pub networks: Vec<Project>,
+    /// Cameras by format.
+    pub cameras: Vec<ForeignCameras>,
+    /// Names of files that are none of another program's.
+    pub others: Vec<String>,
+    /// Those of them that are lists of points of instruments, whatever their names end with.
+    pub lists: Vec<String>,
+    /// Why files were not read.
+    pub refused: Vec<Error>,
+}
+
+/// Cameras of files of one format.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct ForeignCameras {
+    /// Format, files, what was assumed and left out.
+    pub origin: Origin,
+    /// The cameras.
+    pub cameras: Vec<ImportedCamera>,
+}
+
+/// Files that were written for another program.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Written {
+    /// Names of the files.
+    pub names: Vec<String>,
+    /// Cameras whose model was converted.
+    pub conversions: Vec<Conversion>,
+    /// What has no place in the format.
+    pub ignored: Vec<Ignored>,
 }
 
 /// A photo that is not read yet.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use wasm_bindgen::prelude::*;
-use web_sys::{CanvasRenderingContext2d, HtmlCanvasElement, ResizeObserver};
+use web_sys::{CanvasRenderingContext2d, HtmlCanvasElement, ImageData, ResizeObserver};
 
 use super::picture::{Picture, Pyramid};
 
@@ -76,6 +76,19 @@ impl Surface {
             }
         }
         let _ = self.context.set_transform(self.ratio, 0.0, 0.0, self.ratio, 0.0, 0.0);
+    }
+
+    /// Pixels of the device that a CSS pixel has.
+    pub fn ratio(&self) -> f64 {
+        self.ratio
+    }
+
+    /// Puts device pixels (RGBA, row by row) over the canvas from its top left corner.
+    pub fn raster(&self, rgba: &[u8], width: u32, height: u32) {
+        let clamped = js_sys::Uint8ClampedArray::from(rgba);
+        if let Ok(data) = ImageData::new_with_js_u8_clamped_array_and_sh(&clamped, width, height) {
+            let _ = self.context.put_image_data(&data, 0.0, 0.0);
+        }
     }
 
     /// What of a frame is in sight that is mapped to the canvas by `map`: left, top, right, bottom.

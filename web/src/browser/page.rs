@@ -88,6 +88,23 @@ pub fn set_preference(name: &str, value: &str) {
     }
 }
 
+/// What this window remembers of itself when its page is loaded again; none where storage is switched off.
+pub fn visit(name: &str) -> Option<String> {
+    window()?.session_storage().ok()??.get_item(&format!("sightline.{name}")).ok()?
+}
+
+pub fn set_visit(name: &str, value: &str) {
+    if let Some(Ok(Some(storage))) = window().map(|w| w.session_storage()) {
+        let _ = storage.set_item(&format!("sightline.{name}"), value);
+    }
+}
+
+pub fn forget_visit(name: &str) {
+    if let Some(Ok(Some(storage))) = window().map(|w| w.session_storage()) {
+        let _ = storage.remove_item(&format!("sightline.{name}"));
+    }
+}
+
 /// Forgets all preferences, and the copies of the page for times without a network.
 pub async fn forget_everything() {
     if let Some(Ok(Some(storage))) = window().map(|w| w.local_storage()) {

@@ -74,8 +74,10 @@ pub fn add_photo(
     shares: Option<&str>,
     taken: &dyn Fn(&str) -> bool,
 ) -> String {
-    let camera = match project.photos.iter().find(|p| Some(p.id.as_str()) == shares) {
-        Some(photo) => photo.camera.clone(),
+    let known = || kept_from_first_epoch(project, &Signature::of(file, info, size));
+    let sharing = project.photos.iter().find(|p| Some(p.id.as_str()) == shares).map(|p| p.camera.clone());
+    let camera = match sharing.or_else(known) {
+        Some(camera) => camera,
         None => {
             let camera = camera(&Signature::of(file, info, size), info, project);
             let id = camera.id.clone();
@@ -91,6 +93,20 @@ pub fn add_photo(
     id
 }
 
+/// In a later epoch, the camera of the first that takes such photos: of those that no photo has yet, the one of this name, or the only
+/// one of this size.
+fn kept_from_first_epoch(project: &Project, signature: &Signature) -> Option<String> {
+    project.epoch.as_ref()?;
+    let [width, height] = signature.size;
+    let waits =
+        |c: &&Camera| [c.width, c.height] == [width, height] && !project.photos.iter().any(|p| p.camera == c.id);
+    let waiting = project.cameras.iter().filter(waits).collect::<Vec<_>>();
+    let base = signature.prefix.as_ref().or(signature.model.as_ref()).map(|name| name.trim());
+    let named = waiting.iter().find(|c| base.is_some_and(|base| c.id == base));
+    let only = || (waiting.len() == 1).then(|| &waiting[0]);
+    named.or_else(only).map(|camera| camera.id.clone())
+}
+
 /// The principal distance to start from, in the camera's photo unit: the focal length where the pitch is known.
 fn initial_c(info: &PhotoInfo, camera: &Camera) -> Option<f64> {
     let from_exif = || info.principal_distance_px(camera.width, camera.height).map(|c| c * camera.pitch()[0]);
@@ -99,10 +115,7 @@ fn initial_c(info: &PhotoInfo, camera: &Camera) -> Option<f64> {
 
 /// The parameter that stands for the principal distance.
 pub fn distance_parameter(camera: &Camera) -> Parameter {
-    match camera.interior {
-        Interior::Brown { .. } => Parameter::C,
-        Interior::Opencv { .. } => Parameter::F,
-    }
+    camera.interior.model().distance
 }
 
 /// Powers of the photo unit that a parameter has: a change of the unit by `s` changes it by `s` to this power.
@@ -120,7 +133,7 @@ fn power(parameter: Parameter) -> i32 {
 /// The same camera with its photo coordinates in another unit: another pixel pitch, or none (pixels).
 pub fn with_pitch(camera: &Camera, pitch: Option<[f64; 2]>) -> Camera {
     let mut changed = Camera { pixel_pitch: pitch, ..camera.clone() };
-    if !matches!(camera.interior, Interior::Brown { .. }) {
+    if !camera.interior.model().in_photo_units {
         return changed;
     }
     let (old, new) = (camera.pitch(), changed.pitch());
@@ -158,10 +171,9 @@ pub fn set_pitch(project: &mut Project, id: &str, pitch: Option<[f64; 2]>, info:
 /// Gives a camera a principal distance to start from; none: orientation finds one.
 pub fn set_principal_distance(project: &mut Project, id: &str, value: Option<f64>) {
     let Some(camera) = camera_mut(project, id) else { return };
-    match (value, &mut camera.interior) {
-        (Some(value), _) => camera.interior.set(distance_parameter(camera), value),
-        (None, Interior::Brown { c, .. }) => *c = None,
-        (None, Interior::Opencv { fx, fy, .. }) => (*fx, *fy) = (None, None),
+    match value {
+        Some(value) => camera.interior.set(distance_parameter(camera), value),
+        None => camera.interior.forget_principal_distance(),
     }
 }
 

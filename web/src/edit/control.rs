@@ -39,6 +39,32 @@ pub fn take_points(project: &mut Project, points: Vec<Point>, unit: &str) -> Res
     Ok(count)
 }
 
+/// Takes approximate coordinates: of tie points, new or known; a point with given coordinates keeps them. Units as in [`take_points`]. How many.
+///
+/// # Errors
+/// As [`take_points`].
+pub fn take_approximate(project: &mut Project, points: Vec<Point>, unit: &str) -> Result<usize, Error> {
+    let fresh = !has_lengths(project);
+    let factor = if fresh { 1.0 } else { factor(unit, &project.unit)? };
+    let points = Project { points, ..Project::default() }.scaled(factor)?.points;
+    if fresh {
+        project.unit = unit.to_owned();
+    }
+    let mut count = 0;
+    for point in points {
+        match project.points.iter_mut().find(|p| p.id == point.id) {
+            Some(known) if known.role != Role::Tie => continue,
+            Some(known) => {
+                known.xyz = point.xyz;
+                known.diameter = point.diameter.or(known.diameter);
+            }
+            None => project.points.push(Point { role: Role::Tie, sigma: None, ..point }),
+        }
+        count += 1;
+    }
+    Ok(count)
+}
+
 /// Gives a point a role; a tie point is kept only as long as something observes it.
 pub fn set_role(project: &mut Project, id: &str, role: Role) {
     if let Some(point) = project.points.iter_mut().find(|p| p.id == id) {
@@ -151,6 +177,17 @@ mod tests {
 
     fn take(project: &mut Project, points: Vec<Point>, unit: &str) {
         take_points(project, points, unit).expect("known units");
+    }
+
+    #[test]
+    fn approximate_coordinates_leave_given_ones_alone() {
+        let at = |id: &str, role, x: f64| Point { id: id.into(), role, xyz: Some([x; 3]), ..Point::default() };
+        let mut project = Project { unit: "mm".into(), ..Project::default() };
+        project.points = vec![at("given", Role::Control, 1.0), Point { id: "seen".into(), ..Point::default() }];
+        let list = ["given", "seen", "new"].map(|id| at(id, Role::Tie, 2.0)).to_vec();
+        assert_eq!(take_approximate(&mut project, list, "m"), Ok(2));
+        let places: Vec<_> = project.points.iter().map(|p| (p.role, p.xyz.unwrap()[0])).collect();
+        assert_eq!(places, [(Role::Control, 1.0), (Role::Tie, 2000.0), (Role::Tie, 2000.0)]);
     }
 
     #[test]

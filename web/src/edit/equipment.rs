@@ -40,6 +40,7 @@ mod tests {
             sigma: [(Parameter::C, 0.5)].into(),
             colours: Default::default(),
             remark: String::new(),
+            origin: None,
         }
     }
 

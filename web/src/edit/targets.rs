@@ -141,6 +141,14 @@ fn take_one(document: &mut Document, photo: &str, mut detection: Detection, fami
     });
     let snapped = snap(&marks.collect::<Vec<_>>(), &new, FOLLOW);
     let mut now = coded.observations.into_iter().filter(|o| o.photo == photo).collect::<Vec<_>>();
+    // In a later epoch a point has the name that it was given in the first.
+    if let Some(epoch) = &document.project.epoch {
+        for observation in &mut now {
+            if let Some(name) = epoch.names.get(&observation.point) {
+                observation.point.clone_from(name);
+            }
+        }
+    }
     let named = now.iter().map(|o| (o.point.clone(), o.target)).collect::<Vec<_>>();
     let free = |o: &Observation| !named.iter().any(|(point, target)| *point == o.point || *target == o.target);
     now.extend(snapped.observations.into_iter().filter(free));

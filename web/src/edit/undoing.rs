@@ -250,6 +250,7 @@ const ACTIONS: [(&str, Action); 54] = [
             sigma: [(Parameter::C, 0.01), (Parameter::K1, 1e-6)].into(),
             colours: Default::default(),
             remark: String::new(),
+            origin: None,
         };
         equipment::use_calibration(d, "l", &calibration, Use::Observed);
     }),

@@ -9,9 +9,21 @@ use sightline::project::ReportLanguage;
 use super::declare;
 
 mod before;
+mod beginning;
 mod beside;
+mod exchange;
+mod laid_open;
+mod listed;
+mod monitored;
+mod patterned;
 pub use before::{planning, printing};
+pub use beginning::first;
 pub use beside::{comparing, equipment, lasting};
+pub use exchange::interchange;
+pub use laid_open::inside;
+pub use listed::lists;
+pub use monitored::monitoring;
+pub use patterned::systematic;
 
 /// This language.
 pub struct English;
@@ -25,6 +37,9 @@ impl super::Speech for English {
     }
     fn pages(&self) -> ReportLanguage {
         ReportLanguage::English
+    }
+    fn ignored(&self, name: &str) -> String {
+        name.to_owned()
     }
     fn reason(&self, reason: &Reason) -> String {
         reason.to_string()
@@ -74,16 +89,13 @@ declare! { desk {
         "The computation broke off and its worker was replaced ({detail}). Nothing was lost; try again, with fewer or smaller photos if memory ran out.";
 
     // Start
-    drop_here: "Drop photos or a project anywhere on this page";
-    formats: "JPEG, HEIC, RAW, PNG, TIFF and BMP, 8 or 16 bit. They stay on this computer.";
+    formats: "JPEG, HEIC, RAW, PNG, TIFF and BMP, 8 or 16 bit. RAW is measured on the sensor's own samples.";
     choose_photos: "Choose photos…";
-    heic_and_raw: "RAW photos are measured on the sensor's own samples; a kind that is not read is named, with how to convert it.";
 
     // Photos and cameras
     photos: "Photos";
     photos_sentence(photos, cameras):
         "{photos} {photos:photo|photos}, {cameras} {cameras:camera|cameras}. Photos of the same make, model, size and focal length share a camera.";
-    no_photos_yet: "There is no photo yet: drop some anywhere on this page.";
     add_photos: "Add photos…";
     on_to_targets: "Targets";
     opening_photos: "Opening photos";
@@ -182,6 +194,7 @@ declare! { desk {
     what_it_means: "What it means";
     what_to_do: "What to do:";
     source: "Source";
+    residuals_of_photos: "Residuals, photo by photo";
     drawing_plots: "Drawing the plots";
     save_svg: "Save SVG";
     sigma0_name: "σ₀, standard deviation of unit weight";
@@ -278,7 +291,9 @@ declare! { desk {
     picture_sharpened(percent, radius): "sharpened by {percent} % (radius {radius} px), undone where that hides targets";
     picture_overexposed(percent): "{percent} % over-exposed, left out of the fits";
     picture_black(percent): "{percent} % without light, where nothing shows";
-    picture_compressed(percent): "compressed (borders of blocks {percent} % stronger), its traces counted as noise";
+    picture_compressed(percent): "JPEG compression is visible (block borders {percent} % stronger) and counts as noise";
+    picture_compressed_uncounted(percent):
+        "JPEG compression is visible (block borders {percent} % stronger), which the standard errors of this method do not count: they are too small (measure with least squares)";
     picture_noise(noise): "noise {noise} grey levels, from which the standard errors follow";
     picture_shared_noise(noise, factor):
         "noise {noise} grey levels, shared by neighbouring pixels, which makes the standard errors {factor} times as large";
@@ -348,10 +363,10 @@ declare! { desk {
     saved_at(clock): "saved {clock}";
     saved_without_photos(clock, n): "saved {clock}, {n} {n:photo|photos} not";
     changed_after(clock): "changed since {clock}";
-    save: "Save";
-    save_all: "Save with photos";
-    save_hint: "Save the project file without the photos";
-    save_all_hint: "Save the project file with the photos in it, as the camera wrote them: with the place where they were taken (GPS) if they have it";
+    save: "Download project file";
+    save_all: "Download with photos";
+    save_hint: "Download the project file without the photos";
+    save_all_hint: "Download the project file with the photos in it, as the camera wrote them: with the place where they were taken (GPS) if they have it";
     photos_carry_places: "The photos in the file are as the camera wrote them, with the place where they were taken (GPS) if they have it.";
     save_with_photos: "Save the project file with the photos in it";
     saving: "Saving";
@@ -426,6 +441,7 @@ declare! { desk {
     journal_to_be_opened: "This stored project is damaged. Open it first: what can be read of it is then stored anew.";
     download_damaged: "Download damaged file";
     wipe: "Delete everything stored by this page…";
+    licences: "Licences of the software in this page";
     wipe_question: "Delete all projects with their photos, the equipment, the preferences and the offline copy of this page from this browser? This cannot be undone.";
     wipe_now: "Delete everything";
     gone_for_good: "This project is no longer stored in this browser.";
@@ -463,7 +479,6 @@ declare! { desk {
     identities_sentence(named, points, single):
         "{named} {named:observation|observations} of {points} {points:point|points}; {single} {single:point|points} in one photo only.";
     open_marks: "Open marks…";
-    match_uncoded: "Match uncoded targets";
     matching: "Matching";
     matched(found, doubtful):
         "{found} {found:observation|observations} of uncoded targets matched; {doubtful} {doubtful:target|targets} are doubtful and were left without a name.";
@@ -729,6 +744,11 @@ declare! { desk {
     object_points: "Object points";
     points_all(n): "{n} × 3 coordinates";
     points_with_control(n, control): "{n} × 3 coordinates, {control} of them control";
+    model_brown: "Brown";
+    model_opencv: "OpenCV";
+    model_opencv_rational: "OpenCV, rational";
+    model_opencv_fisheye: "OpenCV, fisheye";
+    of_model(model, words): "{model}: {words}";
     all_estimated(free): "{free} estimated";
     all_held(held): "{held} held";
     estimated_and_held(free, held): "{free} estimated; {held} held";
@@ -762,6 +782,8 @@ declare! { desk {
     lacks_control: "Give at least three control points, or choose another datum";
     lacks_control_body: "The control datum takes position, attitude and scale from known points that do not lie on one line.";
     n_control(n): "{n} control";
+    n_check(n): "{n} check";
+    n_distances(n): "{n} {n:distance|distances}";
     no_unit: "no unit";
     lacks_scale: "Give a distance between two points";
     lacks_scale_body: "Neither control nor a distance gives the scale: the size of the result is arbitrary.";
@@ -1305,7 +1327,8 @@ declare! { object {
     no_graphics(detail): "The view in space cannot be shown here ({detail}): switch on hardware acceleration or WebGL in the browser. The object from above instead:";
     graphics_lost: "the graphics of this page were taken away";
     caption(points, photos, factor, unit): "{points} points, {photos} photos; error ellipsoids 1σ, {factor} times; lengths in {unit}";
-    plan_label: "The object from above";
+    overview_label: "The object with its photos, seen obliquely from above";
+    every_nth_point(n): "Of the unknown points one in {n} is drawn.";
     kind_distance: "distance";
     kind_angle: "angle";
     kind_line: "line";
@@ -1329,6 +1352,7 @@ declare! { object {
     quantity_diameter: "diameter";
     quantity_rms: "form, rms";
     no_features: "Nothing is measured yet. Choose points in the view or by their names, then what they make.";
+    hardly_forms(kind, rms, percent): "these points hardly form a {kind}: rms {rms}, {percent} % of their extent";
     weakly_determined(percent): "so weakly determined ({percent} %) that it has no standard errors";
     missing_points(names): "not determined here: {names}";
     deviation: "deviation";
@@ -1368,7 +1392,7 @@ declare! { errors {
     recognised(kind): "this is a {kind} file, which is not read here: convert it to JPEG, PNG or TIFF";
     raw_unread(kind): "this is a {kind} file, which is not read here: convert it to DNG (Adobe DNG Converter, dnglab), which keeps the sensor's samples";
     decoder_missing(format, message): "the decoder of {format} files could not be loaded ({message}): it is fetched when the first such file comes, which needs the network once";
-    no_picture: "not a picture that is read here: JPEG, PNG, TIFF or BMP of 8 or 16 bits are expected";
+    no_picture: "not a picture that is read here: JPEG, HEIC, camera RAW, PNG, TIFF or BMP is expected";
     broken(detail): "the picture cannot be decoded ({detail}): copy it again from the camera";
     size(width, height, limit): "the picture has {width} × {height} pixels; from 1 to {limit} pixels are worked on";
     unknown(kind, name): "there is no {kind} \"{name}\"";

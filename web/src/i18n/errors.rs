@@ -42,6 +42,12 @@ pub fn sentence(error: &Error) -> String {
         | Error::CannotOrient { .. }
         | Error::ControlDisagrees { .. }
         | Error::Empty { .. } => String::new(),
+        // Its sentence names the epoch.
+        Error::Invalid { at, .. }
+            if at.field.as_deref().is_some_and(|field| field.starts_with("epochs[") && !field.contains('.')) =>
+        {
+            String::new()
+        }
         _ => place_words(&error.place()),
     };
     if !place.is_empty() {

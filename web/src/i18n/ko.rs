@@ -10,7 +10,13 @@ use sightline::report::texts::particles::after as choose;
 use super::{reasons, translate};
 
 mod before;
+mod beginning;
 mod beside;
+mod exchange;
+mod laid_open;
+mod listed;
+mod monitored;
+mod patterned;
 
 /// This language.
 pub struct Korean;
@@ -24,6 +30,9 @@ impl super::Speech for Korean {
     }
     fn pages(&self) -> ReportLanguage {
         ReportLanguage::Korean
+    }
+    fn ignored(&self, name: &str) -> String {
+        exchange::ignored(name).unwrap_or(name).to_owned()
     }
     fn reason(&self, reason: &Reason) -> String {
         reasons::reason(reason)
@@ -68,15 +77,12 @@ translate! { Korean desk {
     worker_lost(detail): "계산이 중단되어 작업자를 교체했습니다({detail}). 잃은 자료는 없습니다. 다시 시도하고, 메모리가 부족하면 사진 수나 크기를 줄이십시오.";
 
     // Start
-    drop_here: "사진이나 프로젝트를 이 페이지 아무 곳에나 놓으십시오";
-    formats: "JPEG, HEIC, RAW, PNG, TIFF, BMP, 8·16비트. 파일은 이 컴퓨터를 떠나지 않습니다.";
+    formats: "JPEG, HEIC, RAW, PNG, TIFF, BMP, 8·16비트. RAW는 센서 값에서 직접 측정합니다.";
     choose_photos: "사진 고르기…";
-    heic_and_raw: "RAW 사진은 센서 값에서 직접 측정하며, 읽지 못하는 형식은 변환 방법과 함께 알려 드립니다.";
 
     // Photos and cameras
     photos: "사진";
     photos_sentence(photos, cameras): "사진 {photos}매, 카메라 {cameras}대. 제조사·모델·크기·초점거리가 같은 사진은 카메라를 공유합니다.";
-    no_photos_yet: "아직 사진이 없습니다. 이 페이지 아무 곳에나 사진을 놓으십시오.";
     add_photos: "사진 추가…";
     on_to_targets: "표적";
     opening_photos: "사진 여는 중";
@@ -175,6 +181,7 @@ translate! { Korean desk {
     what_it_means: "뜻 보기";
     what_to_do: "할 일:";
     source: "출처";
+    residuals_of_photos: "사진별 잔차";
     drawing_plots: "그림 그리는 중";
     save_svg: "SVG 저장";
     sigma0_name: "σ₀, 사후 단위중량 표준오차";
@@ -270,7 +277,9 @@ translate! { Korean desk {
     picture_sharpened(percent, radius): "선명화 {percent} %(반경 {radius} px), 이 때문에 표적이 가려지는 곳은 되돌려 측정함";
     picture_overexposed(percent): "밝은 쪽 포화 {percent} %, 적합에서 제외함";
     picture_black(percent): "어두운 쪽 포화 {percent} %, 그곳에서는 아무것도 보이지 않음";
-    picture_compressed(percent): "압축(블록 경계의 차이가 {percent} % 큼), 그 흔적은 잡음으로 계산함";
+    picture_compressed(percent): "JPEG 압축 흔적이 보임(블록 경계 차이 {percent} % 큼), 잡음으로 계산함";
+    picture_compressed_uncounted(percent):
+        "JPEG 압축 흔적이 보이나(블록 경계 차이 {percent} % 큼) 이 방법의 표준오차에는 반영되지 않아 실제보다 작음(최소제곱 정합으로 측정 바람)";
     picture_noise(noise): "잡음 {noise} 계조, 표준오차는 이 잡음에 따른 값임";
     picture_shared_noise(noise, factor): "잡음 {noise} 계조, 이웃 화소끼리 상관되어 표준오차가 {factor}배로 커짐";
     picture_sentence(what): "이 사진: {what}.";
@@ -339,10 +348,10 @@ translate! { Korean desk {
     saved_at(clock): "{clock} 저장됨";
     saved_without_photos(clock, n): "{clock} 저장됨, 사진 {n}매 제외";
     changed_after(clock): "{clock} 이후 변경됨";
-    save: "저장";
-    save_all: "사진과 함께 저장";
-    save_hint: "사진 없이 프로젝트 파일 저장";
-    save_all_hint: "사진을 포함하여 프로젝트 파일 저장. 사진은 카메라가 기록한 그대로이며 촬영 위치(GPS)가 기록되어 있으면 함께 저장됨";
+    save: "프로젝트 파일 내려받기";
+    save_all: "사진과 함께 내려받기";
+    save_hint: "사진 없이 프로젝트 파일 내려받기";
+    save_all_hint: "사진을 포함하여 프로젝트 파일 내려받기. 사진은 카메라가 기록한 그대로이며 촬영 위치(GPS)가 기록되어 있으면 함께 저장됨";
     photos_carry_places: "파일의 사진은 카메라가 기록한 그대로이며, 촬영 위치(GPS)가 기록되어 있으면 함께 들어 있습니다.";
     save_with_photos: "사진을 포함하여 프로젝트 파일 저장";
     saving: "저장 중";
@@ -417,6 +426,7 @@ translate! { Korean desk {
     journal_to_be_opened: "보관된 이 프로젝트가 손상되었습니다. 먼저 여십시오. 읽을 수 있는 내용이 새로 보관됩니다.";
     download_damaged: "손상된 파일 내려받기";
     wipe: "이 페이지가 보관한 모든 것 삭제…";
+    licences: "이 페이지에 포함된 소프트웨어의 라이선스";
     wipe_question: "이 브라우저에서 모든 프로젝트와 사진, 장비, 설정, 오프라인 사본을 삭제하시겠습니까? 되돌릴 수 없습니다.";
     wipe_now: "모두 삭제";
     gone_for_good: "이 프로젝트는 이 브라우저에 더 이상 보관되어 있지 않습니다.";
@@ -453,7 +463,6 @@ translate! { Korean desk {
     identities: "점 이름";
     identities_sentence(named, points, single): "점 {points}개에 관측 {named}개. 한 사진에만 있는 점 {single}개.";
     open_marks: "측정점 파일 열기…";
-    match_uncoded: "비코드 표적 정합";
     matching: "정합 중";
     matched(found, doubtful): "비코드 표적 관측 {found}개를 정합했습니다. 의심스러운 표적 {doubtful}개는 이름 없이 두었습니다.";
     control: "기준점";
@@ -716,6 +725,11 @@ translate! { Korean desk {
     object_points: "대상점";
     points_all(n): "{n} × 3 좌표";
     points_with_control(n, control): "{n} × 3 좌표, 그중 기준점 {control}개";
+    model_brown: "Brown";
+    model_opencv: "OpenCV";
+    model_opencv_rational: "OpenCV 유리식";
+    model_opencv_fisheye: "OpenCV 어안";
+    of_model(model, words): "{model}: {words}";
     all_estimated(free): "{free} 추정";
     all_held(held): "{held} 고정";
     estimated_and_held(free, held): "{free} 추정, {held} 고정";
@@ -748,6 +762,8 @@ translate! { Korean desk {
     lacks_control: "기준점을 셋 이상 주거나 다른 기준계를 고르십시오";
     lacks_control_body: "기준점 기준계는 한 직선 위에 있지 않은 알려진 점에서 위치, 자세, 축척을 얻습니다.";
     n_control(n): "기준점 {n}개";
+    n_check(n): "검사점 {n}개";
+    n_distances(n): "거리 {n}개";
     no_unit: "단위 없음";
     lacks_scale: "두 점 사이 거리를 주십시오";
     lacks_scale_body: "기준점도 거리도 축척을 정하지 않아 결과의 크기가 임의입니다.";
@@ -1267,7 +1283,8 @@ translate! { Korean object {
     no_graphics(detail): "여기서는 3차원 보기를 열 수 없습니다({detail}). 브라우저에서 하드웨어 가속이나 WebGL을 켜십시오. 대신 위에서 본 대상물입니다.";
     graphics_lost: "이 페이지의 그래픽이 회수되었습니다";
     caption(points, photos, factor, unit): "{points}점, 사진 {photos}매. 오차타원체 1σ, {factor}배. 길이 단위 {unit}";
-    plan_label: "위에서 본 대상물";
+    overview_label: "비스듬히 위에서 본 대상물과 사진";
+    every_nth_point(n): "미지점은 {n}점마다 1점만 그렸습니다.";
     kind_distance: "거리";
     kind_angle: "각";
     kind_line: "직선";
@@ -1291,6 +1308,7 @@ translate! { Korean object {
     quantity_diameter: "지름";
     quantity_rms: "형상 RMS";
     no_features: "아직 측정한 형상이 없습니다. 화면에서 점을 고르거나 점번호를 적은 다음 만들 형상을 고르십시오.";
+    hardly_forms(kind, rms, percent): "이 점들은 {kind}{kind:을|를} 이룬다고 보기 어렵습니다. RMS {rms}, 점군 크기의 {percent} %";
     weakly_determined(percent): "점들이 반지름이나 방향을 {percent} %까지만 결정하여 표준오차가 없습니다";
     missing_points(names): "여기서 결정되지 않은 점: {names}";
     deviation: "편차";
@@ -1330,7 +1348,7 @@ translate! { Korean errors {
     recognised(kind): "{kind} 파일입니다. 여기서는 읽지 못하므로 JPEG, PNG, TIFF로 변환하십시오";
     raw_unread(kind): "{kind} 파일입니다. 여기서는 읽지 못하므로 센서 값을 그대로 담는 DNG로 변환하십시오(Adobe DNG Converter, dnglab)";
     decoder_missing(format, message): "{format} 디코더를 불러오지 못했습니다({message}). 이런 파일이 처음 들어올 때 내려받으므로 그때 한 번은 네트워크가 필요합니다";
-    no_picture: "읽을 수 있는 사진이 아닙니다. 8·16비트 JPEG, PNG, TIFF, BMP가 필요합니다";
+    no_picture: "읽을 수 있는 사진이 아닙니다. JPEG, HEIC, 카메라 RAW, PNG, TIFF, BMP가 필요합니다";
     broken(detail): "사진을 복호할 수 없습니다({detail}). 카메라에서 다시 복사하십시오";
     size(width, height, limit): "사진이 {width} × {height} 화소입니다. 1화소부터 {limit}화소까지 처리합니다";
     unknown(kind, name): "{kind} \"{name}\"{name:이|가} 없습니다";

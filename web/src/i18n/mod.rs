@@ -16,7 +16,10 @@ use sightline::error::{Damage, Lack, PictureKind, Reason, Thing};
 use sightline::initial::Degeneracy;
 use sightline::project::ReportLanguage;
 
-pub use en::{comparing, equipment, experiments, lasting, object, planning, printing};
+pub use en::{
+    comparing, equipment, experiments, first, inside, interchange, lasting, lists, monitoring, object, planning,
+    printing, systematic,
+};
 
 use crate::browser::page;
 
@@ -46,6 +49,8 @@ pub trait Speech {
     fn name(&self) -> &'static str;
     /// The engine's own language that is nearest to it, for pages and sheets.
     fn pages(&self) -> ReportLanguage;
+    /// What of another program's file was not kept, by the engine's or the file's own name.
+    fn ignored(&self, name: &str) -> String;
     fn reason(&self, reason: &Reason) -> String;
     fn damage(&self, damage: &Damage) -> String;
     fn degeneracy(&self, degeneracy: &Degeneracy) -> String;
@@ -222,6 +227,12 @@ mod tests {
                 comparing::words(language).every_text(),
                 equipment::words(language).every_text(),
                 lasting::words(language).every_text(),
+                monitoring::words(language).every_text(),
+                interchange::words(language).every_text(),
+                lists::words(language).every_text(),
+                first::words(language).every_text(),
+                systematic::words(language).every_text(),
+                inside::words(language).every_text(),
             ];
             parts.into_iter().flatten().map(move |text| (language, text))
         };

@@ -1,11 +1,15 @@
 //! Why the engine refuses something, in Korean. The English is the engine's own.
 
+mod pictures;
+
 use std::fmt::Display;
 
-use sightline::error::{Damage, Expected, Lack, PhotoModelerPart, PictureKind, Reason, Thing};
+use sightline::error::{Expected, Lack, PhotoModelerPart, Reason, Thing};
 use sightline::initial::Degeneracy;
 use sightline::report::texts::particles::after;
 use sightline::report::texts::template;
+
+pub use pictures::{damage, picture};
 
 /// A sentence whose particles follow its values.
 fn told(template: &str, values: &[(&str, &dyn Display)]) -> String {
@@ -143,6 +147,21 @@ pub fn reason(reason: &Reason) -> String {
             return format!("{name}의 값이 {value}입니다. 0보다 큰 확률이어야 하며 유의수준은 0.5 이하입니다");
         }
         R::MonitoringThresholds => "한계값은 0보다 큰 길이이고, 주의 한계는 경보 한계를 넘을 수 없습니다",
+        R::CalibrationGrid => "격자는 각 변에 2–1000개의 점이 있어야 합니다",
+        R::CalibrationDistance => "거리는 프로젝트 단위로 0보다 큰 유한한 수입니다",
+        R::TranslationWithoutDistance => "이동은 방향을 바꾸지 않습니다. 거리를 지정하거나 회전만 제거하십시오",
+        R::PhotosOfNoAdjustment => "카메라 두 개만으로는 사진이 없습니다. 회전, 회전과 이동, 또는 없음을 선택하십시오",
+        R::NoCameraCovariance => {
+            "조정 결과에 이 카메라 변수의 표준오차가 없습니다. 일부 변수를 추정하고 통계량을 함께 계산하십시오"
+        }
+        R::RegionWithoutRays => "맞춤 영역에 광선이 너무 적습니다. 영상 전체를 사용하십시오",
+        R::CamerasOfTwoSizes => "두 카메라의 영상 크기가 다릅니다",
+        R::CamerasApart => "어떤 회전으로도 두 카메라가 맞지 않습니다. 같은 렌즈의 캘리브레이션이 아닙니다",
+        R::EquationsOfAnother => {
+            "이 문서의 방정식이 조정 결과의 표준오차와 맞지 않습니다. 로버스트 가중과 여러 그룹의 분산성분 없이 현재 문서를 다시 조정하십시오"
+        }
+        R::CameraOfSeveral => "카메라가 여러 개입니다. 하나를 지정하십시오",
+        R::PhotoOfCamera => "이 카메라는 사진마다 내부표정이 따로 있습니다. 사진을 지정하십시오",
         R::DatumPoints => "기준계에는 한 직선 위에 있지 않은 점이 셋 이상 필요합니다",
         R::NoImage => "점의 상이 생기지 않는 곳에서 반복이 끝났습니다. 초기값을 개선하십시오",
         R::StandardErrorsApart { value, usual } => {
@@ -265,6 +284,18 @@ pub fn reason(reason: &Reason) -> String {
         }
         R::HeadingTwice { name } => return told("머리글에 {name} 열이 두 번 나옵니다", &[("name", name)]),
         R::UnitOfCoordinates => "머리글에 표준오차의 단위만 있고 좌표의 단위가 없습니다. 좌표의 단위를 고르십시오",
+        R::GeographicHeading => {
+            "머리글이 위도와 경도입니다. 조정은 공간 직각좌표로 하므로 먼저 평면좌표(TM, UTM)로 투영하십시오"
+        }
+        R::GeographicAngle { name, text } => {
+            return told(
+                "{name}{name:은|는} 각도입니다: \"{text}\". 조정은 공간 직각좌표로 하므로 먼저 평면좌표(TM, UTM)로 투영하십시오",
+                &[("name", name), ("text", text)],
+            );
+        }
+        R::ListColumns { needed, columns } => {
+            return format!("이 목록의 행에는 열이 적어도 {needed}개 있어야 하는데 {columns}개입니다");
+        }
         R::TooLarge { name, text } => {
             return told("{name}{name:이|가} 너무 큽니다: \"{text}\"", &[("name", name), ("text", text)]);
         }
@@ -447,46 +478,6 @@ pub fn reason(reason: &Reason) -> String {
     plain.to_owned()
 }
 
-/// What a picture that is not read is.
-pub fn picture(kind: &PictureKind) -> String {
-    use PictureKind as K;
-    let plain = match kind {
-        K::Named(_) | K::Raw(_) => return kind.to_string(),
-        K::RawLayered(format) => return format!("적층형 센서의 RAW({format})"),
-        K::RawSamples(format, samples) => return format!("화소마다 값이 {samples}개인 RAW({format})"),
-        K::RawCamera(format, camera) => return format!("{camera} 카메라의 RAW({format})"),
-        K::HeifOf(items) => return format!("{items} 형식을 담은 HEIF"),
-        K::Rare(format) => return format!("드문 방식의 {format}"),
-        K::HeifOverlay => "여러 영상을 겹쳐 놓은 HEIF",
-        K::Video => "MP4 또는 QuickTime 동영상",
-        K::FloatingPoint => "부동소수점 영상",
-        K::DeepPalette => "팔레트가 1, 2, 4, 8비트가 아닌 TIFF",
-        K::LosslessJpeg => "무손실 JPEG",
-        K::HierarchicalJpeg => "계층형 JPEG",
-        K::ArithmeticJpeg => "산술 부호화 JPEG",
-        K::TwelveBitJpeg => "12비트 JPEG",
-        K::OddJpeg => "8비트가 아닌 JPEG",
-        K::JpegWithoutHeight => "헤더에 높이가 없는 JPEG",
-    };
-    plain.to_owned()
-}
-
-/// What is wrong with a picture's file.
-pub fn damage(damage: &Damage) -> String {
-    match damage {
-        Damage::EndsEarly => "파일이 중간에 끝납니다".to_owned(),
-        Damage::NoPicture => "영상이 들어 있지 않습니다".to_owned(),
-        Damage::Header => "머리 부분이 손상되었습니다".to_owned(),
-        Damage::NoPalette => "색상표가 없습니다".to_owned(),
-        Damage::ClaimsTooMuch { width, height } => {
-            format!("머리 부분에 적힌 {width} × {height}화소를 파일의 바이트가 담을 수 없습니다")
-        }
-        Damage::NoWholeRow => "온전하다고 할 수 있는 행이 없습니다".to_owned(),
-        Damage::Rows { first, last } => format!("{first}–{last}행이 손상되었습니다"),
-        Damage::Decoder { message } => message.clone(),
-    }
-}
-
 /// Why an initial value cannot be computed.
 pub fn degeneracy(degeneracy: &Degeneracy) -> String {
     match degeneracy {
@@ -533,6 +524,7 @@ pub fn lack(lack: Lack) -> &'static str {
         Lack::Points => "점",
         Lack::Observations => "관측값",
         Lack::FiducialMarks => "사진지표",
+        Lack::Cameras => "카메라",
         Lack::Readings => "측정값",
         Lack::Files => "파일",
         Lack::Adjustment => "광속조정 결과",
@@ -583,30 +575,4 @@ fn expected(expected: Expected) -> &'static str {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Every choice of words is one of the field's, and no two things share theirs by mistake.
-    #[test]
-    fn things_are_told_apart() {
-        let mut words: Vec<_> = Thing::ALL.iter().map(|one| thing(*one)).collect();
-        words.sort_unstable();
-        words.dedup();
-        assert_eq!(words.len(), Thing::ALL.len());
-        assert!(Lack::ALL.iter().all(|one| !lack(*one).is_ascii()));
-        let kinds =
-            ["MP4 or QuickTime video", "lossless JPEG", "PNG of a rare kind", "RAW (NEF of A B)", "HEIF of j2k1"];
-        for kind in kinds.map(|words| PictureKind::from(words.to_owned())) {
-            assert!(!picture(&kind).is_ascii(), "{kind}");
-        }
-        assert_eq!(picture(&PictureKind::Raw("Canon CR2".into())), "RAW (Canon CR2)");
-    }
-
-    #[test]
-    fn values_are_carried_over() {
-        let told = reason(&Reason::NotANumber { name: "Y".into(), text: "zwei".into() });
-        assert_eq!(told, "Y가 수가 아닙니다: \"zwei\"");
-        let told = reason(&Reason::DiametersSwapped { min_diameter: 9.5.into(), max_diameter: 4.0.into() });
-        assert_eq!(told, "최소 지름 9.5가 최대 지름 4보다 큽니다");
-    }
-}
+mod tests;

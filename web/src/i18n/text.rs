@@ -10,3 +10,14 @@ pub fn role_word(role: sightline::project::Role) -> &'static str {
         sightline::project::Role::Check => role_check(),
     }
 }
+
+/// A camera model's name, as people read it.
+pub fn model_name(interior: &sightline::project::Interior) -> &'static str {
+    use sightline::project::Interior;
+    match interior {
+        Interior::Brown { .. } => model_brown(),
+        Interior::Opencv { .. } => model_opencv(),
+        Interior::OpencvRational { .. } => model_opencv_rational(),
+        Interior::OpencvFisheye { .. } => model_opencv_fisheye(),
+    }
+}

@@ -16,19 +16,30 @@ use crate::browser::worker::Bytes;
 use crate::browser::{page, storage};
 use crate::edit::targets;
 use crate::format;
-use crate::i18n::{comparing, text};
+use crate::i18n::{comparing, first, text};
+
+/// Rounds of matching and adjusting at most. Each names targets that the one before could not; more than a few hundred points in a
+/// network that grows by one photo a round never need as many, and without a limit a network that keeps changing would never end.
+const MOST_ROUNDS: usize = 12;
+
+/// How far matching and adjusting in turn has come.
+#[derive(Clone, Copy, Default)]
+struct Rounds {
+    found: usize,
+    count: usize,
+}
 
 impl Desk {
     /// Orients what is not oriented and adjusts everything.
     pub fn adjust(self) {
+        self.go(Step::Adjust);
         self.adjust_then(|_| {});
     }
 
-    fn adjust_then(self, then: fn(Self)) {
+    fn adjust_then(self, then: impl Fn(Self) + Clone + 'static) {
         let (input, options) = self.document.with_untracked(|d| (d.project.clone(), d.options.clone()));
         self.iterations.set(Vec::new());
         self.adjust_failure.set(None);
-        self.go(Step::Adjust);
         let most = options.max_iterations;
         let batch = self.start_job(JobKind::Adjusting, most, move || self.keep_last_result());
         let project = input.clone();
@@ -44,7 +55,7 @@ impl Desk {
                 self.step_job(batch);
             }
             pool::Outcome::Done(adjusted, texts) => {
-                let input = input.clone();
+                let (input, then) = (input.clone(), then.clone());
                 spawn_local(async move {
                     match self.read_result(batch, input, adjusted, texts).await {
                         Ok(true) => then(self),
@@ -126,13 +137,31 @@ impl Desk {
     }
 
     /// Names the targets without a code by where the oriented photos see them.
+    /// What is named then orients the photos better, and so more can be named: both are repeated until nothing is added.
     pub fn match_uncoded(self) {
-        self.match_then(|_| {});
+        if self.may_change() {
+            self.match_round(Rounds::default());
+        }
+    }
+
+    fn match_round(self, before: Rounds) {
+        self.match_then(move |desk, found, doubtful| {
+            let rounds = Rounds { found: before.found + found, count: before.count + usize::from(found > 0) };
+            match found {
+                0 if rounds.count == 0 => desk.tell(move || first::match_nothing(doubtful)),
+                0 => desk.tell(move || first::matched_all(format::count(rounds.found), doubtful, rounds.count)),
+                _ => desk.adjust_then(move |desk| match rounds.count < MOST_ROUNDS {
+                    true => desk.match_round(rounds),
+                    false => desk.warn(move || first::match_stopped(rounds.count)),
+                }),
+            }
+        });
     }
 
     /// Matches, adjusts and shows the result of a project that nobody has worked on.
     pub fn match_then_adjust(self) {
-        self.match_then(|desk| {
+        self.match_then(|desk, _, _| {
+            desk.go(Step::Adjust);
             desk.adjust_then(|desk| {
                 desk.is_pristine();
                 desk.go(Step::Results);
@@ -140,7 +169,8 @@ impl Desk {
         });
     }
 
-    fn match_then(self, then: fn(Self)) {
+    /// Matches once; `then` gets how many observations are new and how many targets are doubtful.
+    fn match_then(self, then: impl Fn(Self, usize, usize) + 'static) {
         let (project, targets) = self.document.with_untracked(|d| {
             let oriented = d
                 .current()
@@ -153,8 +183,8 @@ impl Desk {
             pool::Outcome::Progress(_) => {}
             pool::Outcome::Done(matching, _) => {
                 self.end_job();
-                self.take_matching(matching);
-                then(self);
+                let (found, doubtful) = self.take_matching(matching);
+                then(self, found, doubtful);
             }
             pool::Outcome::Failed(failure) => {
                 self.end_job();

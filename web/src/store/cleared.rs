@@ -7,7 +7,8 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use serde::de::IgnoredAny;
 
-use super::keeping::{Kept, Of, Opened, Started, Starting};
+use super::calls::{Of, Opened, Started, Starting};
+use super::keeping::Kept;
 use super::{Desk, Until};
 use crate::browser::page;
 use crate::browser::storage::{Fault, LOST, Storage};

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use sightline_protocol::to_text;
 
 use super::Desk;
-use super::keeping::{Ids, Of};
+use super::calls::{Ids, Of};
 use super::kept::{DETECTIONS, Note, RESULT, Replayed, Stack, State, named_in, replay};
 use crate::browser::page;
 use crate::browser::storage::{Fault, Storage};

@@ -1,40 +1,101 @@
 //! Control points, scale and datum: what ties the object to the world.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::Error;
 use sightline::error::{Lack, Place};
-use sightline::exchange::control_csv::{self, Choices, ControlTable};
+use sightline::exchange::control_csv::{Assumption, Basis, Choices, ControlTable, Field, SigmaRule};
+use sightline::exchange::encoding::Encoding;
+use sightline::exchange::lists;
 use sightline::project::{DatumKind, Distance, Point, Project, Role};
 use sightline::units::{self, Unit};
 
 use super::document::{Change, Document};
-use super::{Asking, Desk};
+use super::{Asking, Desk, Step};
+use crate::browser::page;
 use crate::edit::control::{self, DistanceFault};
 use crate::edit::unit;
 use crate::format;
 use crate::i18n::{Text, text};
 
 /// Control points that were pasted or opened, waiting to be taken.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pasted {
     pub source: String,
-    /// The text, to be read anew with other choices.
+    /// The list as it came, to be read anew with other choices.
+    pub bytes: Arc<Vec<u8>>,
+    /// Whether it is a file, whose encoding can be chosen.
+    pub from_file: bool,
+    /// The step that it came to, where it is answered; elsewhere it waits.
+    pub at: Step,
+    /// Its text.
     pub content: String,
     pub choices: Choices,
     pub table: ControlTable,
     /// The unit of its coordinates; none: it has to be asked for.
     pub unit: Option<String>,
+    /// The standard error of all points as typed, and why it is not taken.
+    pub typed_sigma: (String, Option<Error>),
+    /// What its points are taken as where no column says it; tie: their coordinates are approximate.
+    pub role: Role,
+    /// Whether it is read by the choices of an earlier list with this heading.
+    pub remembered: bool,
 }
 
 impl Pasted {
+    /// What each column holds, as many as the text has.
+    pub fn columns(&self) -> Vec<Option<Field>> {
+        let count = self.table.sample.iter().map(Vec::len).max().unwrap_or(0).max(self.table.heading.len());
+        let known = self.table.columns().or(self.choices.columns.as_deref()).unwrap_or_default();
+        let mut columns = known.to_vec();
+        columns.resize(count, None);
+        columns
+    }
+
+    /// Whether the list itself says its unit.
+    pub fn unit_of_the_list(&self) -> bool {
+        let says =
+            |a: &Assumption| matches!(a, Assumption::Unit { unit: Some(_), by: Basis::Heading | Basis::Content });
+        self.table.assumptions.iter().any(says)
+    }
+
+    /// Whether a column says what each point is taken as.
+    pub fn has_roles(&self) -> bool {
+        self.table.columns().is_some_and(|columns| columns.contains(&Some(Field::Role)))
+    }
+
+    /// Whether its coordinates are approximate ones of tie points.
+    fn is_approximate(&self) -> bool {
+        self.role == Role::Tie && !self.has_roles()
+    }
+
+    /// Its good points with the roles that they are taken as.
+    pub fn taken(&self) -> Vec<Point> {
+        let mut points = self.table.clone().split().0;
+        if !self.has_roles() {
+            points.iter_mut().for_each(|point| point.role = self.role);
+        }
+        points
+    }
+
+    /// Reads it anew by its choices.
+    fn read(&mut self) -> Result<(), Error> {
+        let mut choices = self.choices.clone();
+        if !self.from_file {
+            choices.encoding = Some(Encoding::Utf8);
+        }
+        (self.content, self.table) = lists::table(&self.bytes, &choices)?;
+        Ok(())
+    }
+
     /// Its good points in another unit.
     ///
     /// # Errors
     /// For units that cannot be converted.
     pub fn points_in(&self, unit: &str) -> Result<Vec<Point>, Error> {
-        let points = self.table.clone().split().0;
+        let points = self.taken();
         let factor = self.unit.as_deref().map_or(Ok(1.0), |own| units::factor(own, unit))?;
         Project { points, ..Project::default() }.scaled(factor).map(|project| project.points)
     }
@@ -45,33 +106,144 @@ impl Pasted {
     }
 }
 
+/// By which the choices for lists with a heading are found again; `None` without one.
+fn reading_key(heading: &[String]) -> Option<String> {
+    (!heading.is_empty()).then(|| format!("list {}", heading.join("\t")))
+}
+
+/// The choices that were made for an earlier list with this heading.
+fn remembered(heading: &[String]) -> Option<Choices> {
+    let kept = page::preference(&reading_key(heading)?)?;
+    sightline_protocol::from_text(&kept).ok()
+}
+
+/// Remembers how columns, decimal sign and axes of a heading were read, if anything was chosen. Unit and standard error are of one list.
+fn remember(pasted: &Pasted) {
+    let Choices { decimal, axes, columns, .. } = pasted.choices.clone();
+    if let Some(key) = reading_key(&pasted.table.heading)
+        && (decimal.is_some() || axes.is_some() || columns.is_some())
+    {
+        let kept = Choices { decimal, axes, columns, ..Choices::default() };
+        page::set_preference(&key, &sightline_protocol::to_text(&kept));
+    }
+}
+
 impl Desk {
-    /// Reads control points, to be looked at before they are taken; whether there are any.
+    /// Reads a list of points that was typed or pasted, to be looked at before it is taken; whether there are any.
     pub fn read_control(self, source: String, content: &str) -> bool {
-        let table = control_csv::parse(content);
-        if table.rows.is_empty() {
+        self.read_list(Pasted { source, bytes: Arc::new(content.as_bytes().to_vec()), ..Pasted::default() })
+    }
+
+    /// The same of a file.
+    pub fn read_control_file(self, source: String, bytes: Vec<u8>) -> bool {
+        self.read_list(Pasted { source, bytes: Arc::new(bytes), from_file: true, ..Pasted::default() })
+    }
+
+    fn read_list(self, mut fresh: Pasted) -> bool {
+        fresh.role = Role::Control;
+        fresh.at = self.step.get_untracked();
+        if let Err(error) = fresh.read() {
+            self.warn_error(error.in_file(&fresh.source));
+            return false;
+        }
+        if fresh.table.rows.is_empty() {
             self.warn_error(Error::Empty { what: Lack::Points });
             return false;
         }
-        self.show_control(source, content.to_owned(), Choices::default(), table);
+        if let Some(choices) = remembered(&fresh.table.heading) {
+            let alone = fresh.clone();
+            fresh.choices = choices;
+            fresh.remembered = true;
+            // What was chosen for another list may leave nothing of this one.
+            if fresh.read().is_err() || fresh.table.rows.iter().all(Result::is_err) {
+                fresh = alone;
+            }
+        }
+        // What was chosen for the list before is not of this one.
+        self.pasted.set(None);
+        self.show_control(fresh);
         true
     }
 
-    /// Reads the control points that wait anew, with an answer to what their text leaves open.
-    pub fn choose_reading(self, choose: impl FnOnce(&mut Choices)) {
-        let Some(Pasted { source, content, mut choices, .. }) = self.pasted.get_untracked() else { return };
-        choose(&mut choices);
-        let table = control_csv::parse_with(&content, choices);
-        self.show_control(source, content, choices, table);
+    /// Reads the list that waits by itself, without the choices of an earlier one.
+    pub fn forget_reading(self) {
+        let Some(mut pasted) = self.pasted.get_untracked() else { return };
+        if let Some(key) = reading_key(&pasted.table.heading) {
+            page::set_preference(&key, "");
+        }
+        pasted.choices = Choices::default();
+        pasted.remembered = false;
+        match pasted.read() {
+            Ok(()) => self.show_control(pasted),
+            Err(error) => self.warn_error(error),
+        }
     }
 
-    fn show_control(self, source: String, content: String, choices: Choices, table: ControlTable) {
+    /// Says what a column of the list holds; no other column holds the same.
+    pub fn set_column(self, place: usize, field: Option<Field>) {
+        self.choose_reading(|choices, columns| {
+            let mut columns = columns.to_vec();
+            if field.is_some() {
+                columns.iter_mut().filter(|other| **other == field).for_each(|other| *other = None);
+            }
+            if let Some(column) = columns.get_mut(place) {
+                *column = field;
+            }
+            choices.columns = Some(columns);
+        });
+    }
+
+    /// Takes one standard error for all points, as typed; nothing takes it away.
+    pub fn set_list_sigma(self, typed: &str) {
+        let rule = Some(typed.trim()).filter(|typed| !typed.is_empty()).map(SigmaRule::read).transpose();
+        let (rule, fault) = match rule {
+            Ok(rule) => (rule, None),
+            Err(error) => (None, Some(error)),
+        };
+        let typed = typed.to_owned();
+        self.pasted.update(|pasted| {
+            if let Some(pasted) = pasted {
+                pasted.typed_sigma = (typed, fault);
+            }
+        });
+        self.choose_reading(|choices, _| choices.sigma = rule);
+    }
+
+    /// Reads the list that waits anew, with an answer to what it leaves open or another choice than what was recognised.
+    pub fn choose_reading(self, choose: impl FnOnce(&mut Choices, &[Option<Field>])) {
+        let Some(mut pasted) = self.pasted.get_untracked() else { return };
+        let columns = pasted.columns();
+        choose(&mut pasted.choices, &columns);
+        match pasted.read() {
+            Ok(()) => self.show_control(pasted),
+            // The list stays as it was read before.
+            Err(error) => {
+                self.warn_error(error);
+                self.pasted.update(|_| ());
+            }
+        }
+    }
+
+    fn show_control(self, mut pasted: Pasted) {
         // Coordinates beside others are in their unit unless someone says otherwise; the first ones could be in any.
         let known = self.document.with_untracked(|d| control::has_lengths(&d.project).then(|| d.project.unit.clone()));
         let chosen = self.pasted.with_untracked(|p| p.as_ref().and_then(|p| p.unit.clone()));
-        // What the heading says is no question.
-        let unit = table.unit.map(|unit| unit.symbol().to_owned()).or(chosen).or(known);
-        self.pasted.set(Some(Pasted { source, content, choices, table, unit }));
+        // What the list says is no question.
+        let own = pasted.table.unit.filter(|_| pasted.unit_of_the_list()).map(|unit| unit.symbol().to_owned());
+        pasted.unit = own.or(chosen).or(known);
+        // Standard errors in a unit of their own need that of the coordinates.
+        let Choices { sigma, sigma_unit, unit, .. } = &pasted.choices;
+        if (sigma.is_some() || sigma_unit.is_some())
+            && unit.is_none()
+            && pasted.table.unit.is_none()
+            && pasted.unit.is_some()
+        {
+            pasted.choices.unit = pasted.unit.as_deref().and_then(Unit::named);
+            if let Err(error) = pasted.read() {
+                return self.warn_error(error);
+            }
+        }
+        self.pasted.set(Some(pasted));
     }
 
     /// Says in which unit the coordinates waiting to be taken are.
@@ -83,7 +255,7 @@ impl Desk {
                 pasted.unit = chosen;
             }
         });
-        self.choose_reading(|choices| choices.unit = known);
+        self.choose_reading(|choices, _| choices.unit = known);
     }
 
     /// Takes the rows that were understood.
@@ -92,14 +264,14 @@ impl Desk {
         let Some(unit) = pasted.unit.clone() else {
             return self.warn_here(|| text::which_unit().to_owned());
         };
-        if pasted.is_asked() {
+        if pasted.is_asked() || pasted.typed_sigma.1.is_some() {
             return;
         }
-        let (points, _) = pasted.table.split();
+        remember(&pasted);
+        let points = pasted.taken();
         if points.is_empty() {
             return;
         }
-        let count = points.len();
         let mut after = self.document.get_untracked();
         // The first given lengths bring their unit; what else has lengths goes with it.
         let first = !control::has_lengths(&after.project) && unit::holds_lengths(&after);
@@ -107,12 +279,14 @@ impl Desk {
             Some(unit) => unit::convert(&mut after, unit),
             None => Ok(()),
         };
-        let taken = converted.and_then(|()| control::take_points(after.project_mut(), points, &unit));
-        if let Err(error) = taken {
-            return self.warn_error(error);
-        }
+        let take = if pasted.is_approximate() { control::take_approximate } else { control::take_points };
+        let count = match converted.and_then(|()| take(after.project_mut(), points, &unit)) {
+            Ok(count) => count,
+            Err(error) => return self.warn_error(error),
+        };
         self.change(Change::ControlTaken(count), |document| *document = after);
         self.pasted.set(None);
+        self.go(Step::Control);
     }
 
     pub fn set_role(self, id: &str, role: Role) {

@@ -6,7 +6,8 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use serde::de::IgnoredAny;
 
-use super::keeping::{Copied, Keys, uncopied_words};
+use super::calls::{Copied, Keys};
+use super::keeping::uncopied_words;
 use super::{Desk, PhotoFile, Until};
 use crate::browser::file::Blob;
 use crate::browser::page;

@@ -1,11 +1,14 @@
 //! Targets: every photo is a task of the worker pool; what is found is in the document at once.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use leptos::prelude::*;
 use sightline::detection::{Channel, Detection};
 use sightline::ring_code::Family;
 use sightline_protocol::Detect;
 
-use super::document::Change;
+use super::document::{Change, Document};
 use super::pool::{Failure, Outcome};
 use super::{Desk, JobKind, PhotoFile, Until};
 use crate::edit::{attaching, cameras, targets};
@@ -26,13 +29,15 @@ impl Desk {
         let largest = self.files.with_untracked(|files| files.values().map(PhotoFile::pixels).fold(0.0, f64::max));
         self.pool.with_value(|pool| pool.expect_pixels(largest));
         // One change for all photos; each photo's targets join it as they come.
-        self.change(Change::TargetsDetected, |_| {});
+        let Some(asked) = self.start_change(Change::TargetsDetected, |_| {}) else { return };
+        let asked = Rc::new(Cell::new(asked));
         let channel = options.channel;
         let batch = self.start_job(JobKind::Detecting, photos.len(), || {});
         for (id, file) in photos {
+            let asked = asked.clone();
             let on_outcome = move |outcome: Outcome<Detect>| {
                 match outcome {
-                    Outcome::Done(detection, _) => self.add_detection(&id, detection, channel),
+                    Outcome::Done(detection, _) => self.add_detection(&asked, &id, detection, channel),
                     Outcome::Failed(Failure::Refused(error)) => {
                         let photo = id.clone();
                         self.say(true, Until::NextWork, move || text::photo_failed(&photo, errors::sentence(&error)));
@@ -54,7 +59,8 @@ impl Desk {
         }
     }
 
-    fn add_detection(self, photo: &str, detection: Detection, channel: Channel) {
+    /// `asked` is the change that the detection belongs to.
+    fn add_detection(self, asked: &Cell<u64>, photo: &str, detection: Detection, channel: Channel) {
         if !detection.damaged_rows.is_empty() {
             let rows = detection.damaged_rows.iter().map(|[first, last]| format!("{}–{last}", first + 1));
             let (photo, rows) = (photo.to_owned(), rows.collect::<Vec<_>>().join(", "));
@@ -74,15 +80,25 @@ impl Desk {
             [family] => Some(*family),
             _ => None,
         };
-        self.change_on(|document| {
+        let take = |document: &mut Document| {
+            // Taken out meanwhile.
+            if document.project.photos.iter().all(|other| other.id != photo) {
+                return;
+            }
             if !cameras::is_measured_in(&document.project, photo, channel, &detection) {
                 cameras::measured_in(document.project_mut(), photo, channel, &detection);
             }
             if attaching::is_unrecorded(&document.project, photo) {
                 attaching::record(document.project_mut(), photo, &sha256);
             }
-            targets::take_detection(document, photo, detection, family);
-        });
+            targets::take_detection(document, photo, detection.clone(), family);
+        };
+        // Undone, and something else done in its place: what still comes is a change of its own.
+        if !self.arrive(asked.get(), take)
+            && let Some(own) = self.start_change(Change::TargetsDetected, take)
+        {
+            asked.set(own);
+        }
     }
 
     /// Reads the rings as codes of this family, now and in photos to come.

@@ -153,8 +153,10 @@ pub enum Change {
 /// A change and the state on its other side.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// Tells entries apart.
+    /// Tells states apart: another one when its state changes or it goes to the other side.
     pub serial: u64,
+    /// The change's own number, which it keeps when it is undone and done again.
+    pub origin: u64,
     pub change: Change,
     /// None while it is still in the browser's storage.
     pub state: Option<Document>,
@@ -172,14 +174,14 @@ impl History {
     /// Changes whose states are still in the browser's storage.
     pub fn stored(past: Vec<Change>, future: Vec<Change>) -> Self {
         let mut history = Self::default();
-        history.past = past.into_iter().map(|change| history.entry(change, None)).collect();
-        history.future = future.into_iter().map(|change| history.entry(change, None)).collect();
+        history.past = past.into_iter().map(|change| history.entry(change, None, None)).collect();
+        history.future = future.into_iter().map(|change| history.entry(change, None, None)).collect();
         history
     }
 
-    fn entry(&mut self, change: Change, state: Option<Document>) -> Entry {
+    fn entry(&mut self, change: Change, origin: Option<u64>, state: Option<Document>) -> Entry {
         self.serials += 1;
-        Entry { serial: self.serials, change, state }
+        Entry { serial: self.serials, origin: origin.unwrap_or(self.serials), change, state }
     }
 
     /// Puts a state in its place that has come from the browser's storage.
@@ -189,24 +191,47 @@ impl History {
         }
     }
 
-    /// Remembers the state before a change.
-    pub fn push(&mut self, change: Change, before: Document) {
-        let entry = self.entry(change, Some(before));
+    /// Remembers the state before a change; the change's number.
+    pub fn push(&mut self, change: Change, before: Document) -> u64 {
+        let entry = self.entry(change, None, Some(before));
+        let origin = entry.origin;
         self.past.push(entry);
         self.future.clear();
+        origin
+    }
+
+    /// What a change brings after it was made, perhaps with others behind it: every state that comes after that change has it from then on, so
+    /// that undoing another change does not take it away, and undoing that change does. Says whether the present state is one of these;
+    /// none where the change is gone, undone and replaced by another.
+    pub fn arrive(&mut self, origin: u64, edit: impl Fn(&mut Document)) -> Option<bool> {
+        let behind = |entries: &[Entry]| entries.iter().position(|entry| entry.origin == origin);
+        // An entry of the past has the state before its change, one of the future that after it; the future's last is done again first.
+        let (past, future, present) = match (behind(&self.past), behind(&self.future)) {
+            (Some(k), _) => (k + 1..self.past.len(), 0..self.future.len(), true),
+            (None, Some(k)) => (0..0, 0..k + 1, false),
+            (None, None) => return None,
+        };
+        let serials = &mut self.serials;
+        for entry in self.past[past].iter_mut().chain(&mut self.future[future]) {
+            let Some(state) = &mut entry.state else { continue };
+            edit(state);
+            *serials += 1;
+            entry.serial = *serials;
+        }
+        Some(present)
     }
 
     /// The state before the last change; `present` can be got back.
     pub fn undo(&mut self, present: Document) -> Option<Document> {
         let entry = self.past.pop_if(|entry| entry.state.is_some())?;
-        let back = self.entry(entry.change, Some(present));
+        let back = self.entry(entry.change, Some(entry.origin), Some(present));
         self.future.push(back);
         entry.state
     }
 
     pub fn redo(&mut self, present: Document) -> Option<Document> {
         let entry = self.future.pop_if(|entry| entry.state.is_some())?;
-        let back = self.entry(entry.change, Some(present));
+        let back = self.entry(entry.change, Some(entry.origin), Some(present));
         self.past.push(back);
         entry.state
     }
@@ -274,5 +299,42 @@ mod tests {
         assert!(!document.out_of_date());
         let document = history.redo(document).unwrap();
         assert_eq!(document.project.unit, "m");
+    }
+
+    /// Names of points stand for edits, "found" for what a detection brings.
+    fn names(document: &Document) -> Vec<&str> {
+        document.project.points.iter().map(|p| p.id.as_str()).collect()
+    }
+
+    fn add(document: &mut Document, id: &str) {
+        let point = sightline::project::Point { id: id.into(), ..Default::default() };
+        document.project_mut().points.push(point);
+    }
+
+    #[test]
+    fn what_arrives_belongs_to_the_change_that_asked_for_it() {
+        let mut document = Document::default();
+        let mut history = History::default();
+        let origin = history.push(Change::TargetsDetected, document.clone());
+        history.push(Change::UnitSet, document.clone());
+        add(&mut document, "edited");
+        assert_eq!(history.arrive(origin, |d| add(d, "found")), Some(true));
+        add(&mut document, "found");
+        // Undoing the edit leaves what was found; undoing the detection takes it away.
+        document = history.undo(document).unwrap();
+        assert_eq!(names(&document), ["found"]);
+        document = history.undo(document).unwrap();
+        assert!(names(&document).is_empty());
+        // What arrives now is there when the detection is done again.
+        assert_eq!(history.arrive(origin, |d| add(d, "late")), Some(false));
+        assert!(names(&document).is_empty());
+        document = history.redo(document).unwrap();
+        assert_eq!(names(&document), ["found", "late"]);
+        document = history.redo(document).unwrap();
+        assert_eq!(names(&document), ["edited", "found", "late"]);
+        document = history.undo(document).unwrap();
+        document = history.undo(document).unwrap();
+        history.push(Change::UnitSet, document);
+        assert_eq!(history.arrive(origin, |d| add(d, "never")), None);
     }
 }

@@ -9,8 +9,8 @@ use sightline::equipment::{Calibration, Equipment, HEAD, KnownCamera, ScaleBar, 
 use sightline::exchange::encoding;
 use sightline::exif::PhotoInfo;
 
+use super::calls::Plain;
 use super::document::Change;
-use super::keeping::Plain;
 use super::{Desk, Step, Until};
 use crate::browser::file::{self, NamedFile};
 use crate::browser::page;
@@ -60,7 +60,7 @@ impl Desk {
     }
 
     /// Changes what is kept, here and in the storage; where it cannot be written, the page says so.
-    fn change_equipment(self, change: impl FnOnce(&mut Equipment)) {
+    pub(super) fn change_equipment(self, change: impl FnOnce(&mut Equipment)) {
         self.equipment.all.update(change);
         let written = self.equipment.all.with_untracked(Equipment::write);
         let text = match written {
@@ -182,12 +182,14 @@ impl Desk {
         });
         let info = self.photos_say(camera);
         self.equipment.all.with(|all| {
-            let known = all.cameras.iter().filter(|known| known.took(&info, size));
             let of = |known: &KnownCamera| {
-                let id = known.id.clone();
-                known.calibrations.iter().rev().map(move |c| (id.clone(), c.clone())).collect::<Vec<_>>()
+                let (id, took) = (known.id.clone(), known.took(&info, size));
+                // Files of other programs name no camera: theirs are offered by size alone.
+                let fits = known.model.is_none() && [known.width, known.height] == size;
+                let offered = known.calibrations.iter().rev().filter(|c| took || fits && c.origin.is_some());
+                offered.map(|c| (id.clone(), c.clone())).collect::<Vec<_>>()
             };
-            known.flat_map(of).collect()
+            all.cameras.iter().flat_map(of).collect()
         })
     }
 

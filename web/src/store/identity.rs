@@ -203,12 +203,23 @@ impl Desk {
         self.selection.update(|s| s.point = None);
     }
 
-    /// Takes what matching found; what is doubtful is listed and not used.
-    pub fn take_matching(self, matching: Matching) {
-        let found = matching.observations.len();
+    /// Takes what matching found; what is doubtful is listed and not used. How many observations are new, and how many targets are
+    /// doubtful.
+    pub fn take_matching(self, matching: Matching) -> (usize, usize) {
         let doubtful = matching.doubtful.len();
-        self.change(Change::Matched(found), |document| targets::take_matching(document, matching));
-        self.tell(move || text::matched(format::count(found), format::count(doubtful)));
+        let before = self.document.with_untracked(|d| d.project.observations.len());
+        let mut after = self.document.get_untracked();
+        targets::take_matching(&mut after, matching);
+        let found = after.project.observations.len().saturating_sub(before);
+        match found {
+            // A result stays current where nothing was added to what it was made from.
+            0 => self.change_on(|document| document.doubtful = after.doubtful),
+            _ => {
+                self.change(Change::Matched(found), |document| *document = after);
+                self.tell(move || text::matched(format::count(found), format::count(doubtful)));
+            }
+        }
+        (found, doubtful)
     }
 
     /// Reads a file of marks, to be looked at before they are taken; whether there are any.

@@ -11,15 +11,17 @@ use sightline::project::{Photo, Project};
 use sightline_protocol::{Glance, Open};
 
 use super::document::{Change, Document};
+use super::foreign::is_picture;
 use super::pool::{Batch, Failure, Outcome};
-use super::saving::{is_project, is_text};
+use super::saving::{is_packed, is_project, is_text};
 use super::{Asking, Desk, JobKind, PhotoFile, Problem, Reason, Step, Until};
 use crate::browser::file::NamedFile;
+use crate::browser::page;
 use crate::browser::picture::Picture;
 use crate::edit::attaching::{self, Arriving, Belongs};
 use crate::edit::cameras::{self, Signature};
-use crate::edit::{natural, pairs};
-use crate::i18n::{Text, text};
+use crate::edit::{naming, natural, pairs};
+use crate::i18n::{Text, errors, first, interchange, monitoring, text};
 use crate::parts::{Absent, part};
 
 /// Longest side of the small pictures, sharp on twice as dense screens.
@@ -35,12 +37,46 @@ pub struct Coming {
 
 type Taken = Rc<RefCell<Vec<(usize, Result<PhotoFile, Problem>)>>>;
 
+/// The sentence for a file that was not taken.
+pub fn problem_sentence(reason: &Reason) -> String {
+    match reason {
+        Reason::Engine(error) => errors::sentence(error),
+        Reason::Duplicate { of } => text::duplicate_of(of),
+        Reason::SameName { of } => text::same_name_as(of),
+        Reason::Developed { of } => text::developed_of(of),
+        Reason::RawOf { of } => text::raw_of(of),
+        Reason::Unreadable(detail) => text::unreadable(detail),
+        Reason::AnotherProject => interchange::another_project().to_owned(),
+        Reason::Empty => text::is_empty().to_owned(),
+        Reason::NoList => text::is_no_list().to_owned(),
+        Reason::EpochNotAdjusted => monitoring::not_adjusted().to_owned(),
+        Reason::EpochOutOfDate => monitoring::adjusted_before().to_owned(),
+    }
+}
+
 part! { steps, fn sorted_and_taken(desk: Desk, files: Vec<NamedFile>) -> (), {
     desk.take_now(files);
 } }
 
 impl Desk {
-    /// Takes files wherever they were dropped.
+    /// Takes files that a person drops or chooses: photos on the start page begin a project of their own.
+    pub fn take_dropped(self, files: Vec<NamedFile>) {
+        let busy = self.job.with_untracked(Option::is_some);
+        let begins = !busy
+            && self.step.get_untracked() == Step::Start
+            && !self.document.with_untracked(Document::is_empty)
+            && files.iter().any(|file| is_picture(&file.name))
+            && !files.iter().any(|file| is_project(&file.name));
+        if !begins {
+            return self.take(files);
+        }
+        self.over_unsaved(move || {
+            self.begin_with(Document::default());
+            self.take(files.clone());
+        });
+    }
+
+    /// Takes files wherever they come from.
     pub fn take(self, files: Vec<NamedFile>) {
         self.when_it_came(sorted_and_taken(self, files));
     }
@@ -59,23 +95,34 @@ impl Desk {
         if files.is_empty() || !self.may_change() {
             return;
         }
+        if self.step.get_untracked() == Step::Monitoring
+            && files.iter().all(|f| is_project(&f.name) || is_text(&f.name))
+        {
+            self.take_epochs(files);
+            return;
+        }
         if self.job.with_untracked(Option::is_some) {
             self.say(true, Until::WorkEnds, || text::busy().to_owned());
             return;
         }
-        let (mut projects, others): (Vec<_>, Vec<_>) = files.into_iter().partition(|f| is_project(&f.name));
-        if let Some(project) = projects.pop() {
-            self.open_project_or_equipment(project);
+        let (mut packed, others): (Vec<_>, Vec<_>) = files.into_iter().partition(|f| is_packed(&f.name));
+        if let Some(project) = packed.pop() {
+            self.open_project(project);
             return;
         }
-        let (texts, photos): (Vec<_>, Vec<_>) = others.into_iter().partition(|f| is_text(&f.name));
         self.problems.set(Vec::new());
-        let (empty, texts): (Vec<_>, Vec<_>) = texts.into_iter().partition(|f| f.content.is_empty());
-        self.add_problems(empty.into_iter().map(|f| Problem { file: f.name, reason: Reason::Empty }).collect());
-        if photos.is_empty() {
-            self.take_texts(texts, false);
-        } else {
-            self.take_photos(photos, texts);
+        let empty_text = |f: &NamedFile| f.content.is_empty() && is_text(&f.name);
+        let (empty, others): (Vec<_>, Vec<_>) = others.into_iter().partition(empty_text);
+        // A model of COLMAP may have no points: its file is not missing then.
+        let (parts, empty): (Vec<_>, Vec<_>) =
+            empty.into_iter().partition(|f| f.name.eq_ignore_ascii_case("points3D.txt"));
+        self.tell_problems(empty.into_iter().map(|f| Problem { file: f.name, reason: Reason::Empty }).collect());
+        let (pictures, mut others): (Vec<_>, Vec<_>) = others.into_iter().partition(|f| is_picture(&f.name));
+        others.extend(parts);
+        match (pictures.is_empty(), others.is_empty()) {
+            (true, true) => {}
+            (false, true) => self.take_photos(pictures, Vec::new()),
+            (_, false) => self.take_by_content(others, pictures),
         }
     }
 
@@ -91,7 +138,7 @@ impl Desk {
     }
 
     /// Takes photos, then the texts that came with them.
-    fn take_photos(self, mut files: Vec<NamedFile>, texts: Vec<NamedFile>) {
+    pub(super) fn take_photos(self, mut files: Vec<NamedFile>, texts: Vec<NamedFile>) {
         files.sort_by(|a, b| natural(&a.name, &b.name));
         let taken = Taken::default();
         let keep = taken.clone();
@@ -221,6 +268,9 @@ impl Desk {
         }
         problems.dedup();
         self.problems.set(problems);
+        if added > 0 && project.name.is_empty() {
+            project.name = self.name_of(&project);
+        }
         if added > 0 {
             self.change(Change::PhotosAdded(added), |document| *document.project_mut() = project);
         } else if recorded > 0 {
@@ -442,6 +492,17 @@ impl Desk {
             reason => Problem { file, reason },
         };
         self.problems.get().into_iter().map(now).collect()
+    }
+
+    /// What a project is called by its photos.
+    fn name_of(self, project: &Project) -> String {
+        let none = PhotoInfo::default();
+        let name = self.files.with_untracked(|files| {
+            let of = |photo| files.get(photo).map_or(&none, |file: &PhotoFile| &file.info);
+            let photos = project.photos.iter().map(|p| (p.file.as_str(), of(&p.id))).collect::<Vec<_>>();
+            naming::project_name(&photos, &page::today(), first::project())
+        });
+        self.name_apart(name)
     }
 
     fn add_photo(self, project: &mut Project, file: &PhotoFile) -> String {

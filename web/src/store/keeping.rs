@@ -7,16 +7,16 @@ use std::rc::Rc;
 use leptos::prelude::*;
 use leptos::task::spawn_local;
 use serde::de::IgnoredAny;
-use serde::{Deserialize, Serialize};
-use sightline_protocol::{from_text, to_text};
+use sightline_protocol::to_text;
 
+use super::calls::{Append, Appended, Damage, KeptCard, Of, Opened, Started, Starting, card};
 use super::document::{Document, Entry, History};
-use super::kept::{Book, KeptFile, Note, Part, State, replay};
+use super::kept::{Book, KeptFile, Part, State};
+use super::reading::{Reading, read_document, rescued};
 use super::{Desk, PhotoFile, Selection, Step, Until};
-use crate::browser::file::{Blob, NamedFile};
+use crate::browser::file::NamedFile;
 use crate::browser::page;
-use crate::browser::picture::Picture;
-use crate::browser::storage::{Extra, Fault, LOST, Piece, Storage};
+use crate::browser::storage::{Extra, Fault, LOST, Storage};
 use crate::i18n::text;
 
 /// Undoable states that are read ahead of being asked for.
@@ -69,129 +69,6 @@ pub struct Keeper {
     reading: bool,
 }
 
-/// A project in the list.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Card {
-    pub name: String,
-    /// In milliseconds.
-    pub changed: f64,
-    pub photos: usize,
-    pub points: usize,
-    pub outcome: CardOutcome,
-    pub sigma0: Option<f64>,
-    /// Of image coordinates whose standard errors were estimated: the factor, and the a priori pixels it belongs to.
-    #[serde(default)]
-    pub estimated: Option<(f64, f64)>,
-    pub step: String,
-}
-
-/// How far a project is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum CardOutcome {
-    None,
-    Passed,
-    Failed,
-    OutOfDate,
-    /// Standard errors were estimated from the residuals: there is no verdict.
-    Estimated,
-}
-
-#[derive(Serialize)]
-pub(super) struct Append {
-    id: String,
-    pub(super) snapshot: bool,
-    note: String,
-    parts: Vec<(u64, String)>,
-    card: KeptCard,
-    #[serde(skip)]
-    texts: Vec<Vec<Piece>>,
-}
-
-#[derive(Serialize)]
-struct KeptCard {
-    #[serde(flatten)]
-    card: Card,
-    /// Of the photos, the one on the cover first.
-    keys: Vec<String>,
-}
-
-/// What the worker says of a project that it opened.
-#[derive(Deserialize)]
-pub(super) struct Opened {
-    pub(super) notes: Vec<String>,
-    pub(super) following: bool,
-    #[serde(rename = "nextPart")]
-    pub(super) next_part: u64,
-    pub(super) damage: Option<Damage>,
-}
-
-/// What was wrong with a journal.
-#[derive(Clone, Copy, Deserialize)]
-pub(super) struct Damage {
-    /// Nothing is lost.
-    pub(super) mended: bool,
-    /// Whether notes follow what is lost.
-    pub(super) gap: bool,
-}
-
-impl Opened {
-    pub(super) fn has_gap(&self) -> bool {
-        self.damage.is_some_and(|damage| damage.gap)
-    }
-}
-
-impl Append {
-    /// Whether a journal ends with this: then it was written, though nobody heard of it.
-    pub(super) fn is_last_of(&self, opened: &Opened) -> bool {
-        opened.notes.last() == Some(&self.note) && self.parts.iter().all(|(number, _)| *number < opened.next_part)
-    }
-}
-
-#[derive(Deserialize)]
-pub(super) struct Copied {
-    pub(super) missed: Vec<String>,
-    pub(super) failure: Option<Fault>,
-}
-
-#[derive(Deserialize)]
-struct Appended {
-    /// Of the journal.
-    size: f64,
-}
-
-#[derive(Serialize)]
-pub(super) struct Starting {
-    /// Where storage was cleared under the page: "noticed" by this window, or "told" by another one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub after: Option<&'static str>,
-}
-
-#[derive(Deserialize)]
-pub(super) struct Started {
-    pub kind: String,
-    pub fresh: bool,
-}
-
-/// Of a call with nothing to say.
-#[derive(Serialize)]
-pub(super) struct Plain {}
-
-#[derive(Serialize)]
-pub(super) struct Ids<'a> {
-    pub ids: &'a [u64],
-}
-
-#[derive(Serialize)]
-pub(super) struct Keys<'a> {
-    pub(super) keys: &'a [String],
-}
-
-/// A call that names a project.
-#[derive(Serialize)]
-pub(super) struct Of<'a> {
-    pub id: &'a str,
-}
-
 impl PhotoFile {
     pub(super) fn pixels(&self) -> f64 {
         f64::from(self.size[0]) * f64::from(self.size[1])
@@ -223,18 +100,25 @@ impl Desk {
                         self.keep_now();
                         self.read_shelf();
                         self.read_equipment();
+                        self.return_to_open();
                     }
-                    _ => self.kept.set(Kept::Nowhere),
+                    _ => self.keep_nowhere(),
                 }
             }),
-            Err(_) => self.kept.set(Kept::Nowhere),
+            Err(_) => self.keep_nowhere(),
         }
+        self.start_remembering();
         Effect::new(move || {
             self.document.track();
             self.history.track();
             self.files.track();
             untrack(|| self.keep_now());
         });
+    }
+
+    fn keep_nowhere(self) {
+        self.kept.set(Kept::Nowhere);
+        self.return_nowhere();
     }
 
     pub(super) fn storage_worker(self) -> Result<Storage, String> {
@@ -460,17 +344,16 @@ impl Desk {
     }
 
     /// Opens a project of the list, as it was left.
-    pub fn open_kept(self, id: String, step: String) {
+    pub fn open_kept(self, id: String, step: Step) {
         self.open_kept_then(id, step, |_| ());
     }
 
-    pub(super) fn open_kept_then(self, id: String, step: String, then: fn(Self)) {
+    pub(super) fn open_kept_then(self, id: String, step: Step, then: fn(Self)) {
         self.over_unsaved(move || {
             self.keep_now();
-            let (id, step) = (id.clone(), step.clone());
+            let id = id.clone();
             spawn_local(async move {
                 if self.flushed().await && self.open_call("open", &id).await {
-                    let step = Step::ROW.into_iter().find(|s| s.name() == step).unwrap_or(Step::Photos);
                     self.go(step);
                     then(self);
                 }
@@ -490,7 +373,7 @@ impl Desk {
         self.open_call("open", id).await;
     }
 
-    async fn open_call(self, call: &str, id: &str) -> bool {
+    pub(super) async fn open_call(self, call: &str, id: &str) -> bool {
         let Some(storage) = self.storage() else { return false };
         let restored = match storage.call::<Opened>(call, &Of { id }, Vec::new()).await {
             Ok((opened, _)) => self.restore(&storage, id, opened).await,
@@ -610,6 +493,7 @@ impl Desk {
             keeper.backlog.clear();
             keeper.stored.clear();
         });
+        self.forget_open();
         self.forget_waiting();
         self.files.set(BTreeMap::new());
         self.others.set_value(Vec::new());
@@ -639,142 +523,5 @@ pub fn uncopied_words(photos: usize, Fault { name, detail }: &Fault) -> String {
         // What browsers say of a full disk is for programmers, and in English.
         "QuotaExceededError" => text::photos_not_copied(photos, text::no_room()),
         _ => text::photos_not_copied(photos, format!("{name}: {detail}")),
-    }
-}
-
-fn data_fault(detail: String) -> Fault {
-    Fault { name: "DataError".into(), detail }
-}
-
-type Texts = HashMap<u64, String>;
-
-async fn read_parts(storage: &Storage, numbers: Vec<u64>, into: &mut Texts) -> Result<(), Fault> {
-    if numbers.is_empty() {
-        return Ok(());
-    }
-    let (_, texts) = storage.call::<IgnoredAny>("parts", &Ids { ids: &numbers }, Vec::new()).await?;
-    into.extend(numbers.into_iter().zip(texts).filter_map(|(number, text)| Some((number, text.text()?))));
-    Ok(())
-}
-
-async fn read_document(storage: &Storage, book: &RefCell<Book>, state: &State) -> Result<Document, Fault> {
-    let mut texts = Texts::new();
-    let missing = book.borrow().missing(state);
-    read_parts(storage, missing, &mut texts).await?;
-    let missing = book.borrow().missing_of(state, &texts).map_err(data_fault)?;
-    read_parts(storage, missing, &mut texts).await?;
-    book.borrow_mut().document(state, &texts).map_err(data_fault)
-}
-
-type ReadFile = (KeptFile, Option<Blob>, Option<Picture>);
-
-/// A project as it was read.
-struct Reading {
-    document: Document,
-    history: History,
-    book: Rc<RefCell<Book>>,
-    /// States of the history that are still in the storage, by their serials.
-    stored: HashMap<u64, State>,
-    files: BTreeMap<String, ReadFile>,
-    /// Newer states that could not be read.
-    lost: usize,
-}
-
-impl Reading {
-    /// Out of a whole journal.
-    async fn whole(storage: &Storage, opened: &Opened) -> Result<Self, Fault> {
-        let mut replayed = replay(&opened.notes).map_err(data_fault)?;
-        let state = replayed.present.clone().ok_or_else(|| data_fault("no state".into()))?;
-        let changes = |stack: &[(super::document::Change, State)]| stack.iter().map(|(c, _)| c.clone()).collect();
-        let history = History::stored(changes(&replayed.past), changes(&replayed.future));
-        let book = Rc::new(RefCell::new(Book::of(&replayed, &history, opened.next_part)));
-        let mut document = read_document(storage, &book, &state).await?;
-        let files = read_files(storage, &book, replayed.files).await?;
-        if let Some(name) = replayed.name.take() {
-            super::saving::rename(&mut document, name);
-        }
-        let entries = history.past.iter().chain(&history.future).map(|entry| entry.serial);
-        let states = replayed.past.into_iter().chain(replayed.future).map(|(_, state)| state);
-        let stored = entries.zip(states).collect();
-        Ok(Self { document, history, book, stored, files, lost: 0 })
-    }
-}
-
-/// Out of a journal in which something is lost: the newest state of which every part can be read, in a book that has nothing written yet. What
-/// could be undone was counted from what is lost, and is not taken.
-async fn rescued(storage: &Storage, opened: &Opened) -> Result<Reading, Fault> {
-    let notes = opened.notes.iter().map(|note| from_text::<Note>(note)).collect::<Result<Vec<_>, _>>();
-    let notes = notes.map_err(data_fault)?;
-    let numbers = notes.iter().rev().filter_map(|note| note.files);
-    let mut files = BTreeMap::new();
-    for number in numbers {
-        if let Ok(read) = read_files(storage, &RefCell::default(), Some(number)).await {
-            files = read;
-            break;
-        }
-    }
-    for (lost, state) in notes.iter().rev().filter_map(|note| note.present.as_ref()).enumerate() {
-        if let Ok(document) = read_document(storage, &RefCell::default(), state).await {
-            return Ok(Reading {
-                document,
-                history: History::default(),
-                book: Rc::default(),
-                stored: HashMap::new(),
-                files,
-                lost,
-            });
-        }
-    }
-    Err(data_fault("no state can be read".into()))
-}
-
-async fn read_files(
-    storage: &Storage,
-    book: &RefCell<Book>,
-    number: Option<u64>,
-) -> Result<BTreeMap<String, ReadFile>, Fault> {
-    let Some(number) = number else { return Ok(BTreeMap::new()) };
-    let mut texts = Texts::new();
-    read_parts(storage, vec![number], &mut texts).await?;
-    let text = texts.remove(&number).unwrap_or_default();
-    let files = book.borrow_mut().files(number, &text).map_err(data_fault)?;
-    let keys = files.values().map(|file| file.key.clone()).collect::<Vec<_>>();
-    let (_, blobs) = storage.call::<IgnoredAny>("photos", &Keys { keys: &keys }, Vec::new()).await?;
-    let mut blobs = blobs.into_iter();
-    let mut all = BTreeMap::new();
-    for (photo, file) in files {
-        let (content, small) = (blobs.next().and_then(Extra::blob), blobs.next().and_then(Extra::blob));
-        let small = match small {
-            Some(small) => Picture::from_blob(&small).await.ok(),
-            None => None,
-        };
-        all.insert(photo, (file, content, small));
-    }
-    Ok(all)
-}
-
-fn card(document: &Document, step: Step) -> Card {
-    let current = document.current();
-    let passed = current.and_then(|r| r.adjustment.global_test.as_ref()).map(|test| test.passed);
-    let adjustment = current.map(|r| &r.adjustment).filter(|a| a.standard_errors_estimated());
-    let outcome = match passed {
-        _ if document.out_of_date() => CardOutcome::OutOfDate,
-        _ if adjustment.is_some() => CardOutcome::Estimated,
-        Some(true) => CardOutcome::Passed,
-        Some(false) => CardOutcome::Failed,
-        None => CardOutcome::None,
-    };
-    Card {
-        name: document.project.name.clone(),
-        changed: page::now(),
-        photos: document.project.photos.len(),
-        points: document.project.points.len(),
-        outcome,
-        sigma0: current.and_then(|r| r.adjustment.sigma0),
-        estimated: adjustment.and_then(|a| {
-            let mut told = a.variance_components.iter().filter(|c| c.not_estimated.is_none());
-            told.find_map(|c| Some((c.factor, c.a_priori_px?)))
-        }),
-        step: step.name().to_owned(),
     }
 }

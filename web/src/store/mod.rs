@@ -2,6 +2,7 @@
 
 pub mod adjusting;
 mod apart;
+pub mod calls;
 pub mod cameras;
 mod cleared;
 pub mod condensing;
@@ -12,12 +13,15 @@ pub mod document;
 pub mod equipment;
 pub mod experiments;
 pub mod features;
+pub mod foreign;
 pub mod identity;
+pub mod inside;
 pub mod intake;
 pub mod keeping;
 pub mod kept;
 mod lasting;
 pub mod marking;
+pub mod monitoring;
 pub mod parts;
 pub mod pictures;
 pub mod planning;
@@ -26,7 +30,9 @@ pub mod pool;
 pub mod predicting;
 pub mod printing;
 pub mod questions;
+mod reading;
 pub mod report;
+mod returning;
 pub mod sample;
 pub mod saving;
 pub mod selection;
@@ -47,7 +53,7 @@ use sightline::detection::{Codes, DetectOptions};
 use sightline::exif::PhotoInfo;
 use sightline::orient::Note;
 
-use crate::browser::file::Blob;
+use crate::browser::file::{Blob, NamedFile};
 use crate::browser::page;
 use crate::browser::picture::Picture;
 use crate::browser::storage::Fault;
@@ -58,8 +64,10 @@ use document::{Change, Document, History};
 use equipment::Equipped;
 use experiments::Experiments;
 use identity::Marks;
+use inside::Inside;
 use keeping::{Keeper, Kept};
 use marking::Series;
+use monitoring::Monitored;
 use planning::Planning;
 use pool::{Batch, Pool};
 use predicting::Predicting;
@@ -92,6 +100,12 @@ pub enum Step {
     Print,
     /// Cameras and scale bars that are of no project.
     Equipment,
+    /// Epochs of an object beside each other.
+    Monitoring,
+    /// Files for other programs.
+    Files,
+    /// Matrices, steps, datums and errors of an adjustment.
+    Inside,
 }
 
 impl Step {
@@ -118,18 +132,36 @@ impl Step {
             Self::Plan => "plan",
             Self::Print => "print",
             Self::Equipment => "equipment",
+            Self::Monitoring => "monitoring",
+            Self::Files => "files",
+            Self::Inside => "inside",
         }
     }
 
     fn from_name(name: &str) -> Self {
-        let beside = [Self::Tables, Self::Object].into_iter().chain(Self::BEFORE);
+        let beside =
+            [Self::Tables, Self::Object, Self::Monitoring, Self::Files, Self::Inside].into_iter().chain(Self::BEFORE);
         Self::ROW.into_iter().chain(beside).find(|s| s.name() == name).unwrap_or_default()
+    }
+
+    /// Whether it shows a project, so that a project can be left at it.
+    pub fn of_a_project(self) -> bool {
+        !matches!(self, Self::Start | Self::Experiments | Self::Print | Self::Equipment | Self::Inside)
     }
 
     /// Whether it needs no project.
     pub fn is_before(self) -> bool {
-        Self::BEFORE.contains(&self)
+        Self::BEFORE.contains(&self) || matches!(self, Self::Monitoring | Self::Inside)
     }
+}
+
+/// A menu of the head.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Menu {
+    /// What is done with a project, and what lies beside the path.
+    File,
+    /// On a phone: everything that is not needed all the time.
+    More,
 }
 
 /// Colours of the page.
@@ -180,10 +212,13 @@ pub enum JobKind {
     Matching,
     Saving,
     OpeningProject,
+    /// Of files that may be another program's.
+    Reading,
     Sample,
     Experiment,
     Reporting,
     Planning,
+    Comparing,
 }
 
 /// A photo's file as it was dropped.
@@ -226,8 +261,14 @@ pub enum Reason {
     Unreadable(String),
     /// There is nothing in it.
     Empty,
+    /// Another project was opened from the same drop.
+    AnotherProject,
     /// It is a text, but no list of anything that is read here.
     NoList,
+    /// A project that was not adjusted cannot be an epoch.
+    EpochNotAdjusted,
+    /// Neither can one that has changed since.
+    EpochOutOfDate,
 }
 
 /// What keys ask of the photo view.
@@ -333,6 +374,12 @@ pub struct Desk {
     pub layers: RwSignal<Layers>,
     /// Whether clicks in a photo place points freely, as with Alt.
     pub placing: RwSignal<bool>,
+    /// The step of the path, or the start page, that was shown before what lies beside it.
+    pub came_from: RwSignal<Step>,
+    /// The menu that is open.
+    pub menu: RwSignal<Option<Menu>>,
+    /// The step to return to, while the project that was open before the page was loaded again comes back.
+    pub returning: RwSignal<Option<Step>>,
     pub detect_options: RwSignal<DetectOptions>,
     /// Iterations of the adjustment under way or done last.
     pub iterations: RwSignal<Vec<Iteration>>,
@@ -354,6 +401,10 @@ pub struct Desk {
     pub problems: RwSignal<Vec<Problem>>,
     /// Photos that are being read.
     pub coming: RwSignal<Vec<intake::Coming>, LocalStorage>,
+    /// Pictures and lists that came with a network which is about to open.
+    following: StoredValue<(Vec<NamedFile>, Vec<NamedFile>), LocalStorage>,
+    /// Files for other programs.
+    pub prepared: RwSignal<foreign::PreparedFiles, LocalStorage>,
     /// Files of shots whose other file is measured: RAW beside what was developed from it.
     pub others: StoredValue<Vec<PhotoFile>>,
     pub notice: RwSignal<Option<Notice>>,
@@ -390,10 +441,12 @@ pub struct Desk {
     pub lasting: RwSignal<Vec<lasting::Lasting>, LocalStorage>,
     pub pool: StoredValue<Pool, LocalStorage>,
     pub experiments: Experiments,
+    pub inside: Inside,
     pub reports: report::Reports,
     pub printing: Printing,
     pub equipment: Equipped,
     pub planning: Planning,
+    pub monitoring: Monitored,
 }
 
 impl Desk {
@@ -423,6 +476,9 @@ impl Desk {
             view_verb: RwSignal::default(),
             layers: RwSignal::default(),
             placing: RwSignal::default(),
+            came_from: RwSignal::default(),
+            menu: RwSignal::default(),
+            returning: RwSignal::default(),
             // Whoever has coded targets expects them to be read; photos without rings are the same either way.
             detect_options: RwSignal::new(DetectOptions { codes: Codes::Auto, ..DetectOptions::default() }),
             iterations: RwSignal::default(),
@@ -438,6 +494,8 @@ impl Desk {
             values: RwSignal::default(),
             problems: RwSignal::default(),
             coming: RwSignal::new_local(Vec::new()),
+            following: StoredValue::new_local(Default::default()),
+            prepared: RwSignal::new_local(BTreeMap::new()),
             others: StoredValue::default(),
             notice: RwSignal::default(),
             asking: RwSignal::new_local(None),
@@ -460,21 +518,42 @@ impl Desk {
             lasting: RwSignal::new_local(Vec::new()),
             pool: StoredValue::new_local(Pool::default()),
             experiments: Experiments::default(),
+            inside: Inside::default(),
             reports: report::Reports::default(),
             printing: Printing::default(),
             equipment: Equipped::default(),
             planning: Planning::default(),
+            monitoring: Monitored::default(),
         }
     }
 
     /// Changes the document so that it can be undone.
     pub fn change(self, change: Change, edit: impl FnOnce(&mut Document)) {
+        self.start_change(change, edit);
+    }
+
+    /// The same of a change that brings more later ([`arrive`](Self::arrive)): its number, none where nothing may be changed.
+    pub fn start_change(self, change: Change, edit: impl FnOnce(&mut Document)) -> Option<u64> {
         if !self.may_change() {
-            return;
+            return None;
         }
         let before = self.document.get_untracked();
-        self.history.update(|history| history.push(change, before));
+        let origin = self.history.try_update(|history| history.push(change, before));
         self.document.update(edit);
+        origin
+    }
+
+    /// Takes what a change brings after it was made: undoing what was done meanwhile does not take it away. Says whether that change is still
+    /// there, done or undone.
+    pub fn arrive(self, origin: u64, edit: impl Fn(&mut Document)) -> bool {
+        if !self.may_change() {
+            return true;
+        }
+        let present = self.history.try_update(|history| history.arrive(origin, &edit)).flatten();
+        if present == Some(true) {
+            self.document.update(edit);
+        }
+        present.is_some()
     }
 
     /// Goes on with the change before: the two are undone together.
@@ -525,8 +604,20 @@ impl Desk {
     }
 
     pub fn go(self, step: Step) {
+        self.leave_for(step);
         self.step.set(step);
         page::set_hash(step.name());
+    }
+
+    /// Ends what ends with the step, and remembers where the way back from beside the path leads.
+    pub(super) fn leave_for(self, step: Step) {
+        let now = self.step.get_untracked();
+        if now != step {
+            self.end_modes();
+            if now == Step::Start || Step::ROW.contains(&now) {
+                self.came_from.set(now);
+            }
+        }
     }
 
     /// Follows the address after '#', where the step is open already.
@@ -539,6 +630,7 @@ impl Desk {
         let empty = self.document.with_untracked(Document::is_empty) && !coming;
         let allowed = if empty && !step.is_before() { Step::Start } else { step };
         if self.step.get_untracked() != allowed {
+            self.leave_for(allowed);
             self.step.set(allowed);
         }
     }

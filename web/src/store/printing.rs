@@ -3,7 +3,6 @@
 
 use leptos::prelude::*;
 use sightline::Error;
-use sightline::project::Interior;
 use sightline::sheets::SheetOptions;
 use sightline_protocol::{DrawSheets, Drawn, WriteSheets, from_text, to_text};
 
@@ -113,10 +112,7 @@ impl Desk {
         self.document.with(|d| {
             let own =
                 d.project.cameras.first().or_else(|| d.project.plan.as_ref()?.cameras.first()).and_then(|camera| {
-                    let c_px = match camera.interior {
-                        Interior::Brown { c, .. } => c? / camera.pitch()[0],
-                        Interior::Opencv { fx, .. } => fx?,
-                    };
+                    let c_px = camera.principal_distance_px()?;
                     Some(Seeing { size: [camera.width, camera.height], c_px, assumed: false })
                 });
             // 28 mm on 36 x 24 mm with 6000 pixels.

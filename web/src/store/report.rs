@@ -32,6 +32,8 @@ pub struct Reports {
     pub compared: RwSignal<Option<Arc<Comparison>>>,
     /// Why nothing was.
     pub failure: RwSignal<Option<String>>,
+    /// Whether another one is being made: what is shown is the one before.
+    pub being_made: RwSignal<bool>,
     /// Tells the answer to the last question from earlier ones.
     asked: RwSignal<u64>,
     asked_plots: RwSignal<u64>,
@@ -62,11 +64,13 @@ impl Desk {
         });
         let serial = self.reports.asked.get_untracked() + 1;
         self.reports.asked.set(serial);
+        self.reports.being_made.set(task.is_some());
         let Some(task) = task else { return self.reports.made.set(None) };
         let on_outcome = move |outcome: Outcome<MakeReport>| {
             if self.reports.asked.get_untracked() != serial {
                 return;
             }
+            self.reports.being_made.set(false);
             match outcome {
                 Outcome::Done(made, _) => {
                     self.reports.failure.set(None);
@@ -85,6 +89,7 @@ impl Desk {
             }
         };
         let stopped = move || {
+            self.reports.being_made.set(false);
             self.reports.made.set(None);
             self.reports.failure.set(Some(words::report_stopped().to_owned()));
         };

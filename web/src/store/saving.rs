@@ -28,6 +28,11 @@ pub fn is_project(name: &str) -> bool {
     matches!(ending.as_str(), "zip" | "json" | EXTENSION)
 }
 
+/// Whether a file name is that of a project in an archive.
+pub fn is_packed(name: &str) -> bool {
+    is_project(name) && !name.to_ascii_lowercase().ends_with(".json")
+}
+
 /// Whether a file name is that of a table or list.
 pub fn is_text(name: &str) -> bool {
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
@@ -151,7 +156,7 @@ impl Desk {
     }
 
     /// Puts a document on the desk, with the photos that came with it.
-    fn take_content(self, content: Content, stem: &str, photos: Vec<NamedFile>) {
+    pub(super) fn take_content(self, content: Content, stem: &str, photos: Vec<NamedFile>) {
         let mut project = content.project;
         if project.name.is_empty() {
             project.name = stem.to_owned();
@@ -182,6 +187,7 @@ impl Desk {
 
     /// What belonged to the project before is not asked any more, and its pictures are let go.
     pub(super) fn forget_waiting(self) {
+        self.end_modes();
         self.pictures.set(Vec::new());
         self.notes.set(Vec::new());
         self.adjust_failure.set(None);

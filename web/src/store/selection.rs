@@ -250,6 +250,7 @@ impl Desk {
     /// Takes back what is chosen or asked.
     pub fn escape(self) {
         self.asking.set(None);
+        self.end_modes();
         self.selection.update(|s| {
             *s = Selection { photo: s.photo.take(), ..Selection::default() };
         });

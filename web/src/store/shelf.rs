@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use sightline::project::Project;
 use sightline_protocol::from_text;
 
-use super::keeping::{Card, CardOutcome, Of, Plain};
+use super::calls::{Card, CardOutcome, Of, Plain};
 use super::{Asking, Desk, Step, Until};
 use crate::browser::file::download_kept_file;
 use crate::browser::page;
@@ -34,12 +34,12 @@ pub struct Shelved {
 }
 
 #[derive(Deserialize)]
-struct Listed {
-    id: String,
+pub(super) struct Listed {
+    pub(super) id: String,
     bytes: f64,
     /// A text: one that cannot be read hides no other.
     card: Option<String>,
-    deleted: bool,
+    pub(super) deleted: bool,
     aside: usize,
 }
 
@@ -99,7 +99,12 @@ impl Desk {
                 let read = one.card.as_deref().and_then(|card| from_text::<Card>(card).ok());
                 let (card, unreadable) = match read {
                     Some(card) => (card, false),
-                    None => card_of_journal(&storage, &one.id).await.map_or((no_card(), true), |card| (card, false)),
+                    None => match card_of_journal(&storage, &one.id).await {
+                        Ok(card) => (card, false),
+                        // Another window has let go of it since the list was made.
+                        Err(name) if name == "NotFoundError" && one.card.is_none() => continue,
+                        Err(_) => (no_card(), true),
+                    },
                 };
                 let Listed { id, bytes, aside, .. } = one;
                 let damaged = unreadable || aside > 0;
@@ -160,11 +165,11 @@ impl Desk {
     }
 
     /// Opens a project and hands its file over, photos and all.
-    pub fn download_kept(self, id: &str, step: &str) {
+    pub fn download_kept(self, id: &str, step: Step) {
         if self.open_id().as_deref() == Some(id) {
             return self.save(true);
         }
-        self.open_kept_then(id.to_owned(), step.to_owned(), |desk| desk.save(true));
+        self.open_kept_then(id.to_owned(), step, |desk| desk.save(true));
     }
 
     /// Takes a project out of the list; for a while it can be got back. What is open in another window stays.
@@ -269,12 +274,13 @@ impl Desk {
     }
 }
 
-/// What the list shows of a project without a card that can be read: what its journal says.
-async fn card_of_journal(storage: &Storage, id: &str) -> Option<Card> {
+/// What the list shows of a project without a card that can be read: what its journal says; or the name of what is wrong with that.
+async fn card_of_journal(storage: &Storage, id: &str) -> Result<Card, String> {
     let peeking = Peeking { id, kind: "project" };
-    let (peeked, texts) = storage.call::<Peeked>("peek", &peeking, Vec::new()).await.ok()?;
-    let project = from_text::<Project>(&texts.into_iter().next()?.text()?).ok()?;
-    Some(Card {
+    let (peeked, texts) = storage.call::<Peeked>("peek", &peeking, Vec::new()).await.map_err(|fault| fault.name)?;
+    let words = texts.into_iter().next().and_then(|extra| extra.text());
+    let project = words.and_then(|words| from_text::<Project>(&words).ok()).ok_or("DataError")?;
+    Ok(Card {
         name: peeked.name.unwrap_or(project.name),
         photos: project.photos.len(),
         points: project.points.len(),

@@ -6,7 +6,8 @@ use std::rc::Rc;
 use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::exchange::comparator;
-use sightline::exchange::{Files, Row, control_csv, encoding, rows};
+use sightline::exchange::control_csv::ListFormat;
+use sightline::exchange::{Files, Row, control_csv, encoding, lists, rows};
 use sightline::project::Project;
 
 use super::{Asking, Desk, Problem, Reason, Step, Until};
@@ -27,6 +28,9 @@ const MOST: f64 = 0.5;
 
 /// The ways in which a text can be read beside this project: none for prose, two where nothing tells them apart.
 pub fn readings(text: &str, project: &Project) -> Vec<Reading> {
+    if lists::recognised(text) != ListFormat::Table {
+        return vec![Reading::Control];
+    }
     let rows = rows(text);
     let Some(first) = rows.first() else { return Vec::new() };
     let names = |wanted: &[&str]| {
@@ -93,8 +97,8 @@ impl Desk {
         let mut waiting = Vec::new();
         let mut refused = Vec::new();
         for (name, bytes) in files {
-            let content = match encoding::text(&bytes) {
-                Ok(content) => content,
+            let content = match encoding::list(&bytes, None) {
+                Ok((content, ..)) => content,
                 Err(error) => {
                     refused.push(Problem { file: name, reason: Reason::Engine(error) });
                     continue;
@@ -103,28 +107,29 @@ impl Desk {
             let found = self.document.with_untracked(|d| readings(&content, &d.project));
             match (found.as_slice(), here) {
                 ([], _) => refused.push(Problem { file: name, reason: Reason::NoList }),
-                ([one], _) => waiting.push((name, content, *one)),
+                ([one], _) => waiting.push((name, bytes, content, *one)),
                 // The step that is open says which of the two is meant.
-                (_, Step::Identities) => waiting.push((name, content, Reading::Marks)),
-                (_, Step::Control) => waiting.push((name, content, Reading::Control)),
-                _ => self.ask_which(name, content),
+                (_, Step::Identities) => waiting.push((name, bytes, content, Reading::Marks)),
+                (_, Step::Control) => waiting.push((name, bytes, content, Reading::Control)),
+                _ => self.ask_which(name, bytes, content),
             }
         }
         let mut told = Vec::new();
-        for (name, content, reading) in waiting {
+        for (name, bytes, content, reading) in waiting {
             let ready = match reading {
                 Reading::Marks => self.read_marks(name.clone(), &content),
-                Reading::Control => self.read_control(name.clone(), &content),
+                Reading::Control => self.read_control_file(name.clone(), bytes),
             };
             if ready {
                 told.push((name, reading));
             }
         }
         if !refused.is_empty() {
-            self.add_problems(refused);
+            self.tell_problems(refused);
         }
-        if let Some((_, first)) = told.first().filter(|_| !quietly) {
-            self.go(first.step());
+        // A list of points is answered where it was dropped.
+        if let Some((_, Reading::Marks)) = told.first().filter(|_| !quietly) {
+            self.go(Step::Identities);
         }
         if told.len() > usize::from(!quietly) {
             self.say(false, Until::NextWork, move || {
@@ -138,16 +143,16 @@ impl Desk {
     }
 
     /// Asks what a text is that could be marks or control points.
-    fn ask_which(self, name: String, content: String) {
-        let content = Rc::new(content);
+    fn ask_which(self, name: String, bytes: Vec<u8>, content: String) {
+        let (bytes, content) = (Rc::new(bytes), Rc::new(content));
         let choice = |words: crate::i18n::Text, reading: Reading| {
-            let (name, content) = (name.clone(), content.clone());
+            let (name, bytes, content) = (name.clone(), bytes.clone(), content.clone());
             let take: Rc<dyn Fn()> = Rc::new(move || {
                 let ready = match reading {
                     Reading::Marks => self.read_marks(name.clone(), &content),
-                    Reading::Control => self.read_control(name.clone(), &content),
+                    Reading::Control => self.read_control_file(name.clone(), bytes.to_vec()),
                 };
-                if ready {
+                if ready && reading == Reading::Marks {
                     self.go(reading.step());
                 }
             });
@@ -163,12 +168,12 @@ impl Desk {
         spawn_local(async move {
             let name = file.name.clone();
             let Some(mut all) = self.contents(vec![file]).await else { return };
-            let content = all.remove(&name).unwrap_or_default();
-            match encoding::text(&content) {
-                Ok(content) => {
+            let bytes = all.remove(&name).unwrap_or_default();
+            match encoding::list(&bytes, None) {
+                Ok((content, ..)) => {
                     let ready = match reading {
                         Reading::Marks => self.read_marks(name, &content),
-                        Reading::Control => self.read_control(name, &content),
+                        Reading::Control => self.read_control_file(name, bytes),
                     };
                     if ready {
                         self.go(reading.step());

@@ -15,14 +15,37 @@ use super::field::Field;
 use super::gross_errors::{GrossErrorRecord, GrossErrors};
 use super::icon::{Glyph, Icon};
 use super::left_out::NotUsedList;
+use super::origin::ProjectOrigin;
 use super::plots::Convergence;
 use super::results::parameter_cells;
 use super::shell::TitleBar;
 use crate::browser::event;
 use crate::format;
-use crate::i18n::{comparing, text};
+use crate::i18n::{comparing, first, inside, text};
 use crate::store::document::Document;
+use crate::store::inside::Network;
 use crate::store::{Desk, Step};
+
+/// What to do first where no target has a name in two photos.
+#[component]
+fn NothingToAdjust() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let nothing = Memo::new(move |_| {
+        desk.document.with(|d| {
+            let mut rays = std::collections::HashMap::<&str, usize>::new();
+            d.project.observations.iter().filter(|o| o.enabled).for_each(|o| *rays.entry(&o.point).or_default() += 1);
+            rays.values().all(|n| *n < 2)
+        })
+    });
+    view! {
+        <Show when=move || nothing.get()>
+            <div class="empty-state" data-empty="observations">
+                <p>{first::no_observations}</p>
+                <button class="button primary" on:click=move |_| desk.go(Step::Identities)>{first::name_points} <Glyph icon=Icon::Arrow/></button>
+            </div>
+        </Show>
+    }
+}
 
 #[component]
 pub fn Adjust() -> impl IntoView {
@@ -43,6 +66,7 @@ pub fn Adjust() -> impl IntoView {
     let done = Memo::new(move |_| desk.document.with(|d| d.current().is_some()));
     view! {
         <TitleBar title=text::bundle_adjustment sentence=Signal::derive(sentence)>
+            <button class="button" data-action="inside" on:click=move |_| desk.open_inside(Network::Document)>{inside::inside}</button>
             <button class="button" class:primary=move || !done.get() on:click=move |_| desk.adjust()>
                 {move || if done.get() { text::adjust_again() } else { text::adjust_now() }}
             </button>
@@ -51,7 +75,7 @@ pub fn Adjust() -> impl IntoView {
             </Show>
         </TitleBar>
         <main class="adjust">
-            <section class="scroll" tabindex="0" aria-label=text::what_is_estimated><Estimated/><FromWhat/><DatumChoice/><GrossErrors/></section>
+            <section class="scroll" tabindex="0" aria-label=text::what_is_estimated><NothingToAdjust/><ProjectOrigin/><Estimated/><FromWhat/><DatumChoice/><GrossErrors/></section>
             <section class="scroll" tabindex="0" aria-label=text::iterations><Iterations/><PhotoResiduals/><NotUsedList/><GrossErrorRecord/></section>
             <section class="scroll" tabindex="0" aria-label=text::what_lacks><Advice/></section>
         </main>
@@ -120,11 +144,12 @@ fn CameraWords(id: String) -> impl IntoView {
                     c.interior.parameters().iter().filter(|p| estimated.contains(p) == wanted && **p != Parameter::F);
                 all.map(|p| parameter_name(*p)).collect::<Vec<_>>().join(", ")
             };
-            match (names(true), names(false)) {
+            let words = match (names(true), names(false)) {
                 (free, held) if held.is_empty() => text::all_estimated(free),
                 (free, held) if free.is_empty() => text::all_held(held),
                 (free, held) => text::estimated_and_held(free, held),
-            }
+            };
+            text::of_model(text::model_name(&c.interior), words)
         })
     };
     let count = move || camera.with(|c| c.as_ref().map_or(0, |c| c.estimated().len()));
@@ -136,7 +161,7 @@ fn CameraWords(id: String) -> impl IntoView {
                 <details>
                     <summary><b>{move || text::camera_named(id.get_value())}</b><small>{words}</small></summary>
                     <table class="table parameters">
-                        <thead><tr><th class="left">{text::estimated}</th><th>{text::initial_value}</th><th title=text::observed_with>"σ"</th><th class="left wide"></th></tr></thead>
+                        <thead><tr><th class="left">{text::estimated}</th><th>{text::initial_value}</th><th title=text::observed_with>"σ"</th><td class="left wide"></td></tr></thead>
                         <tbody>
                             {move || parameters.get().into_iter().map(|p| view! { <ParameterRow camera=id.get_value() p/> }).collect_view()}
                         </tbody>
@@ -217,7 +242,7 @@ fn HeldColours(camera: String) -> impl IntoView {
                 </p>
                 <table class="table parameters">
                     <thead><tr>
-                        <th class="left">{text::lens_colour}</th><th class="left"></th><th>{text::colour_difference}</th><th>"σ"</th><th class="left wide"></th>
+                        <th class="left">{text::lens_colour}</th><td class="left"></td><th>{text::colour_difference}</th><th>"σ"</th><td class="left wide"></td>
                     </tr></thead>
                     <tbody>{rows(&camera)}</tbody>
                 </table>
@@ -387,7 +412,7 @@ fn PhotoResiduals() -> impl IntoView {
             <h2 class="section-head"><span>{comparing::residuals_by_photo}</span></h2>
             <table class="table photo-residuals">
                 <thead><tr>
-                    <th class="left">{text::photo}</th><th>{text::points_column}</th><th>{text::rms_x} " " <u>"px"</u></th><th>{text::rms_y} " " <u>"px"</u></th><th class="left wide"></th>
+                    <th class="left">{text::photo}</th><th>{text::points_column}</th><th>{text::rms_x} " " <u>"px"</u></th><th>{text::rms_y} " " <u>"px"</u></th><td class="left wide"></td>
                 </tr></thead>
                 <tbody>{move || rows.get().into_iter().map(row).collect_view()}</tbody>
             </table>

@@ -1,6 +1,9 @@
 //! What the network lacks, as sentences: what to do, why, and the number that says so.
 
+mod grouping;
 mod questions;
+mod systematic;
+mod verdict;
 
 use std::collections::{HashMap, HashSet};
 
@@ -15,8 +18,11 @@ use super::results::units::length_unit;
 use super::results::{given_kind, given_name};
 use super::shell::step_label;
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{systematic as words, text};
+use crate::store::document::Outcome;
 use crate::store::{Desk, Step};
+
+pub use verdict::VerdictLine;
 
 /// What to go to for more.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +39,11 @@ enum Target {
     Hold {
         camera: String,
         parameter: Parameter,
+    },
+    /// Estimates parameters that are held.
+    Estimate {
+        camera: String,
+        parameters: Vec<Parameter>,
     },
     /// Exchanges axes of everything given; which of several it was is the person's to say.
     Exchange(Vec<Exchange>),
@@ -56,6 +67,7 @@ impl Target {
             Self::Step(step) => step_label(*step).to_owned(),
             Self::Unmodelled(px) => text::add_unmodelled(format::fixed(*px, 3)),
             Self::GivenWeights => text::given_weights().to_owned(),
+            Self::Estimate { parameters, .. } => words::estimate_now(systematic::names(parameters)),
             Self::Hold { parameter, .. } => text::hold(parameter_name(*parameter)),
             _ => text::show().to_owned(),
         };
@@ -166,6 +178,7 @@ fn follow(desk: Desk, target: &Target) {
             desk.set_options(|options| options.variance_components = None);
             desk.adjust();
         }
+        Target::Estimate { camera, parameters } => parameters.iter().for_each(|p| desk.set_free(camera, *p, true)),
         Target::Hold { camera, parameter } => desk.set_free(camera, *parameter, false),
     }
 }
@@ -232,9 +245,10 @@ fn items(desk: Desk) -> Vec<Item> {
             let spoils = spoils.into_iter().filter(|a| !matches!(a, sightline::adjustment::Advice::NoScale));
             items.splice(0..0, spoils.map(|advice| network_item(advice, &adjustment.criteria, &unit)));
             let (first, others): (Vec<_>, Vec<_>) = rest.into_iter().partition(|a| of_the_fit(a));
-            items.extend(first.into_iter().map(|advice| network_item(advice, &adjustment.criteria, &unit)));
-            items.extend(camera_against_photos(&adjustment.advice, &adjustment.criteria));
-            let others = others.into_iter().filter(|a| !of_one_photo(a));
+            let first = first.into_iter().filter(|a| !grouping::is_one_of_several(a, &adjustment.advice));
+            items.extend(first.map(|advice| network_item(advice, &adjustment.criteria, &unit)));
+            items.extend(grouping::insignificant(&adjustment.advice));
+            let others = others.into_iter().filter(|a| !is_correlation(a));
             items.extend(others.map(|advice| network_item(advice, &adjustment.criteria, &unit)));
         }
     });
@@ -249,9 +263,8 @@ fn items(desk: Desk) -> Vec<Item> {
         let disagrees = |n: &&Note| matches!(n, Note::MeasurementDisagrees { .. });
         let others = notes.iter().filter(|n| !disagrees(n) && !is_said(n, &advised));
         let disagreeing = notes.iter().filter(disagrees).take(if adjusted { 0 } else { 5 });
-        items.extend(
-            others.chain(disagreeing).filter_map(|n| note_item(n, &unit)).filter(|i| !said.contains(&i.target)),
-        );
+        let new = grouping::note_items(others.chain(disagreeing), &unit);
+        items.extend(new.into_iter().filter(|i| !said.contains(&i.target)));
         let more = notes.iter().filter(disagrees).count().saturating_sub(5);
         if more > 0 && !adjusted {
             let title = text::more_notes(format::count(more));
@@ -259,6 +272,12 @@ fn items(desk: Desk) -> Vec<Item> {
             let target = Target::Step(Step::Identities);
             items.push(Item { warning: true, title, body, evidence: String::new(), target });
         }
+    });
+    // What says the least of what to do comes last.
+    desk.document.with(|d| {
+        let Some(Outcome { adjustment: a, .. }) = d.current().map(AsRef::as_ref) else { return };
+        items.extend(camera_against_photos(&a.advice, &a.criteria));
+        items.extend(grouping::correlations(&a.advice, &a.criteria));
     });
     if items.is_empty() && adjusted {
         items.push(Item {
@@ -297,7 +316,11 @@ fn of_the_fit(advice: &sightline::adjustment::Advice) -> bool {
     use sightline::adjustment::Advice as A;
     matches!(
         advice,
-        A::SigmasTooSmall { .. } | A::UnmodelledAgain { .. } | A::Insignificant { .. } | A::Suspected { .. }
+        A::ResidualPattern { .. }
+            | A::SigmasTooSmall { .. }
+            | A::UnmodelledAgain { .. }
+            | A::Insignificant { .. }
+            | A::Suspected { .. }
     )
 }
 
@@ -314,9 +337,9 @@ fn unmodelled(px: f64) -> Target {
     Target::Unmodelled((px * 1000.0).round() / 1000.0)
 }
 
-/// Whether it is a correlation with an element of one photo's orientation.
-fn of_one_photo(advice: &sightline::adjustment::Advice) -> bool {
-    matches!(advice, sightline::adjustment::Advice::HighCorrelation { photo: Some(_), .. })
+/// Whether it is a correlation: these are told as one item a camera.
+fn is_correlation(advice: &sightline::adjustment::Advice) -> bool {
+    matches!(advice, sightline::adjustment::Advice::HighCorrelation { .. })
 }
 
 fn correlated_name(name: &str) -> String {
@@ -414,6 +437,9 @@ fn network_item(
             String::new(),
             Target::Step(Step::Control),
         ),
+        Advice::ResidualPattern { camera, pattern, photos, p_value, max_px, sigma0, remedy, .. } => {
+            return systematic::told(camera, (*pattern, photos), [*max_px, *p_value, *sigma0], remedy);
+        }
         Advice::SigmasTooSmall { sigma0, unmodelled: px } => (
             text::sigmas_optimistic(format::fixed(*sigma0, 1)),
             text::sigmas_optimistic_body().to_owned(),
@@ -641,8 +667,8 @@ fn note_item(note: &Note, unit: &str) -> Option<Item> {
 #[cfg(test)]
 mod tests {
     use sightline::adjustment::{
-        Advice as A, CameraDoubt, Criteria, Exchange, ImplausibleCamera, MirroredControl, OneStation, UndecidedAxes,
-        UnitOf, UnitRatio,
+        Advice as A, CameraDoubt, Criteria, Exchange, ImplausibleCamera, MirroredControl, OneStation, PatternKind,
+        Remedy, UndecidedAxes, UnitOf, UnitRatio,
     };
 
     use super::*;
@@ -673,6 +699,16 @@ mod tests {
             },
             A::GrossErrorsUnsettled,
             A::VarianceComponentsUnsettled,
+            A::ResidualPattern {
+                camera: "k".into(),
+                pattern: PatternKind::Radius,
+                photos: Vec::new(),
+                p_value: 1e-30,
+                rms_px: 0.4,
+                max_px: 3.1,
+                sigma0: 1.1,
+                remedy: Remedy::Model { models: vec!["opencv_fisheye".into()] },
+            },
             A::SigmasTooSmall { sigma0: 3.0, unmodelled: None },
             A::UnmodelledAgain { sigma0: 0.2, unmodelled: 0.1 },
             A::Insignificant {
@@ -720,6 +756,7 @@ mod tests {
                 | A::WeakPrincipalDistance { .. }
                 | A::GrossErrorsUnsettled
                 | A::VarianceComponentsUnsettled
+                | A::ResidualPattern { .. }
                 | A::SigmasTooSmall { .. }
                 | A::UnmodelledAgain { .. }
                 | A::Insignificant { .. }

@@ -1,22 +1,18 @@
 //! Step 4: control points, measured distances, unit and datum.
 
-use std::collections::HashSet;
-
 use leptos::prelude::*;
-use sightline::exchange::control_csv::{
-    Assumption, Axes, Basis, ControlTable, Decimal, Field as ControlField, Separator,
-};
 use sightline::project::{DatumKind, Point, Role};
 
 use super::equipment::BarsOffer;
 use super::field::Field;
 use super::icon::{Glyph, Icon};
 use super::identities::NamedPhoto;
+use super::import::ImportSheet;
 use super::shell::TitleBar;
 use crate::browser::{event, file};
 use crate::edit::control::{DistanceFault, Unit};
 use crate::format;
-use crate::i18n::{Text, errors, text, text::role_word};
+use crate::i18n::{Text, text, text::role_word};
 use crate::store::control::distance_fault;
 use crate::store::texts::Reading as TextReading;
 use crate::store::{Desk, Step};
@@ -40,7 +36,7 @@ pub fn Control() -> impl IntoView {
             <NamedPhoto/>
             <div class="columns scroll">
                 <PasteBox/>
-                <Preview/>
+                <ImportSheet/>
                 <Known/>
                 <Distances/>
                 <Centres/>
@@ -95,12 +91,12 @@ fn UnitChoice() -> impl IntoView {
     }
 }
 
-fn xyz_cells(point: &Point, decimals: usize) -> impl IntoView + use<> {
+pub(super) fn xyz_cells(point: &Point, decimals: usize) -> impl IntoView + use<> {
     let xyz = point.xyz;
     (0..3).map(|k| view! { <td>{format::maybe(xyz.map(|x| x[k]), decimals)}</td> }).collect_view()
 }
 
-fn sigma_cells(point: &Point) -> impl IntoView + use<> {
+pub(super) fn sigma_cells(point: &Point) -> impl IntoView + use<> {
     let sigma = point.sigma.unwrap_or_default();
     let role = point.role;
     (0..3)
@@ -116,9 +112,10 @@ fn sigma_cells(point: &Point) -> impl IntoView + use<> {
 }
 
 #[component]
-fn CoordinateHead() -> impl IntoView {
+pub(super) fn CoordinateHead(#[prop(optional)] unit: Option<String>) -> impl IntoView {
     let desk = expect_context::<Desk>();
-    let unit = Memo::new(move |_| desk.document.with(|d| d.project.unit.clone()));
+    // The project's, or that of a list before it is taken.
+    let unit = Memo::new(move |_| unit.clone().unwrap_or_else(|| desk.document.with(|d| d.project.unit.clone())));
     let coordinate = move |name: &'static str| view! { <th>{name} " " <u>{unit}</u></th> };
     let sigma = move |name: &'static str| view! { <th>"σ"<sub>{name}</sub> " " <u>{unit}</u></th> };
     view! {
@@ -126,145 +123,8 @@ fn CoordinateHead() -> impl IntoView {
         <th class="left">{text::role}</th>
         {coordinate("X")}{coordinate("Y")}{coordinate("Z")}
         {sigma("X")}{sigma("Y")}{sigma("Z")}
-        <th class="left wide"></th>
+        <td class="left wide"></td>
     }
-}
-
-/// What was read, row by row, before it is taken: bad rows are named with line and reason.
-#[component]
-fn Preview() -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    view! {
-        {move || desk.pasted.get().map(|pasted| {
-            let all = pasted.table.rows.len();
-            let good = pasted.table.rows.iter().filter(|r| r.is_ok()).count();
-            let unit = pasted.unit.clone();
-            let unasked = pasted.is_asked();
-            let by_heading = pasted.table.unit.is_some();
-            let mut units: Vec<String> = Unit::ALL.map(|unit| unit.symbol().to_owned()).into();
-            if let Some(other) = unit.clone().filter(|unit| !units.contains(unit)) {
-                units.push(other);
-            }
-            let reading = view! { <Reading table=pasted.table.clone()/> };
-            let measured: HashSet<String> = desk.document.with(|d| d.project.observations.iter().map(|o| o.point.clone()).collect());
-            let rows = pasted.table.rows.into_iter().map(|row| match row {
-                Ok(row) => {
-                    let role = if row.point.role == Role::Tie { Role::Control } else { row.point.role };
-                    let point = Point { role, ..row.point };
-                    let seen = measured.contains(&point.id);
-                    let label = row.label.map(|label| format!(" {label}"));
-                    view! {
-                        <tr class="new">
-                            <td class="left id">{point.id.clone()} <span class="quiet">{label}</span></td>
-                            <td class="left">{move || role_word(role)}</td>
-                            {xyz_cells(&point, 4)}
-                            {sigma_cells(&point)}
-                            <td class="left wide" class:warn=!seen>{move || if seen { text::measured() } else { text::not_measured() }}</td>
-                        </tr>
-                    }.into_any()
-                }
-                Err(error) => view! {
-                    <tr class="wrong"><td class="left bad" colspan="9"><Glyph icon=Icon::Cross size=12/> " " {move || errors::sentence(&error)}</td></tr>
-                }.into_any(),
-            }).collect_view();
-            view! {
-                <section class="panel">
-                    <h2 class="section-head">
-                        <span>{pasted.source.clone()}</span>
-                        <span class="aside" class:warn=good < all>
-                            {move || text::rows_read(format::count(all), format::count(all - good))}
-                        </span>
-                        <label class="unit-field" class:asked=unit.is_none()><span>{text::unit_of_these}</span>
-                            <select name="pasted-unit" disabled=by_heading on:change=move |e| desk.set_pasted_unit(&event::value(&e))>
-                                {unit.is_none().then(|| view! { <option value="" selected=true>{text::choose_unit}</option> })}
-                                {units.into_iter().map(|name| view! {
-                                    <option value=name.clone() selected=unit.as_ref() == Some(&name)>{name.clone()}</option>
-                                }).collect_view()}
-                            </select>
-                        </label>
-                        <button class="link" on:click=move |_| desk.pasted.set(None)>{text::discard}</button>
-                        <button class="button small primary" disabled=good == 0 || unasked on:click=move |_| desk.take_control()>
-                            {move || text::take_points(format::count(good))}
-                        </button>
-                    </h2>
-                    {reading}
-                    <div class="scroll preview">
-                        <table class="table"><thead><tr><CoordinateHead/></tr></thead><tbody>{rows}</tbody></table>
-                    </div>
-                </section>
-            }
-        })}
-    }
-}
-
-/// How a table was read, and what has to be answered before it is taken.
-#[component]
-fn Reading(table: ControlTable) -> impl IntoView {
-    let desk = expect_context::<Desk>();
-    let assumptions = table.assumptions;
-    let sentence = {
-        let assumptions = assumptions.clone();
-        move || assumptions.iter().filter_map(assumption_words).collect::<Vec<_>>().join(" ")
-    };
-    let questions = assumptions
-        .into_iter()
-        .filter(|assumption| assumption.by() == Basis::Undecided)
-        .filter_map(|assumption| match assumption {
-            Assumption::DecimalSign { example, .. } => {
-                let [decimal, thousands] = format::ambiguous(&example?)?;
-                let pick = move |sign| move |_| desk.choose_reading(|choices| choices.decimal = Some(sign));
-                Some(
-                    view! {
-                        <p class="note warn" data-asked="decimal">{text::ask_decimal} " "
-                            <button class="button small" on:click=pick(Decimal::Comma)>{decimal}</button> " "
-                            <button class="button small" on:click=pick(Decimal::Point)>{thousands}</button>
-                        </p>
-                    }
-                    .into_any(),
-                )
-            }
-            Assumption::AxisOrder { .. } => {
-                let pick = move |order| move |_| desk.choose_reading(|choices| choices.axes = Some(order));
-                Some(
-                    view! {
-                        <p class="note warn" data-asked="axes">{text::ask_axes} " "
-                            <button class="button small" on:click=pick(Axes::Xy)>{text::axes_xy}</button> " "
-                            <button class="button small" on:click=pick(Axes::Yx)>{text::axes_yx}</button>
-                        </p>
-                    }
-                    .into_any(),
-                )
-            }
-            _ => None,
-        })
-        .collect_view();
-    view! {
-        <p class="note" data-reading="">{sentence}</p>
-        {questions}
-    }
-}
-
-/// An assumption as a sentence, where there is something to say.
-fn assumption_words(assumption: &Assumption) -> Option<String> {
-    Some(match assumption {
-        Assumption::Separator { separator, .. } => text::read_separator(match separator {
-            Separator::Comma => text::separator_comma(),
-            Separator::Semicolon => text::separator_semicolon(),
-            Separator::Tab => text::separator_tab(),
-            Separator::Blanks => text::separator_blanks(),
-        }),
-        Assumption::DecimalSign { by: Basis::Undecided | Basis::Convention, .. } => return None,
-        Assumption::DecimalSign { sign: Decimal::Point, .. } => text::read_point().to_owned(),
-        Assumption::DecimalSign { sign: Decimal::Comma, .. } => text::read_comma().to_owned(),
-        Assumption::Columns { columns, by } => {
-            let names =
-                columns.iter().map(|column| column.map_or("–", ControlField::name)).collect::<Vec<_>>().join(", ");
-            if *by == Basis::Heading { text::read_columns(names) } else { text::read_columns_assumed(names) }
-        }
-        Assumption::Ignored { columns } => text::read_ignored(columns.join(", ")),
-        Assumption::Remarks { headings } => text::read_remarks(headings.join(", ")),
-        Assumption::AxisOrder { .. } | Assumption::SigmaColumns { .. } | Assumption::Unit { .. } => return None,
-    })
 }
 
 /// Control and check points of the project.
@@ -386,7 +246,7 @@ fn Centres() -> impl IntoView {
                     <thead><tr>
                         <th class="left">{text::photo}</th>
                         {(0..6).map(|k| view! { <th>{name(k)} " " <u>{unit}</u></th> }).collect_view()}
-                        <th class="wide"></th>
+                        <td class="wide"></td>
                     </tr></thead>
                     <tbody>
                         {move || observed.get().into_iter().map(|(id, position, sigma)| {
@@ -461,7 +321,7 @@ fn Distances() -> impl IntoView {
             <table class="table">
                 <thead><tr>
                     <th class="left">{text::from_point}</th><th class="left">{text::to_point}</th>
-                    <th>{text::length} " " <u>{unit}</u></th><th>"σ " <u>{unit}</u></th><th class="left">{text::check_only}</th><th class="wide"></th>
+                    <th>{text::length} " " <u>{unit}</u></th><th>"σ " <u>{unit}</u></th><th class="left">{text::check_only}</th><td class="wide"></td>
                 </tr></thead>
                 <tbody>
                     {move || distances.get().into_iter().enumerate().map(|(i, d)| view! {

@@ -8,12 +8,13 @@ use sightline::project::{Camera, Parameter};
 use super::adjust::parameter_name;
 use super::apart::colour_name;
 use super::icon::{Glyph, Icon};
+use super::origin::{OriginNotes, read_from};
 use super::results::parameter_cells;
 use super::shell::TitleBar;
 use crate::browser::{event, file};
 use crate::edit::control::Unit;
 use crate::format;
-use crate::i18n::{Text, equipment as words, text};
+use crate::i18n::{Text, equipment as words, interchange as exchange, text};
 use crate::store::Desk;
 use crate::store::equipment::TypedBar;
 
@@ -48,6 +49,7 @@ pub fn Equipment() -> impl IntoView {
                 <Show when=move || all.with(|all| all.cameras.is_empty())><p class="note">{words::no_cameras}</p></Show>
                 {move || all.with(|all| all.cameras.clone()).into_iter().map(|camera| view! { <Kept camera/> }).collect_view()}
                 <OfThisResult/>
+                <ForThisProject/>
             </section>
             <section class="panel">
                 <h2 class="section-head"><span>{words::kept_bars}</span></h2>
@@ -106,11 +108,20 @@ fn Kept(camera: KnownCamera) -> impl IntoView {
         let line = values(&with, |p| calibration.sigma.get(&p).copied());
         let (id, date) = (camera.id.clone(), calibration.date.clone());
         let label = date.clone();
+        let origin = calibration.origin.as_deref().cloned();
+        let dated = {
+            let origin = origin.clone();
+            move || match &origin {
+                Some(origin) => read_from(origin),
+                None => words::calibrated_on(&date),
+            }
+        };
         view! {
             <li class="calibration">
-                <b>{move || words::calibrated_on(&date)}</b> <span>{line}</span> <span>{calibration.remark.clone()}</span>
+                <b>{dated}</b> <span>{line}</span> <span>{calibration.remark.clone()}</span>
                 <button class="icon-button small" aria-label=move || words::remove_calibration(&label)
                     on:click=move |_| desk.remove_calibration(&id, place)><Glyph icon=Icon::Cross size=12/></button>
+                {origin.map(|origin| view! { <OriginNotes origin/> })}
             </li>
         }
     });
@@ -150,6 +161,25 @@ fn OfThisResult() -> impl IntoView {
     }
 }
 
+/// Calibrations that fit cameras of the open project.
+#[component]
+fn ForThisProject() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let fitting = Memo::new(move |_| {
+        let all = desk.document.with(|d| d.project.cameras.iter().map(|c| c.id.clone()).collect::<Vec<_>>());
+        all.into_iter().filter(|id| !desk.calibrations_of(id).is_empty()).collect::<Vec<_>>()
+    });
+    view! {
+        <Show when=move || fitting.with(|all| !all.is_empty())>
+            <h3>{exchange::for_this_project}</h3>
+            {move || fitting.get().into_iter().map(|id| {
+                let name = id.clone();
+                view! { <p class="note"><b>{move || exchange::for_camera(&name)}</b></p> <KnownCameraOffer id/> }
+            }).collect_view()}
+        </Show>
+    }
+}
+
 #[component]
 fn Bars() -> impl IntoView {
     let desk = expect_context::<Desk>();
@@ -172,7 +202,7 @@ fn Bars() -> impl IntoView {
                     <thead><tr>
                         <th class="left">{words::bar_name}</th><th class="left">{text::from_point}</th><th class="left">{text::to_point}</th>
                         <th>{text::length}</th><th>"σ"</th><th class="left">{text::unit}</th><th class="left">{words::certificate}</th>
-                        <th class="left">{words::date}</th><th class="left wide"></th>
+                        <th class="left">{words::date}</th><td class="left wide"></td>
                     </tr></thead>
                     <tbody>{move || desk.equipment.all.with(|all| all.bars.clone()).into_iter().map(row).collect_view()}</tbody>
                 </table>
@@ -240,12 +270,15 @@ pub fn KnownCameraOffer(id: String) -> impl IntoView {
     ];
     let offer = move |(name, calibration): (String, Calibration)| {
         let (date, key) = (calibration.date.clone(), calibration.date.clone());
+        let source = calibration.origin.as_deref().cloned();
+        // Without standard errors there is nothing to observe, and nothing that was estimated.
+        let count = if calibration.sigma.is_empty() { 1 } else { uses.len() };
         let calibration = StoredValue::new(calibration);
         view! {
             <div class="known-offer" data-offer=key>
-                <span>{move || words::known_camera(&name, &date)}</span>
+                <span>{move || words::known_camera(&name, &date)} {move || source.as_ref().map(|origin| format!(" ({})", read_from(origin)))}</span>
                 <span class="row">
-                    {uses.map(|(how, key, label, means)| {
+                    {uses.into_iter().take(count).map(|(how, key, label, means)| {
                         let in_use = move || {
                             desk.document.with(|d| {
                                 let camera = d.project.cameras.iter().find(|c| c.id == id.get_value());

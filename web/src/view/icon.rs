@@ -13,7 +13,6 @@ pub enum Icon {
     Fit,
     Arrow,
     Copy,
-    Drop,
     Save,
     More,
 }
@@ -30,7 +29,6 @@ impl Icon {
             Self::Fit => "M2.5 6V2.5H6M10 2.5h3.5V6M13.5 10v3.5H10M6 13.5H2.5V10",
             Self::Arrow => "M2.5 8h11M9.25 3.75 13.5 8l-4.25 4.25",
             Self::Copy => "M5.5 5.5h8v8h-8ZM10.5 5.5v-3h-8v8h3",
-            Self::Drop => "M8 1.5v9.5M4 7.25 8 11.25 12 7.25M1.5 14.25h13",
             Self::More => "M3 8h.01M8 8h.01M13 8h.01",
             Self::Save => "M8 2v8M4.75 7 8 10.25 11.25 7M2.5 10.5v3h11v-3",
         }

@@ -8,6 +8,7 @@ use sightline::project::{Observation, Role};
 
 use super::field::Field;
 use super::icon::{Glyph, Icon};
+use super::insets::Insets;
 use super::loupe::Loupe;
 use super::marking::MarkingBar;
 use super::photo_view::{Click, Mark, PhotoView, Style};
@@ -18,7 +19,7 @@ use super::strip::Strip;
 use super::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 use crate::browser::{event, file};
 use crate::format;
-use crate::i18n::{text, text::role_word};
+use crate::i18n::{first, text, text::role_word};
 use crate::store::texts::Reading;
 use crate::store::{Desk, Kind, Step};
 
@@ -45,7 +46,8 @@ pub fn Identities() -> impl IntoView {
         <TitleBar title=text::identities sentence=Signal::derive(sentence)>
             <button class="button" on:click=move |_| choose_marks(desk)>{text::open_marks}</button>
             <Show when=move || has_uncoded.get()>
-                <button class="button" on:click=move |_| desk.match_uncoded()>{text::match_uncoded}</button>
+                <button class="button" data-action="match" title=first::match_how disabled=move || desk.job.with(Option::is_some)
+                    on:click=move |_| desk.match_uncoded()>{first::match_targets}</button>
             </Show>
             <button class="button primary" on:click=move |_| desk.go(Step::Control)>{text::control} <Glyph icon=Icon::Arrow/></button>
         </TitleBar>
@@ -53,12 +55,42 @@ pub fn Identities() -> impl IntoView {
             <Strip/>
             <NamedPhoto/>
             <div class="columns" on:pointerdown=move |_| desk.ask_no_more()>
+                <NothingNamed/>
                 <QuestionList/>
                 <PointsTable/>
                 <MarksPanel/>
                 <PointPanel/>
+                <Insets/>
             </div>
         </main>
+    }
+}
+
+/// What to do next where no point has a name yet.
+#[component]
+fn NothingNamed() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let state = Memo::new(move |_| {
+        desk.document.with(|d| {
+            let targets = d.detections.values().map(|detection| detection.targets.len()).sum::<usize>();
+            d.project.observations.is_empty().then_some(targets)
+        })
+    });
+    view! {
+        {move || state.get().map(|targets| match targets {
+            0 => view! {
+                <div class="empty-state" data-empty="targets">
+                    <p>{first::no_targets}</p>
+                    <button class="button primary" on:click=move |_| desk.go(Step::Targets)>{text::targets} <Glyph icon=Icon::Arrow/></button>
+                </div>
+            }.into_any(),
+            n => view! {
+                <div class="empty-state" data-empty="codes">
+                    <p>{move || first::no_codes(n)}</p>
+                    <button class="button" on:click=move |_| if !desk.series.with_untracked(Option::is_some) { desk.switch_series() }>{text::point_by_point}</button>
+                </div>
+            }.into_any(),
+        })}
     }
 }
 
@@ -347,7 +379,7 @@ pub fn PointPanel() -> impl IntoView {
                     <table class="table">
                         <thead><tr>
                             <th class="left">{text::photo}</th><th>"u " <u>"px"</u></th><th>"v " <u>"px"</u></th><th>"σ " <u>"px"</u></th>
-                            <th class="left">{text::take_part_short}</th><th></th>
+                            <th class="left">{text::take_part_short}</th><td></td>
                         </tr></thead>
                         <tbody>
                             {move || observations.get().into_iter().map(|o| view! { <ObservationRow o/> }).collect_view()}

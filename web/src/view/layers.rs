@@ -3,7 +3,6 @@
 use leptos::prelude::*;
 use sightline::adjustment::PhotoUnit;
 use sightline::matching::PhotoPrediction;
-use sightline::project::Interior;
 
 use super::transform::Placement;
 use crate::browser::canvas::Surface;
@@ -61,7 +60,7 @@ pub fn residuals_in(document: &Document, photo: &str) -> Vec<Residual> {
     let Some(camera) = project.cameras.iter().find(|c| Some(&c.id) == camera) else { return Vec::new() };
     let [px, py] = PhotoUnit::of(camera).1;
     // photo coordinates of the brown model count upwards
-    let down = if matches!(camera.interior, Interior::Opencv { .. }) { 1.0 } else { -1.0 };
+    let down = if camera.interior.model().in_photo_units { -1.0 } else { 1.0 };
     let pairs = project.observations.iter().zip(&adjustment.observations);
     let here = pairs.filter(|(o, r)| r.enabled && o.photo == photo && o.photo == r.photo && o.point == r.point);
     let residual = here.filter_map(|(o, r)| {

@@ -96,7 +96,7 @@ pub fn NotUsedList() -> impl IntoView {
             <table class="table not-used-list">
                 <thead><tr>
                     <th class="left">{text::id}</th><th class="left">{text::photo_or_kind}</th><th class="left">{text::left_out_reason}</th>
-                    <th>"px"</th><th>{unit}</th><th>"σ"</th><th class="left"></th>
+                    <th>"px"</th><th>{unit}</th><th>"σ"</th><td class="left"></td>
                 </tr></thead>
                 <tbody>{items.into_iter().map(|item| view! { <Row item/> }).collect_view()}</tbody>
             </table>

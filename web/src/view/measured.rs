@@ -23,7 +23,10 @@ pub fn picture_sentence(picture: &PictureReport) -> String {
             .map(|percent| text::picture_sharpened(percent, format::fixed(picture.sharpening_radius, 1))),
         percent(picture.clipped_bright).map(text::picture_overexposed),
         percent(picture.clipped_dark).map(text::picture_black),
-        percent(picture.compression).map(text::picture_compressed),
+        percent(picture.compression).map(match picture.white_noise_assumed {
+            true => text::picture_compressed_uncounted,
+            false => text::picture_compressed,
+        }),
         (picture.noise > 0.0).then(|| match picture.noise_correlation {
             factor if factor > GROWN => text::picture_shared_noise(&noise, format::fixed(factor, 1)),
             _ => text::picture_noise(&noise),
@@ -89,19 +92,20 @@ mod tests {
             compression: 0.342,
             noise: 2.06,
             noise_correlation: 1.32,
+            white_noise_assumed: false,
             softened: true,
         };
         let [english, korean] = told(&picture);
         assert_eq!(
             english,
             "This photo: sharpened by 80 % (radius 1.0 px), undone where that hides targets; 3 % over-exposed, left out of the fits; \
-             4 % without light, where nothing shows; compressed (borders of blocks 34 % stronger), its traces counted as noise; \
+             4 % without light, where nothing shows; JPEG compression is visible (block borders 34 % stronger) and counts as noise; \
              noise 2.1 grey levels, shared by neighbouring pixels, which makes the standard errors 1.3 times as large."
         );
         assert_eq!(
             korean,
             "이 사진: 선명화 80 %(반경 1.0 px), 이 때문에 표적이 가려지는 곳은 되돌려 측정함; 밝은 쪽 포화 3 %, 적합에서 제외함; \
-             어두운 쪽 포화 4 %, 그곳에서는 아무것도 보이지 않음; 압축(블록 경계의 차이가 34 % 큼), 그 흔적은 잡음으로 계산함; \
+             어두운 쪽 포화 4 %, 그곳에서는 아무것도 보이지 않음; JPEG 압축 흔적이 보임(블록 경계 차이 34 % 큼), 잡음으로 계산함; \
              잡음 2.1 계조, 이웃 화소끼리 상관되어 표준오차가 1.3배로 커짐."
         );
     }
@@ -122,8 +126,18 @@ mod tests {
         assert_eq!(
             told(&compressed),
             [
-                "This photo: compressed (borders of blocks 8 % stronger), its traces counted as noise.",
-                "이 사진: 압축(블록 경계의 차이가 8 % 큼), 그 흔적은 잡음으로 계산함.",
+                "This photo: JPEG compression is visible (block borders 8 % stronger) and counts as noise.",
+                "이 사진: JPEG 압축 흔적이 보임(블록 경계 차이 8 % 큼), 잡음으로 계산함.",
+            ]
+        );
+        // Only least squares counts what neighbours share.
+        assert_eq!(
+            told(&PictureReport { white_noise_assumed: true, ..compressed }),
+            [
+                "This photo: JPEG compression is visible (block borders 8 % stronger), which the standard errors of this method do \
+                 not count: they are too small (measure with least squares).",
+                "이 사진: JPEG 압축 흔적이 보이나(블록 경계 차이 8 % 큼) 이 방법의 표준오차에는 반영되지 않아 실제보다 작음(최소제곱 정합으로 \
+                 측정 바람).",
             ]
         );
         assert_eq!(told(&PictureReport::default()), ["", ""]);

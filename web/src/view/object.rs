@@ -1,7 +1,7 @@
 //! The object: the result in space, and what is measured on it. A view of step 6, beside the path.
 
 mod features;
-mod plan;
+mod overview;
 mod scene;
 
 use std::collections::BTreeSet;
@@ -23,7 +23,7 @@ use crate::store::selection::{Kind, Marking};
 use crate::store::{Desk, Step, Until};
 
 use features::Features;
-use plan::Plan;
+pub use overview::Overview;
 use scene::{factors, scene};
 
 /// What features are made of: the points marked on the desk, in the order in which they were, and features.
@@ -90,11 +90,18 @@ fn Shown() -> impl IntoView {
             chosen.points.set(all);
         }
     });
+    // A feature that is undone or removed is chosen no longer.
+    Effect::new(move |_| {
+        let gone = |id: &String| desk.document.with(|d| d.project.features.iter().all(|f| f.id != *id));
+        if chosen.features.with(|all| all.iter().any(gone)) {
+            chosen.features.update(|all| all.retain(|id| !gone(id)));
+        }
+    });
     let shown = RwSignal::new(SHOWN.map(|(name, _)| (name, true)).to_vec());
     let perspective = RwSignal::new(true);
     let (ellipsoid_step, stick_step) = (RwSignal::new(0), RwSignal::new(0));
     // A later project has exaggerations of its own; changes of one and the same keep what was set.
-    let suited = StoredValue::new((String::new(), None::<String>));
+    let suited = StoredValue::new((String::new(), None::<String>, false));
     let made = Memo::new(move |_| {
         let feature = chosen.features.with(|all| all.last().cloned());
         let (scene, factors) = desk.document.with(|d| {
@@ -107,7 +114,8 @@ fn Shown() -> impl IntoView {
     });
     Effect::new(move |_| {
         let Made(scene, (ellipsoids, sticks), feature) = made.get();
-        let now = (scene.key.clone(), feature);
+        // A new feature has its deviations once it is measured: only then they have a size.
+        let now = (scene.key.clone(), feature, !scene.sticks.is_empty());
         let before = suited.get_value();
         if before.0 != now.0 {
             ellipsoid_step.set(step_of(ellipsoids));
@@ -243,7 +251,7 @@ fn Shown() -> impl IntoView {
     };
     let directed = move || state.with(|s| s.along.is_some());
     view! {
-        <div class="bar object-bar">
+        <div class="bar object-bar" role="region" aria-label=words::open_object>
             <button class="link back" on:click=move |_| desk.go(Step::Results)>"← " {text::results}</button>
             <h1>{words::object}</h1>
             <p>{sentence}</p>
@@ -278,7 +286,7 @@ fn Shown() -> impl IntoView {
                 <Show when=move || failed.with(Option::is_none) fallback=move || view! {
                     <div class="no-space">
                         <p><Glyph icon=Icon::Warning/> " " {move || words::no_graphics(failed.get().unwrap_or_default())}</p>
-                        <Plan/>
+                        <Overview/>
                     </div>
                 }>
                     <div class="space-host" node_ref=host tabindex="0" role="application" aria-label=words::space_label on:keydown=keys></div>

@@ -7,7 +7,6 @@ use leptos::html::Canvas;
 use leptos::prelude::*;
 
 use super::icon::{Glyph, Icon};
-use super::insets::Insets;
 use super::keys;
 use super::layers::{LayerChoice, draw_prediction, draw_residuals, residuals_in};
 use super::pixels::draw_pixels;
@@ -15,7 +14,7 @@ use super::transform::Placement;
 use crate::browser::canvas::{SizeWatch, Surface, TEXT_SIZE};
 use crate::browser::event::{self, Key, Pointer};
 use crate::format;
-use crate::i18n::text;
+use crate::i18n::{first, text};
 use crate::store::{Desk, Layers, ViewVerb};
 
 /// How a mark is drawn.
@@ -66,6 +65,22 @@ pub struct Click {
 
 /// Width and height of what may lie over a corner of the photo, with room around it.
 const OVER: [f64; 2] = [230.0, 260.0];
+/// Corners that it may lie in: whether on the right, whether at the bottom; the ones before are taken first.
+const CORNERS: [[bool; 2]; 4] = [[true, true], [false, true], [true, false], [false, false]];
+
+/// The corner for what lies over the photo: the present one as long as it covers no place that has to be seen, else the first that
+/// covers none, else the one farthest from them.
+fn free_corner(now: usize, [w, h]: [f64; 2], seen: &[[f64; 2]]) -> usize {
+    let covers = |corner: usize| {
+        let [right, bottom] = CORNERS[corner];
+        let across = |x: f64| if right { x > w - OVER[0] } else { x < OVER[0] };
+        let along = |y: f64| if bottom { y > h - OVER[1] } else { y < OVER[1] };
+        seen.iter().filter(|[x, y]| across(*x) && along(*y)).count()
+    };
+    let others = (0..CORNERS.len()).filter(|corner| *corner != now);
+    // The first of those that cover least.
+    std::iter::once(now).chain(others).min_by_key(|corner| covers(*corner)).unwrap_or(now)
+}
 
 #[component]
 pub fn PhotoView(
@@ -90,14 +105,25 @@ pub fn PhotoView(
     let placement = RwSignal::new(None::<Placement>);
     let fitted = StoredValue::new(None::<Placement>);
     let cross = RwSignal::new(None::<[f64; 2]>);
-    let aside = RwSignal::new(false);
-    // What lies over a corner goes to the other one before the pointer is there.
-    let give_way = move |[x, y]: [f64; 2]| {
-        let [w, h] = bounds.get_untracked();
-        if y > h - OVER[1] && (x < OVER[0] || x > w - OVER[0]) {
-            aside.set(x > w / 2.0);
+    // What lies over a corner goes to another one before the pointer is there, and never covers what is chosen.
+    let corner = RwSignal::new(0_usize);
+    let pointer_at = RwSignal::new(None::<[f64; 2]>);
+    let chosen_at = Memo::new(move |_| {
+        let place = placement.get()?;
+        let chosen =
+            marks.with(|all| all.iter().find(|mark| mark.style == Style::Selected).map(|mark| [mark.u, mark.v]));
+        let looked_for = || desk.prediction_here().filter(|p| p.inside).and_then(|p| p.place);
+        chosen.or_else(looked_for).map(|at| place.to_screen(at))
+    });
+    Effect::new(move |_| {
+        let seen = [pointer_at.get(), chosen_at.get()].into_iter().flatten().collect::<Vec<_>>();
+        let now = corner.get_untracked();
+        let free = free_corner(now, bounds.get(), &seen);
+        if free != now {
+            corner.set(free);
         }
-    };
+    });
+    let give_way = move |at: [f64; 2]| pointer_at.set(Some(at));
     let watch = StoredValue::new_local(None);
     canvas.on_load(move |element| {
         watch.set_value(SizeWatch::new(&element, move |element| {
@@ -380,10 +406,23 @@ pub fn PhotoView(
                     on:click=move |_| desk.placing.update(|on| *on = !*on)>{text::place_freely}</button>
                 <LayerChoice/>
                 <button class="stage-button" aria-label=text::fit title=text::fit on:click=move |_| fit()><Glyph icon=Icon::Fit/></button>
-                <button class="stage-button" on:click=move |_| zoom_to(1.0)>"1:1"</button>
+                <button class="stage-button one-to-one" on:click=move |_| zoom_to(1.0)>"1:1"</button>
                 <span class="zoom">{percent}</span>
             </div>
-            <div class="stage-asked">{children.map(|children| children())}</div>
+            <div class="stage-asked">
+                {children.map(|children| children())}
+                <div class="legend">
+                    <span class="key"></span>{text::legend_measured}
+                    <span class="key selected"></span>{text::legend_selected}
+                    <span class="key doubtful"></span>{text::legend_doubtful}
+                    <span class="key rejected"></span>{text::legend_excluded}
+                    <Show when=move || marks.with(|marks| marks.iter().any(|mark| mark.style == Style::Hidden))>
+                        <span class="key occluded"></span>{text::reason_occluded}
+                    </Show>
+                    <span class="gap"></span>
+                    <span class="how" class:mode=desk.placing>{move || if desk.placing.get() { first::placing_on() } else { text::click_measures() }}</span>
+                </div>
+            </div>
             <div class="stage-body">
                 <canvas node_ref=below class="picture" aria-hidden="true" style:filter=move || desk.layers.with(filter)></canvas>
                 <canvas
@@ -400,7 +439,10 @@ pub fn PhotoView(
                     // No mouse is imitated after a touch: it would take the focus from the field that asks for a name.
                     on:touchend=move |e| e.prevent_default()
                     on:pointercancel=move |e| pointers.update_value(|all| { all.remove(&event::pointer(&e).id); })
-                    on:pointerleave=move |_| desk.cursor.set(None)
+                    on:pointerleave=move |_| {
+                        desk.cursor.set(None);
+                        pointer_at.set(None);
+                    }
                     on:wheel=wheel
                     on:keydown=move |e| hold(e, true)
                     on:keyup=move |e| hold(e, false)
@@ -408,19 +450,7 @@ pub fn PhotoView(
                     on:dblclick=move |_| fit()
                 ></canvas>
                 {absent}
-                {over.map(|over| view! { <div class="over" class:aside=aside>{over}</div> })}
-            </div>
-            <Insets/>
-            <div class="legend">
-                <span class="key"></span>{text::legend_measured}
-                <span class="key selected"></span>{text::legend_selected}
-                <span class="key doubtful"></span>{text::legend_doubtful}
-                <span class="key rejected"></span>{text::legend_excluded}
-                <Show when=move || marks.with(|marks| marks.iter().any(|mark| mark.style == Style::Hidden))>
-                    <span class="key occluded"></span>{text::reason_occluded}
-                </Show>
-                <span class="gap"></span>
-                <span class="how">{text::click_measures}</span>
+                {over.map(|over| view! { <div class="over" class:left=move || !CORNERS[corner.get()][0] class:top=move || !CORNERS[corner.get()][1]>{over}</div> })}
             </div>
         </div>
     }
@@ -542,4 +572,28 @@ fn draw_strokes(surface: &Surface, placement: Placement, strokes: &[Stroke]) {
 /// The angle of an ellipse between 0 and 180 degrees.
 pub fn half_turn_degrees(angle: f64) -> f64 {
     angle.rem_euclid(TAU / 2.0).to_degrees()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_lies_over_a_corner_covers_neither_the_pointer_nor_what_is_chosen() {
+        let bounds = [700.0, 560.0];
+        for k in 0..4000_u32 {
+            let at = |salt: u32| f64::from((k * 7919 + salt * 104_729) % 1000) / 1000.0;
+            let seen = [[700.0 * at(1), 560.0 * at(2)], [700.0 * at(3), 560.0 * at(4)]];
+            let now = (k % 4) as usize;
+            let free = free_corner(now, bounds, &seen);
+            let [right, bottom] = CORNERS[free];
+            for [x, y] in seen {
+                let across = if right { x > 700.0 - OVER[0] } else { x < OVER[0] };
+                let along = if bottom { y > 560.0 - OVER[1] } else { y < OVER[1] };
+                assert!(!(across && along), "{seen:?} {free}");
+            }
+            // It does not wander as long as it is in nobody's way.
+            assert_eq!(free_corner(free, bounds, &seen), free);
+        }
+    }
 }

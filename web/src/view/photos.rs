@@ -8,12 +8,13 @@ use sightline::project::Camera;
 use super::equipment::KnownCameraOffer;
 use super::field::Field;
 use super::icon::{Glyph, Icon};
+use super::origin::ProjectOrigin;
 use super::shell::{TitleBar, choose_photos, problem_sentence};
 use super::strip::{NoThumbnail, Thumbnail};
 use crate::browser::event;
 use crate::edit::cameras::distance_parameter;
 use crate::format;
-use crate::i18n::{equipment, planning, text};
+use crate::i18n::{equipment, first, interchange, monitoring, planning, text};
 use crate::store::{Desk, Problem, Reason, Step};
 
 #[component]
@@ -31,6 +32,10 @@ pub fn Photos() -> impl IntoView {
         <TitleBar title=text::photos sentence=Signal::derive(sentence)>
             <button class="button" on:click=move |_| choose_photos(desk)>{text::add_photos}</button>
             <button class="button" data-open="equipment" on:click=move |_| desk.go(Step::Equipment)>{equipment::equipment}</button>
+            <Show when=move || any.get()>
+                <button class="button" data-open="files" title=interchange::files_for_others
+                    on:click=move |_| desk.go(Step::Files)>{interchange::files}</button>
+            </Show>
             <button class="button" data-open="plan" on:click=move |_| desk.go(Step::Plan)>{planning::plan}</button>
             <Show when=move || any.get()>
                 <button class="button primary" on:click=move |_| desk.go(Step::Targets)>
@@ -40,14 +45,23 @@ pub fn Photos() -> impl IntoView {
         </TitleBar>
         <main class="photos">
             <div class="gallery scroll">
+                <Problems/>
                 <Show when=move || !any.get() && desk.coming.with(Vec::is_empty)>
-                    <p class="note">{text::no_photos_yet}</p>
+                    <div class="empty-state" data-empty="photos">
+                        <h2>{first::no_photos}</h2>
+                        <p>{move || desk.document.with(|d| match &d.project.epoch {
+                            Some(epoch) => monitoring::next_epoch_photos(&epoch.name),
+                            None => first::drop_here().to_owned(),
+                        })}</p>
+                        <button class="button large primary" on:click=move |_| choose_photos(desk)>{text::choose_photos}</button>
+                        <p class="fine">{text::formats}</p>
+                    </div>
                 </Show>
                 {move || cameras.get().into_iter().map(|camera| view! { <Gallery camera picked/> }).collect_view()}
                 <Coming/>
-                <Problems/>
             </div>
             <aside class="side scroll" aria-label=text::cameras>
+                <ProjectOrigin/>
                 <Picked picked/>
                 {move || cameras.get().into_iter().map(|camera| view! { <CameraPanel id=camera/> }).collect_view()}
             </aside>

@@ -48,7 +48,7 @@ pub fn Planning() -> impl IntoView {
         </TitleBar>
         <Show when=move || planned.get() fallback=|| view! { <main class="beginnings"><Beginnings/></main> }>
             <main class="planning">
-                <aside class="scroll"><Inputs/></aside>
+                <aside class="scroll" aria-label=words::plan><Inputs/></aside>
                 <section class="scroll"><Views/></section>
                 <aside class="scroll">
                     <Verdict/>

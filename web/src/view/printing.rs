@@ -46,9 +46,9 @@ pub fn Printing() -> impl IntoView {
             </button>
         </TitleBar>
         <main class="printing">
-            <aside class="scroll"><Wanted/></aside>
+            <aside class="scroll" aria-label=words::targets_to_print><Wanted/></aside>
             <section class="sheet-view" aria-label=words::preview><Sheet/></section>
-            <aside class="scroll"><Ruler/><Diameters/><Sketches/></aside>
+            <aside class="scroll" aria-label=words::which_diameter><Ruler/><Diameters/><Sketches/></aside>
         </main>
     }
 }
@@ -426,10 +426,10 @@ fn Diameters() -> impl IntoView {
                         <th colspan="3">{words::col_dot}" "<u>"px"</u></th>
                     </tr>
                     <tr>
-                        <th></th><th></th>
+                        <td></td><td></td>
                         <th>{words::straight_on}</th><th>{words::at_slant}</th>
                         <th>{words::straight_on}</th>
-                        <th>{words::straight_on}</th><th>{words::at_slant}</th><th></th>
+                        <th>{words::straight_on}</th><th>{words::at_slant}</th><td></td>
                     </tr>
                 </thead>
                 <tbody>{rows}</tbody>

@@ -10,7 +10,8 @@ use crate::browser::{event, page};
 use crate::format;
 use crate::i18n::{language, text};
 use crate::store::Desk;
-use crate::store::keeping::{CardOutcome, Kept, uncopied_words, unkept_words};
+use crate::store::calls::CardOutcome;
+use crate::store::keeping::{Kept, uncopied_words, unkept_words};
 use crate::store::shelf::Shelved;
 
 /// The list, where there is anything in it.
@@ -20,32 +21,45 @@ pub fn Projects() -> impl IntoView {
     desk.read_shelf();
     // The list is read again now and then: what is open in it stays open.
     let (menu, renaming) = (RwSignal::new(None), RwSignal::new(None));
-    let shelf = move || desk.shelf.get().filter(|all| !all.is_empty());
+    let count = Memo::new(move |_| desk.shelf.with(|all| all.as_ref().map_or(0, Vec::len)));
+    let rows = move || {
+        let all = desk.shelf.get().unwrap_or_default();
+        all.into_iter().enumerate().map(|(i, project)| (project, i == 0)).collect::<Vec<_>>()
+    };
     view! {
         <div class="shelves">
-        {move || shelf().map(|all| view! {
+        <Show when=move || { count.get() > 0 }>
             <section class="shelf" aria-label=text::recent_projects>
-                <h2>{text::recent_projects} <span>{format::count(all.len())}</span> <small>{text::on_this_computer}</small></h2>
-                <table>
+                <h2>{text::recent_projects} <span>{move || format::count(count.get())}</span> <small>{text::on_this_computer}</small></h2>
+                <div class="shelf-rows"><table>
                     <thead><tr>
-                        <th></th>
+                        <td></td>
                         <th class="l">{text::project}</th>
                         <th>{text::column_photos}</th>
                         <th class="wide">{text::column_points}</th>
                         <th>"σ₀"</th>
                         <th class="l wide">{text::column_changed}</th>
                         <th class="wide">"MB"</th>
-                        <th></th>
+                        <td></td>
                     </tr></thead>
                     <tbody>
-                        {all.into_iter().enumerate().map(|(i, project)| view! { <ProjectRow project first={i == 0} menu renaming/> }).collect_view()}
+                        // A row that says the same stays as it is: a click that began on it ends on it.
+                        <For each=rows key=|(project, first)| (said(project), *first) let((project, first))>
+                            <ProjectRow project first menu renaming/>
+                        </For>
                     </tbody>
-                </table>
+                </table></div>
             </section>
-        })}
+        </Show>
         <Bin/>
         </div>
     }
+}
+
+/// Everything that a row says of a project.
+fn said(project: &Shelved) -> String {
+    let Shelved { id, bytes, card, small, unreadable, damaged } = project;
+    format!("{id} {bytes} {} {unreadable} {damaged} {card:?}", small.is_some())
 }
 
 /// Projects that were deleted and are there still.
@@ -94,12 +108,12 @@ fn ProjectRow(
     let name = StoredValue::new(card.name.clone());
     let step = StoredValue::new(card.step.clone());
     let is_open = move || key.with_value(|key| desk.open_id().as_ref() == Some(key));
+    let left_at = move || key.with_value(|key| step.with_value(|step| desk.last_step(key, step)));
     let go_on = move |_| {
         if is_open() {
-            let step = step.get_value();
-            return desk.go(crate::store::Step::ROW.into_iter().find(|s| s.name() == step).unwrap_or_default());
+            return desk.go(left_at());
         }
-        desk.open_kept(key.get_value(), step.get_value());
+        desk.open_kept(key.get_value(), left_at());
     };
     let field = NodeRef::<Input>::new();
     field.on_load(|field| {
@@ -166,7 +180,7 @@ fn ProjectRow(
             <tr class="verbs"><td colspan="8">
                 <button class="text-button" disabled=unreadable on:click=move |_| { menu.set(None); renaming.set(Some(key.get_value())); }>{text::rename_project}</button>
                 <button class="text-button" disabled=unreadable on:click=move |_| key.with_value(|key| name.with_value(|name| desk.duplicate_kept(key, name)))>{text::duplicate}</button>
-                <button class="text-button" disabled=move || busy() || unreadable on:click=move |_| key.with_value(|key| step.with_value(|step| desk.download_kept(key, step)))>{text::download}</button>
+                <button class="text-button" disabled=move || busy() || unreadable on:click=move |_| key.with_value(|key| desk.download_kept(key, left_at()))>{text::download}</button>
                 {damaged.then(|| view! {
                     <button class="text-button" on:click=move |_| key.with_value(|key| name.with_value(|name| desk.download_damaged(key, name)))>{text::download_damaged}</button>
                 })}

@@ -41,7 +41,9 @@ fn Current() -> impl IntoView {
         });
     });
     on_cleanup(paper::without_page_style);
-    let ready = move || desk.reports.made.with(Option::is_some);
+    let shown = move || desk.reports.made.with(Option::is_some);
+    // What is printed says what the fields say: not while the pages are made anew.
+    let ready = move || shown() && !desk.reports.being_made.get();
     view! {
         <TitleBar title=text::report sentence=Signal::derive(|| text::report_sentence().to_owned())>
             <button class="button" disabled=move || !ready() on:click=move |_| desk.save_report()>{text::save_html}</button>
@@ -58,7 +60,7 @@ fn Current() -> impl IntoView {
                 {move || desk.reports.failure.get().map(|why| view! {
                     <p class="note bad" role="alert"><Glyph icon=Icon::Warning/> " " {why}</p>
                 })}
-                <Show when=move || !ready() && desk.reports.failure.with(Option::is_none)>
+                <Show when=move || !shown() && desk.reports.failure.with(Option::is_none)>
                     <p class="note" role="status">{text::writing_report}</p>
                 </Show>
                 <div class="paper" node_ref=host data-ready=move || ready().to_string()></div>

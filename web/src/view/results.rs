@@ -13,16 +13,18 @@ use leptos::task::spawn_local;
 use sightline::adjustment::Adjustment;
 use sightline::project::{Camera, Project, Role};
 
-use super::advice::Contradictions;
+use super::advice::{Contradictions, VerdictLine};
 use super::changes::change_words;
 use super::estimated::estimated;
 use super::icon::{Glyph, Icon};
 use super::left_out::NotUsed;
+use super::object::Overview;
 use super::plots::{ResidualPlot, Vector};
 use super::shell::export_tables;
 use crate::browser::page;
 use crate::format;
-use crate::i18n::{comparing, text};
+use crate::i18n::{comparing, first, inside, interchange, monitoring, object, text};
+use crate::store::inside::Network;
 use crate::store::{Desk, Step};
 
 use cameras::Cameras;
@@ -127,23 +129,25 @@ fn Current() -> impl IntoView {
         (Shown::Meanings, text::meanings),
     ];
     view! {
+        <VerdictLine/>
         <Hero explain=Callback::new(move |statistic| {
             explained.set(Some(statistic));
             shown.set(Shown::Meanings);
         })/>
         <Contradictions/>
         <NotUsed/>
-        <div class="result-views" role="group" aria-label=text::results>
+        <nav class="result-views" aria-label=text::results>
             {views.map(|(one, name)| view! {
                 <Show when=move || one != Shown::Compared || compared.get()>
                     <button class="text-button" data-shown=format!("{one:?}").to_lowercase() aria-pressed=move || (shown.get() == one).to_string()
                         on:click=move |_| shown.set(one)>{name}</button>
                 </Show>
             }).collect_view()}
-        </div>
+        </nav>
         {move || match shown.get() {
             Shown::Tables => view! {
                 <main class="results">
+                    <section class="o"><ObjectSeen/></section>
                     <section class="a1"><Residuals/></section>
                     <section class="a2"><Show when=there(2)><PhotosTable/></Show></section>
                     <section class="b scroll" tabindex="0" aria-label=text::cameras><Cameras/><CheckPoints/><GivenTable/></section>
@@ -178,8 +182,8 @@ fn Hero(explain: Callback<Statistic>) -> impl IntoView {
     let points = move || read(desk, |a, _| a.points.len());
     let check = move || read(desk, |a, _| a.check_statistics.as_ref().map(|all| (all.rms_all, all.count)));
     view! {
-        <h1 class="visually-hidden">{text::results}</h1>
-        <div class="hero">
+        <div class="hero" role="region" aria-label=first::figures>
+            <h1 class="visually-hidden">{text::results}</h1>
             <div><span><Explained explain of=Statistic::Sigma0 name=|| "σ₀"/></span><b class="huge" data-result="sigma0">{move || format::maybe(sigma0(), 3)}</b><small>{text::a_priori_one}</small></div>
             <div class="test">
                 {move || read(desk, |a, _| estimated(a)).map(|said| view! { <span data-result="estimated">{said}</span> })}
@@ -216,11 +220,32 @@ fn Hero(explain: Callback<Statistic>) -> impl IntoView {
             {move || check().map(|(rms, n)| view! {
                 <div><span><Explained explain of=Statistic::CheckRms name=text::check_rms/> " " <u>{unit}</u></span><b>{format::fixed(rms, 3)}</b><small>{text::n_points(n)}</small></div>
             })}
-            <div class="hero-action"><button class="button" data-action="object" on:click=move |_| desk.go(Step::Object)>{crate::i18n::object::open_object}</button>
+            <div class="hero-action"><EpochActions/>
+                <button class="button" data-action="inside" on:click=move |_| desk.open_inside(Network::Document)>{inside::inside}</button>
                 <button class="button" on:click=move |_| export_tables(desk)><Glyph icon=Icon::Save/> {text::export_csv}</button>
+                <button class="button" data-open="files" title=interchange::files_for_others
+                    on:click=move |_| desk.go(Step::Files)>{interchange::files}</button>
                 <button class="button primary" on:click=move |_| desk.go(Step::Report)>{text::write_report} <Glyph icon=Icon::Arrow/></button>
             </div>
         </div>
+    }
+}
+
+/// The next epoch of this project; of a later epoch, what moved since the first.
+#[component]
+fn EpochActions() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let first = Memo::new(move |_| desk.document.with(|d| d.project.epoch.as_ref().map(|epoch| epoch.name.clone())));
+    view! {
+        {move || match first.get() {
+            Some(name) => view! {
+                <button class="button primary" data-action="compare-epochs" on:click=move |_| desk.compare_with_first()>{move || monitoring::compare_with(&name)}</button>
+            }.into_any(),
+            None => view! {
+                <button class="button" data-action="monitoring" on:click=move |_| desk.show_monitoring()>{monitoring::monitoring}</button>
+            }.into_any(),
+        }}
+        <button class="button" data-action="new-epoch" title=monitoring::new_epoch_words on:click=move |_| desk.begin_next_epoch()>{monitoring::new_epoch}</button>
     }
 }
 
@@ -236,6 +261,18 @@ fn TestBar(statistic: f64, lower: f64, upper: f64) -> impl IntoView {
             <path class="within" d=format!("M{0} 2v10M{0} 7H{1}M{1} 2v10", x(lower), x(upper))></path>
             <path class="mark-at" d=format!("M{at} 0v14")></path>
         </svg>
+    }
+}
+
+/// The object beside the numbers; in space it is a click away.
+#[component]
+fn ObjectSeen() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    view! {
+        <h2 class="section-head"><span>{object::object}</span>
+            <button class="link" data-action="object" on:click=move |_| desk.go(Step::Object)>{object::open_object} " →"</button>
+        </h2>
+        <div class="plot-box"><Overview/></div>
     }
 }
 
@@ -268,8 +305,8 @@ fn Residuals() -> impl IntoView {
         read(desk, |a, project| {
             let [px, py] = pixel_of(&camera);
             let (w, h) = (f64::from(camera.width), f64::from(camera.height));
-            // those of the opencv model count downwards
-            let up = if matches!(camera.interior, sightline::project::Interior::Opencv { .. }) { -1.0 } else { 1.0 };
+            // pixels count downwards
+            let up = if camera.interior.model().in_photo_units { 1.0 } else { -1.0 };
             let places = project.observations.iter().zip(&a.observations);
             let here =
                 places.filter(|(o, r)| o.photo == photo && r.enabled && o.point == r.point && o.photo == r.photo);
@@ -311,8 +348,13 @@ fn Residuals() -> impl IntoView {
     }
 }
 
-/// Control and check points in words, for the step row.
+/// What gives the object its scale and place, for the step row: its control points, or else check points, or else distances.
 pub fn control_figure(project: &Project) -> String {
     let of = |role| project.points.iter().filter(|p| p.role == role).count();
-    format!("{} + {} · {}", of(Role::Control), of(Role::Check), project.distances.len())
+    let kinds = [
+        (of(Role::Control), text::n_control as fn(usize) -> String),
+        (of(Role::Check), text::n_check),
+        (project.distances.len(), text::n_distances),
+    ];
+    kinds.into_iter().find(|(n, _)| *n > 0).map_or_else(|| "–".to_owned(), |(n, words)| words(n))
 }

@@ -10,8 +10,8 @@ use leptos::task::spawn_local;
 
 use super::start::Start;
 use super::{
-    adjust, control, equipment, experiments, identities, object, photos, planning, printing, report, results, tables,
-    targets,
+    adjust, control, equipment, experiments, files, identities, import, inside, monitoring, object, photos, planning,
+    printing, report, results, tables, targets,
 };
 use crate::browser::worker;
 use crate::i18n::text;
@@ -37,8 +37,15 @@ part! { beside, fn beside_the_path(step: Step) -> AnyView, fetched by fetch_besi
         Step::Plan => view! { <planning::Planning/> }.into_any(),
         Step::Print => view! { <printing::Printing/> }.into_any(),
         Step::Equipment => view! { <equipment::Equipment/> }.into_any(),
+        Step::Monitoring => view! { <monitoring::Monitoring/> }.into_any(),
+        Step::Files => view! { <files::Files/> }.into_any(),
+        Step::Inside => view! { <inside::Inside/> }.into_any(),
         _ => view! { <report::Report/> }.into_any(),
     }
+} }
+
+part! { steps, fn import_over() -> AnyView, {
+    view! { <import::ImportOver/> }.into_any()
 } }
 
 /// A part that comes after the first.
@@ -62,7 +69,10 @@ impl Part {
             | Step::Tables
             | Step::Plan
             | Step::Print
-            | Step::Equipment => Some(Self::Beside),
+            | Step::Equipment
+            | Step::Monitoring
+            | Step::Files
+            | Step::Inside => Some(Self::Beside),
         }
     }
 }
@@ -110,8 +120,18 @@ pub fn Rooms() -> impl IntoView {
             ask(part);
         }
     });
-    move || {
+    // A list of points is answered on whatever step it came to; on that of control points it stands among the tables.
+    let waits = Memo::new(move |_| {
         let step = desk.step.get();
+        step != Step::Control && desk.pasted.with(|pasted| pasted.as_ref().is_some_and(|pasted| pasted.at == step))
+    });
+    let over =
+        move || (waits.get() && states[Part::Steps as usize].get() == State::There).then(|| at_once(import_over()));
+    let room = move || {
+        let step = desk.step.get();
+        if desk.returning.with(Option::is_some) {
+            return view! { <main class="absent" aria-busy="true"></main> }.into_any();
+        }
         let Some(part) = Part::of(step) else { return view! { <Start/> }.into_any() };
         match states[part as usize].get() {
             State::There => match part {
@@ -127,7 +147,8 @@ pub fn Rooms() -> impl IntoView {
             .into_any(),
             State::Unasked | State::Coming => view! { <main class="absent" aria-busy="true"></main> }.into_any(),
         }
-    }
+    };
+    view! { {room}{over} }
 }
 
 /// The room of a part that is there: nothing is waited for.

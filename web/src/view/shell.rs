@@ -5,15 +5,17 @@ use leptos::prelude::*;
 
 use super::changes::change_words;
 use super::icon::{Glyph, Icon};
+use super::menu::{FileMenu, MenuGround};
 use super::projects::{StorageLine, StorageNotices, kept_words};
 use super::results::control_figure;
 use super::{help, keys, rooms};
 use crate::browser::{event, file, page};
-use crate::i18n::{self, errors, experiments as words, planning as plan_words, printing as before, text};
+use crate::i18n::{self, experiments as words, monitoring, planning as plan_words, printing as before, text};
 use crate::store::document::Document;
 use crate::store::experiments::from_hash;
+pub use crate::store::intake::problem_sentence;
 use crate::store::keeping::Kept;
-use crate::store::{Asking, Desk, Job, JobKind, Kind, Step, Theme};
+use crate::store::{Asking, Desk, Job, JobKind, Kind, Menu, Step, Theme};
 use crate::{format, i18n::language};
 
 /// The desk.
@@ -33,12 +35,14 @@ pub fn App() -> impl IntoView {
     page::listen_to_start(move |told| match told {
         page::Told::Update => desk.update.set(true),
         page::Told::Network => desk.needs_network.set(true),
-        page::Told::Files(files) => desk.take(files),
+        page::Told::Files(files) => desk.take_dropped(files),
     });
     event::listen_to_hash(move || desk.follow_hash());
     event::listen_to_keys(move |key| keys::handle(desk, &key));
     match untrack(|| from_hash(&page::hash())) {
         Some(name) => desk.show_experiment(name),
+        // What was open before the page was loaded again comes back when the storage has answered.
+        None if desk.expects_to_return() => {}
         None if desk.follow_hash_at_start() => {}
         None => page::set_hash("start"),
     }
@@ -55,13 +59,14 @@ pub fn App() -> impl IntoView {
             on:dragleave=move |_| over.set(false)
             on:drop=move |e| {
                 over.set(false);
-                desk.take(event::files_of_drop(&e));
+                desk.take_dropped(event::files_of_drop(&e));
             }
         >
             <Head/>
-            <NoticeBar/>
+            <MenuGround/>
             <rooms::Rooms/>
             <Foot/>
+            <NoticeBar/>
             <help::Help/>
         </div>
     }
@@ -79,7 +84,7 @@ fn Head() -> impl IntoView {
         Theme::Sun => text::theme_sun(),
     };
     // On a phone what is not needed all the time stands in a menu.
-    let more = RwSignal::new(false);
+    let more = Memo::new(move |_| desk.menu.get() == Some(Menu::More));
     let undo_label = move || desk.undoable().map_or(text::undo().to_owned(), |c| text::undo_this(change_words(&c)));
     let redo_label = move || desk.redoable().map_or(text::redo().to_owned(), |c| text::redo_this(change_words(&c)));
     view! {
@@ -122,26 +127,16 @@ fn Head() -> impl IntoView {
                     <Glyph icon=Icon::Redo/>
                 </button>
                 <button class="icon-button menu" aria-label=text::more_actions aria-expanded=move || more.get().to_string()
-                    on:click=move |_| more.update(|on| *on = !*on)>
+                    on:click=move |_| desk.menu.update(|menu| *menu = if menu.is_some() { None } else { Some(Menu::More) })>
                     <Glyph icon=Icon::More/>
                 </button>
-                <div class="more" class:open=more on:click=move |_| more.set(false)>
-                <Show when=move || !empty.get()>
-                    <button class="text-button" title=text::save_hint on:click=move |e| desk.save(e.shift_key())>{text::save}</button>
-                    <button class="text-button" title=text::save_all_hint on:click=move |_| desk.save(true)>{text::save_all}</button>
-                </Show>
+                <div class="more" class:open=more on:click=move |_| desk.menu.update(|menu| { menu.take_if(|menu| *menu == Menu::More); })>
+                <FileMenu/>
                 <Show when=move || !empty.get()>
                     <button class="text-button to-tables" aria-current=move || (desk.step.get() == Step::Tables).then_some("page")
                         on:click=move |_| desk.go(Step::Tables)>{text::tables}</button>
                 </Show>
                 <span class="rule"></span>
-                <button
-                    class="text-button to-experiments"
-                    aria-current=move || (desk.step.get() == Step::Experiments).then_some("page")
-                    on:click=move |_| desk.show_experiment(desk.experiments.shown.get_untracked())
-                >
-                    {words::experiments}
-                </button>
                 <button class="text-button" title=text::keys_title on:click=move |_| desk.help.set(true)><span>"?"</span> <span class="visually-hidden">{text::keys_title}</span></button>
                 <button
                     class="text-button"
@@ -190,7 +185,11 @@ fn StepButton(step: Step, number: usize) -> impl IntoView {
     };
     let reachable = move || desk.document.with(|d| !d.is_empty());
     // The object is a view of the results.
-    let now = move || desk.step.get() == step || (step == Step::Results && desk.step.get() == Step::Object);
+    let now = move || {
+        desk.step.get() == step
+            || (step == Step::Results
+                && (desk.step.get() == Step::Object || desk.step.get() == Step::Monitoring && reachable()))
+    };
     view! {
         <li class:now=now>
             <button
@@ -226,6 +225,9 @@ pub fn step_label(step: Step) -> &'static str {
         Step::Plan => plan_words::plan(),
         Step::Print => before::targets_to_print(),
         Step::Equipment => i18n::equipment::equipment(),
+        Step::Monitoring => monitoring::monitoring(),
+        Step::Files => i18n::interchange::files_for_others(),
+        Step::Inside => i18n::inside::inside(),
     }
 }
 
@@ -239,8 +241,14 @@ pub fn TitleBar(
     let desk = expect_context::<Desk>();
     let busy = Memo::new(move |_| desk.job.with(Option::is_some));
     let action = children.map(|children| children());
+    let beside = Memo::new(move |_| !Step::ROW.contains(&desk.step.get()));
+    // A step of the path needs a project, which may have gone meanwhile.
+    let back = move || if desk.document.with(Document::is_empty) { Step::Start } else { desk.came_from.get() };
     view! {
-        <div class="bar">
+        <div class="bar" role="region" aria-label=title>
+            <Show when=move || beside.get()>
+                <button class="link back" data-action="back" on:click=move |_| desk.go(back())>"← " {move || step_label(back())}</button>
+            </Show>
             <h1>{title}</h1>
             <p>{move || sentence.get()}</p>
             <div class="slot" class:busy=busy>
@@ -285,10 +293,12 @@ fn job_label(job: &Job) -> &'static str {
         JobKind::Matching => text::matching(),
         JobKind::Saving => text::saving(),
         JobKind::OpeningProject => text::opening_project(),
+        JobKind::Reading => i18n::interchange::reading(),
         JobKind::Sample => text::opening_sample(),
         JobKind::Experiment => words::running(),
         JobKind::Reporting => text::writing_report(),
         JobKind::Planning => plan_words::making(),
+        JobKind::Comparing => monitoring::comparing(),
     }
 }
 
@@ -310,6 +320,7 @@ fn job_count(desk: Desk, job: &Job) -> String {
 fn NoticeBar() -> impl IntoView {
     let desk = expect_context::<Desk>();
     view! {
+        <div class="messages">
         <div class="notices" aria-live="polite">
             {move || desk.notice.get().map(|notice| {
                 let icon = if notice.warning { Icon::Warning } else { Icon::Check };
@@ -326,6 +337,7 @@ fn NoticeBar() -> impl IntoView {
         </div>
         <StorageNotices/>
         {move || desk.asking.get().map(|asking| view! { <Question asking/> })}
+        </div>
     }
 }
 
@@ -410,7 +422,9 @@ pub fn export_tables(desk: Desk) {
 
 /// Opens the chooser for a project file, or the text files of plates.
 pub fn choose_project(desk: Desk) {
-    file::choose(".sightline,.zip,.json,.csv,.txt", true, move |files| desk.take(files));
+    file::choose(".sightline,.zip,.json,.csv,.txt,.xml,.yml,.yaml,.sfm,.out,.bin,.cameramodel", true, move |files| {
+        desk.take_dropped(files)
+    });
 }
 
 /// Opens the chooser for photos.
@@ -419,22 +433,7 @@ pub fn choose_photos(desk: Desk) {
         ".jpg,.jpeg,.png,.tif,.tiff,.heic,.heif,.dng,.nef,.nrw,.cr2,.cr3,.arw,.orf,.rw2,.raf,.pef,.srw,image/*",
         true,
         move |files| {
-            desk.take(files);
+            desk.take_dropped(files);
         },
     );
-}
-
-/// The sentence for a file that was not taken.
-pub fn problem_sentence(reason: &crate::store::Reason) -> String {
-    use crate::store::Reason;
-    match reason {
-        Reason::Engine(error) => errors::sentence(error),
-        Reason::Duplicate { of } => text::duplicate_of(of),
-        Reason::SameName { of } => text::same_name_as(of),
-        Reason::Developed { of } => text::developed_of(of),
-        Reason::RawOf { of } => text::raw_of(of),
-        Reason::Unreadable(detail) => text::unreadable(detail),
-        Reason::Empty => text::is_empty().to_owned(),
-        Reason::NoList => text::is_no_list().to_owned(),
-    }
 }

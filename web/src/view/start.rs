@@ -4,69 +4,75 @@ use leptos::prelude::*;
 
 use super::icon::{Glyph, Icon};
 use super::photos::Problems;
+use super::picture::Purpose;
 use super::projects::Projects;
 use super::shell::{Progress, choose_photos, choose_project};
-use crate::i18n::{equipment, experiments as words, planning, printing, text};
+use crate::i18n::{Text, equipment, experiments as words, first, monitoring, planning, printing, text};
 use crate::store::{Desk, Step};
 
 #[component]
 pub fn Start() -> impl IntoView {
     let desk = expect_context::<Desk>();
+    let busy = move || desk.job.with(Option::is_some);
     view! {
-        <main class="start" class:with-shelf=move || desk.shelf.with(|all| all.as_ref().is_some_and(|all| !all.is_empty())) || desk.bin.with(|bin| !bin.is_empty())>
+        <main class="start">
             <div class="drop-zone">
                 <div class="invitation">
-                    <Glyph icon=Icon::Drop size=40/>
-                    <h1>{text::drop_here}</h1>
-                    <p>{text::formats}</p>
+                    <h1>{first::purpose}</h1>
+                    <p>{first::drop_photos}</p>
+                    <Purpose/>
                     <div class="row">
-                        <button class="button large primary" on:click=move |_| choose_photos(desk)>
-                            {text::choose_photos}
-                        </button>
+                        <button class="button large primary" data-action="new-project" disabled=busy on:click=move |_| desk.new_project()>{first::new_project}</button>
+                        <button class="button large" on:click=move |_| choose_photos(desk)>{text::choose_photos}</button>
                         <button class="button large" on:click=move |_| choose_project(desk)>{text::open_project}</button>
                     </div>
-                    <p class="fine">{text::heic_and_raw}</p>
+                    <p class="fine">{text::formats}</p>
                 </div>
                 <div class="slot start-slot"><Progress/></div>
                 <div role="alert"><Problems/></div>
-                <button class="sample" on:click=move |_| desk.open_sample() disabled=move || desk.job.with(Option::is_some)>
-                    <span>
-                        <b>{text::open_sample}</b>
-                        <span>{text::sample_words}</span>
-                    </span>
-                    <Glyph icon=Icon::Arrow/>
-                </button>
-                <button class="entry" data-open="plan" on:click=move |_| desk.go(Step::Plan)>
-                    <span>
-                        <b>{planning::plan}</b>
-                        <span>{planning::plan_words}</span>
-                    </span>
-                    <Glyph icon=Icon::Arrow/>
-                </button>
-                <button class="entry" data-open="print" on:click=move |_| desk.go(Step::Print)>
-                    <span>
-                        <b>{printing::targets_to_print}</b>
-                        <span>{printing::targets_to_print_words}</span>
-                    </span>
-                    <Glyph icon=Icon::Arrow/>
-                </button>
-                <button class="entry" data-open="equipment" on:click=move |_| desk.go(Step::Equipment)>
-                    <span>
-                        <b>{equipment::equipment}</b>
-                        <span>{equipment::equipment_words}</span>
-                    </span>
-                    <Glyph icon=Icon::Arrow/>
-                </button>
-                <button class="experiments-entry" on:click=move |_| desk.show_experiment(desk.experiments.shown.get_untracked())>
-                    <span>
-                        <b>{words::experiments}</b>
-                        <span>{words::experiments_words}</span>
-                    </span>
-                    <Glyph icon=Icon::Arrow/>
-                </button>
-                <button class="link wipe" on:click=move |_| desk.wipe()>{text::wipe}</button>
             </div>
-            <Projects/>
+            <div class="start-lists">
+                <Projects/>
+                <section class="entries" aria-labelledby="begin-without">
+                    <h2 id="begin-without">{first::without_photos}</h2>
+                    <Entry class="sample" open="sample" name=text::open_sample said=text::sample_words waits=true go=|desk| desk.open_sample()/>
+                    <Entry open="plan" name=planning::plan said=planning::plan_words go=|desk| desk.go(Step::Plan)/>
+                    <Entry open="print" name=printing::targets_to_print said=printing::targets_to_print_words go=|desk| desk.go(Step::Print)/>
+                    <Entry open="equipment" name=equipment::equipment said=equipment::equipment_words go=|desk| desk.go(Step::Equipment)/>
+                    <Entry open="monitoring" name=monitoring::monitoring said=monitoring::monitoring_words go=|desk| desk.show_monitoring()/>
+                    <Entry open="sample-epochs" name=monitoring::sample said=monitoring::sample_words waits=true go=|desk| desk.open_sample_epochs()/>
+                    <Entry class="entry experiments-entry" open="experiments" name=first::papers said=words::experiments_words
+                        go=|desk| desk.show_experiment(desk.experiments.shown.get_untracked())/>
+                </section>
+                <p class="start-links">
+                    <a class="link licences" href="THIRD-PARTY.txt" target="_blank" rel="noopener">{text::licences}</a>
+                    <button class="link wipe" on:click=move |_| desk.wipe()>{text::wipe}</button>
+                </p>
+            </div>
         </main>
+    }
+}
+
+/// A way to something that needs no photos.
+#[component]
+fn Entry(
+    #[prop(default = "entry")] class: &'static str,
+    open: &'static str,
+    name: Text,
+    said: Text,
+    /// Whether other work has to be done first.
+    #[prop(optional)]
+    waits: bool,
+    go: fn(Desk),
+) -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    view! {
+        <button class=class data-open=open disabled=move || waits && desk.job.with(Option::is_some) on:click=move |_| go(desk)>
+            <span>
+                <b>{name}</b>
+                <span>{said}</span>
+            </span>
+            <Glyph icon=Icon::Arrow/>
+        </button>
     }
 }

@@ -16,7 +16,7 @@ use super::strip::Strip;
 use crate::browser::event;
 use crate::edit::targets::{Rings, candidates};
 use crate::format;
-use crate::i18n::{Text, errors, printing, text};
+use crate::i18n::{Text, errors, first, printing, text};
 use crate::store::{Desk, Step};
 
 #[component]
@@ -57,12 +57,15 @@ pub fn Targets() -> impl IntoView {
                 <button class="button primary" on:click=move |_| desk.go(Step::Identities)>{text::identities} <Glyph icon=Icon::Arrow/></button>
             </Show>
         </TitleBar>
-        <div class="options"><Options/></div>
-        <FamilyQuestion/>
         <main class="targets">
             <Strip/>
             <PhotoView marks strokes=Signal::derive(Vec::new) summary on_click><Question targets=false/><MarkingBar/></PhotoView>
             <aside class="inspector" tabindex="0" aria-label=text::target>
+                <FamilyQuestion/>
+                <details class="options" open=move || !again()>
+                    <summary>{first::detection_options}</summary>
+                    <Options/>
+                </details>
                 <Loupe target=selected/>
                 <TargetDetails/>
                 <PictureNote/>

@@ -2,6 +2,8 @@
 //! heavy parts is in the page's own module.
 
 mod codecs;
+mod foreign;
+mod inside;
 mod kept;
 mod scope;
 mod tasks;

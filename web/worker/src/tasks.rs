@@ -10,10 +10,12 @@ use sightline::comparison::{Comparison, compare};
 use sightline::decode::Packed;
 use sightline::detection::{Channel, Codes, ColoursApart, DetectOptions, Detection, Target};
 use sightline::error::{Error, Place, Reason, Thing};
-use sightline::exchange::export;
+use sightline::exchange::displacements;
 use sightline::exchange::package::{self, Held, Package};
+use sightline::exchange::{self, export};
 use sightline::experiments::{self, Experiment};
 use sightline::matching::{MatchOptions, Matching, Prediction, match_uncoded, predict};
+use sightline::monitoring::{self, Epoch, Monitoring};
 use sightline::orient::{Note, orient};
 use sightline::plan::{self, Made, Prediction as PlanPrediction, Suggested};
 use sightline::project::{ColourDifferences, LensColour, Plan, Project};
@@ -24,14 +26,16 @@ use sightline::sheets::{self, Kind};
 use sightline::tiles::{self, Pyramid};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
-    Adjust, Adjusted, Adjusting, BeginPlan, CompareResults, Content, Detect, DifferColours, DrawSheets, Drawn, Export,
-    ExportExperiment, Given, Glance, Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours,
-    MeasureFeatures, Nothing, Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReportMade, RunExperiment,
-    Sample, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated,
-    Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteSheets, from_pieces, to_pieces,
+    Adjust, Adjusted, Adjusting, BeginPlan, CompareEpochs, CompareResults, Content, Detect, DifferColours, DrawSheets,
+    Drawn, Export, ExportExperiment, ExportMonitoring, Foreign, Given, Glance, Glanced, MakePlan, MakePlots,
+    MakeReport, Match, Measure, MeasureColours, MeasureFeatures, Nothing, Open, Opened, Pack, PlanOf, Predict,
+    PredictPlan, Progress, ReadForeign, ReportEpochs, ReportMade, RunExperiment, Sample, SampleEpochs, SamplePhoto,
+    SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto,
+    Unpack, Unpacked, Values, WriteCamera, WriteNetwork, WriteSheets, Written, from_pieces, to_pieces,
 };
 
 use crate::codecs::{shot_of, unpack};
+use crate::foreign;
 use crate::kept::{self, digest, with_photo};
 
 type Files = Vec<Given>;
@@ -220,6 +224,36 @@ impl Service<Export> for Engine {
     }
 }
 
+impl Service<ReadForeign> for Engine {
+    fn serve(&self, task: ReadForeign, files: Files, _: Progress<Nothing>) -> Served<Foreign> {
+        let whole = files.into_iter().filter_map(|given| match given {
+            Given::Whole(bytes) => Some(bytes),
+            Given::Stream(_) => None,
+        });
+        Ok((foreign::read(task.names.into_iter().zip(whole).collect(), task.convert), Vec::new()))
+    }
+}
+
+impl Service<WriteCamera> for Engine {
+    fn serve(&self, task: WriteCamera, _: Files, _: Progress<Nothing>) -> Served<Written> {
+        let written = exchange::cameras::export(&task.format, &task.camera, &task.options)?;
+        let (names, bytes) = written.files.into_iter().unzip();
+        let conversions = written.conversion.into_iter().collect();
+        Ok((Written { names, conversions, ignored: written.ignored }, bytes))
+    }
+}
+
+impl Service<WriteNetwork> for Engine {
+    fn serve(&self, task: WriteNetwork, _: Files, _: Progress<Nothing>) -> Served<Written> {
+        let WriteNetwork { format, project, adjustment, convert } = task;
+        let files = exchange::export_with(&format, &project, adjustment.as_ref(), convert)?;
+        let (conversions, ignored) = exchange::stated(&files);
+        // Programs look for these files by their names: they stay together in an archive.
+        let name = format!("{format}.zip");
+        Ok((Written { names: vec![name], conversions, ignored }, vec![package::archive(&files)?]))
+    }
+}
+
 impl Service<MakeReport> for Engine {
     fn serve(&self, task: MakeReport, _: Files, _: Progress<Nothing>) -> Served<ReportMade> {
         let Report { page_style, style, body, .. } = report::report(&task.project, Some(&task.adjustment))?;
@@ -242,6 +276,40 @@ impl Service<MakePlots> for Engine {
 impl Service<CompareResults> for Engine {
     fn serve(&self, task: CompareResults, _: Files, _: Progress<Nothing>) -> Served<Comparison> {
         Ok((compare((&task.before, &task.earlier), (&task.after, &task.later)), Vec::new()))
+    }
+}
+
+impl Service<CompareEpochs> for Engine {
+    fn serve(&self, task: CompareEpochs, _: Files, progress: Progress<(usize, usize)>) -> Served<Monitoring> {
+        let found = monitoring::compare_epochs_watched(&task.epochs, &task.options, &mut |done, of| {
+            progress((done, of));
+            true
+        })?;
+        Ok((found, Vec::new()))
+    }
+}
+
+impl Service<ExportMonitoring> for Engine {
+    fn serve(&self, task: ExportMonitoring, _: Files, _: Progress<Nothing>) -> Served<()> {
+        let text = displacements::write(&task.found, &task.format, task.pair, task.factor)?;
+        Ok(((), vec![text.into_bytes()]))
+    }
+}
+
+impl Service<ReportEpochs> for Engine {
+    fn serve(&self, task: ReportEpochs, _: Files, _: Progress<Nothing>) -> Served<ReportMade> {
+        let Report { page_style, style, body, .. } = report::epochs::report(&task.found, &task.options, &task.settings);
+        Ok((ReportMade { page_style, style: style.to_owned(), body }, Vec::new()))
+    }
+}
+
+impl Service<SampleEpochs> for Engine {
+    fn serve(&self, _: SampleEpochs, _: Files, progress: Progress<(usize, usize)>) -> Served<Vec<Epoch>> {
+        let epochs = sample::epochs::epochs(&mut |done, of| {
+            progress((done, of));
+            true
+        })?;
+        Ok((epochs, Vec::new()))
     }
 }
 
@@ -462,7 +530,7 @@ fn shown(file: &[u8]) -> Result<decode::Picture> {
 }
 
 /// What orientation gave, as an input of the adjustment: what could not be oriented takes no part, and is not taken away.
-fn with_what_is_oriented(project: &Project, tell: &mut dyn FnMut(Vec<Note>)) -> Result<Project> {
+pub fn with_what_is_oriented(project: &Project, tell: &mut dyn FnMut(Vec<Note>)) -> Result<Project> {
     let oriented = orient(project)?;
     tell(oriented.notes);
     let mut project = oriented.project;

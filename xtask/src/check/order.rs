@@ -44,6 +44,7 @@ const ORDERS: [Order; 3] = [
             "features",
             "plausibility",
             "adjust",
+            "calibration",
             "monitoring",
             "matching",
             "orient",
@@ -57,6 +58,7 @@ const ORDERS: [Order; 3] = [
             "sheets",
             "plan",
             "experiments",
+            "teaching",
         ],
     },
     Order {
@@ -97,6 +99,7 @@ const ORDERS: [Order; 3] = [
             "solve",
             "gross_errors",
             "variance_components",
+            "patterns",
             "report",
             "outside",
             "inside",

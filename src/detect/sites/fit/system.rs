@@ -7,7 +7,7 @@ use crate::detect::acceptance::sites::WHITE;
 use crate::detect::ellipse::outline::Outline;
 use crate::detect::rendered::Field;
 
-/// u, v, p, q, r, s, contrast, and the ground's level and slopes.
+/// u, v, p, q, r, s, contrast, the ground's level, and the slopes of the light.
 pub(super) const UNKNOWNS: usize = 10;
 type Normal = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
 pub(super) type Unknowns = SVector<f64, UNKNOWNS>;
@@ -16,6 +16,8 @@ pub(super) type Unknowns = SVector<f64, UNKNOWNS>;
 pub(super) struct Modelled {
     pub level: f64,
     share: f64,
+    /// In units of that at the place that the slopes are counted from.
+    lit: f64,
     /// After u, v and s.
     slopes: [f64; 3],
 }
@@ -31,8 +33,8 @@ pub(super) fn modelled(site: &Site, state: &State, field: &Field, origin: [f64; 
     } else {
         (0.0, [0.0; 3])
     };
-    let [level, gx, gy] = state.background;
-    Modelled { level: level + gx * x + gy * y + state.contrast * share, share, slopes }
+    let lit = state.lit.at(x, y);
+    Modelled { level: state.lit.tone(share) * lit, share, lit, slopes }
 }
 
 /// Whether the white level leaves a site alone: by its sample at first, then by what the model expects of it.
@@ -46,13 +48,15 @@ fn row(site: &Site, state: &State, model: &Modelled, origin: [f64; 2]) -> [f64; 
     let Outline { u, v, p, q, r } = state.outline;
     let det = p * q - r * r;
     let place = [site.x as f64 + 0.5, site.y as f64 + 0.5];
-    let [du, dv, ds] = model.slopes.map(|slope| state.contrast * slope);
+    let [du, dv, ds] = model.slopes.map(|slope| state.lit.contrast * model.lit * slope);
     // the rim next to the site moves with p, q and r as its parameter says
     let [dx, dy] = [place[0] - u, place[1] - v];
     let (c, s) = ((q * dx - r * dy) / det, (p * dy - r * dx) / det);
     let length = (c * c + s * s + 1e-12).sqrt();
     let (c, s) = (c / length, s / length);
-    [du, dv, c * du, s * dv, s * du + c * dv, ds, model.share, 1.0, place[0] - origin[0], place[1] - origin[1]]
+    let steep = state.lit.steepness(model.share);
+    let [along, down] = [steep * (place[0] - origin[0]), steep * (place[1] - origin[1])];
+    [du, dv, c * du, s * dv, s * du + c * dv, ds, model.share * model.lit, model.lit, along, down]
 }
 
 /// The weighted normal equations.

@@ -23,6 +23,7 @@ declare! { comparing {
     apart(common):
         "Coordinates are not compared: the two results have {common} common {common:point|points}, too few or on a line to lay one upon the other.";
     other_units(before, after): "Coordinates are not compared: lengths were in {before} and are in {after}.";
+    ratios_independent: "The two results share no observation: variances add up, and “× σ” is that of a vector test with the covariance of the point, on the limit of a single test.";
     ratios_mean: "Standard errors are the larger ones of both results; “× σ” is the largest on any axis.";
     gone(n, points): "Not in this result any more, {n}: {points}.";
     only_now(n, points): "New in this result, {n}: {points}.";

@@ -22,6 +22,7 @@ translate! { Korean comparing {
         "좌표는 비교하지 않았습니다. 두 망에 모두 축척이 있는데도 이전 망의 길이에 {scale}{scale:을|를} 곱해야 맞습니다. 그대로는 공통점 {common}개 가운데 {agreeing}개만 표준오차 안에서 맞습니다. 거리나 그 단위가 바뀌지 않았습니까?";
     apart(common): "좌표는 비교하지 않았습니다. 두 결과의 공통점이 {common}개로 너무 적거나 한 직선 위에 있어 서로 맞출 수 없습니다.";
     other_units(before, after): "좌표는 비교하지 않았습니다. 길이 단위가 {before}에서 {after}{after:으로|로} 바뀌었습니다.";
+    ratios_independent: "두 결과는 관측값을 공유하지 않으므로 분산을 더했으며, ‘× σ’는 점의 공분산으로 한 벡터 검정을 단일 검정의 한계에 맞춘 값입니다.";
     ratios_mean: "표준오차는 두 결과 중 큰 값이고, ‘× σ’는 축마다 구한 값 중 가장 큰 것입니다.";
     gone(n, points): "지금 결과에 없는 점 {n}개: {points}.";
     only_now(n, points): "지금 결과에 새로 들어온 점 {n}개: {points}.";

@@ -16,8 +16,9 @@ use crate::browser::event;
 use crate::format;
 use crate::i18n::Text;
 use crate::i18n::experiments as words;
-use crate::i18n::text;
+use crate::i18n::{inside, text};
 use crate::store::Desk;
+use crate::store::inside::Network;
 use drawing::NetworkDrawing;
 use inputs::Inputs;
 use outcome::Outcome;
@@ -75,6 +76,11 @@ fn Page(name: &'static str) -> impl IntoView {
                 {move || if done.get() { words::run_again() } else { words::run() }}
             </button>
             <Show when=move || done.get()>
+                <button class="button" data-action="inside" on:click=move |_| {
+                    if let Some(ran) = untrack(|| desk.experiments.current(name)) {
+                        desk.open_inside(Network::Experiment(ran));
+                    }
+                }>{inside::inside}</button>
                 <button class="button export" on:click=move |_| desk.export_experiment(None)>{text::export_csv}</button>
                 <button class="button primary open" on:click=move |_| desk.open_experiment()>
                     {words::open_as_project} <Glyph icon=Icon::Arrow/>

@@ -210,6 +210,10 @@ fn FeatureList() -> impl IntoView {
                     let fault = line.measured.as_ref().and_then(|m| m.error.clone());
                     let figures = line.measured.as_ref().filter(|m| m.error.is_none()).map(|m| figure(m, &unit.get()));
                     let missing = line.measured.as_ref().map(|m| m.missing.join(", ")).filter(|m| !m.is_empty());
+                    let misfit = line.measured.as_ref().and_then(|m| Some((m.misfit?, m.rms?))).map(|(share, rms)| {
+                        let rms = format!("{} {}", format::compact(rms), unit.get());
+                        words::hardly_forms(word_of(line.kind), rms.trim(), format::fixed(100.0 * share, 0))
+                    });
                     let weak = line.measured.as_ref().and_then(|m| m.weak).map(|w| format::fixed(100.0 * w, 0));
                     view! {
                         <li class:chosen=is>
@@ -225,6 +229,7 @@ fn FeatureList() -> impl IntoView {
                                     (None, Some(error)) => view! { <span class="fault">{errors::sentence(&error)}</span> }.into_any(),
                                     (None, None) => view! { <span class="quantity">{text::out_of_date}</span> }.into_any(),
                                 }}
+                                {misfit.map(|said| view! { <small class="warn missing" data-misfit="true">{said}</small> })}
                                 {weak.map(|percent| view! { <small class="warn missing">{words::weakly_determined(percent)}</small> })}
                                 {missing.map(|names| view! { <small class="warn missing">{words::missing_points(names)}</small> })}
                             </button>

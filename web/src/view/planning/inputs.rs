@@ -1,7 +1,7 @@
 //! What the plan is of: object, camera, wishes.
 
 use leptos::prelude::*;
-use sightline::project::{Camera, DatumKind, Form, Interior, Parameter, Plan};
+use sightline::project::{Camera, DatumKind, Form, Plan};
 use sightline_protocol::PlanOf;
 
 use super::camera::KnownCameras;
@@ -318,19 +318,16 @@ pub fn Inputs() -> impl IntoView {
 /// In millimetres.
 fn principal_distance(plan: &Plan) -> Option<f64> {
     let camera = plan.cameras.first()?;
-    match camera.interior {
-        Interior::Brown { c, .. } => c,
-        Interior::Opencv { fx, .. } => fx.map(|fx| fx * camera.pitch()[0]),
-    }
+    let model = camera.interior.model();
+    let distance = camera.interior.get(model.distance)?;
+    Some(if model.in_photo_units { distance } else { distance * camera.pitch()[0] })
 }
 
 fn set_principal_distance(plan: &mut Plan, value: Option<f64>) -> bool {
     let (Some(value), Some(camera)) = (value.filter(|v| *v > 0.0), plan.cameras.first_mut()) else { return false };
     let pitch = camera.pitch()[0];
-    match camera.interior {
-        Interior::Brown { .. } => camera.interior.set(Parameter::C, value),
-        Interior::Opencv { .. } => camera.interior.set(Parameter::F, value / pitch),
-    }
+    let model = camera.interior.model();
+    camera.interior.set(model.distance, if model.in_photo_units { value } else { value / pitch });
     true
 }
 

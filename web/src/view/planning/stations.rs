@@ -91,7 +91,7 @@ pub fn Stations() -> impl IntoView {
             <table class="table stations">
                 <thead><tr>
                     <th class="left">{words::number}</th><th>{words::taken}</th><th>{words::x}</th><th>{words::y}</th><th>{words::z}</th>
-                    <th>{words::roll}</th><th>{words::distance}</th><th>{words::sees}</th><th></th>
+                    <th>{words::roll}</th><th>{words::distance}</th><th>{words::sees}</th><td></td>
                 </tr></thead>
                 <tbody>{rows}</tbody>
             </table>

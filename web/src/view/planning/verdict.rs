@@ -14,7 +14,7 @@ use crate::i18n::errors;
 use crate::i18n::planning as words;
 use crate::store::Desk;
 use crate::store::document::Change;
-use crate::view::adjust::parameter_name;
+use crate::view::adjust::{parameter_name, parameter_unit};
 use crate::view::icon::{Glyph, Icon};
 
 fn unit(desk: Desk) -> String {
@@ -234,8 +234,12 @@ pub fn Compared() -> impl IntoView {
             row(words::rms(), &|p| number(p.rms.map(|a| a * p.factor))),
             row(words::fewest_rays(), &|p| p.points.iter().map(|p| p.rays).min().map_or("–".into(), format::count)),
             row(words::sigma_c(), &|p| {
-                let sigma = p.cameras.first().and_then(|c| c.sigma.get(&Parameter::C).or(c.sigma.get(&Parameter::F)));
-                sigma.map_or("–".to_owned(), |s| format::compact(*s))
+                let found = p.cameras.first().and_then(|c| {
+                    let (parameter, sigma) =
+                        [Parameter::C, Parameter::F].into_iter().find_map(|p| Some((p, c.sigma.get(&p)?)))?;
+                    Some(format!("{} {}", format::compact(*sigma), parameter_unit(&c.camera, parameter)))
+                });
+                found.unwrap_or_else(|| "–".to_owned())
             }),
         ];
         let heads = names.iter().map(|name| view! { <th>{name.clone()}</th> }).collect_view();
@@ -250,7 +254,7 @@ pub fn Compared() -> impl IntoView {
             }
         });
         Some(view! {
-            <table class="table variants"><thead><tr><th></th>{heads}</tr></thead><tbody>{rows}</tbody></table>
+            <table class="table variants"><thead><tr><td></td>{heads}</tr></thead><tbody>{rows}</tbody></table>
             <div class="row actions">{actions.collect_view()}</div>
         })
     };
@@ -287,7 +291,7 @@ pub fn Reached() -> impl IntoView {
         Some(view! {
             <h2 class="section-head"><span>{words::reached_adjusted}</span></h2>
             <p class="note">{words::reached_words}</p>
-            <table class="table"><thead><tr><th></th><th>{words::predicted}</th><th>{words::adjusted}</th></tr></thead>
+            <table class="table"><thead><tr><td></td><th>{words::predicted}</th><th>{words::adjusted}</th></tr></thead>
                 <tbody>{rows.collect_view()}</tbody></table>
         })
     };

@@ -51,6 +51,7 @@ pub(super) fn CameraTable(camera: AdjustedCamera) -> impl IntoView {
             </tr>
         }
     }).collect_view();
+    let interior = camera.camera.interior;
     let held = camera
         .camera
         .interior
@@ -71,12 +72,14 @@ pub(super) fn CameraTable(camera: AdjustedCamera) -> impl IntoView {
         </h2>
         <table class="table correlations">
             <thead><tr>
-                <th class="left"></th><th>{text::value}</th><th>"σ 1σ"</th><th class="left">{text::unit}</th>
+                <td class="left"></td><th>{text::value}</th><th>"σ 1σ"</th><th class="left">{text::unit}</th>
                 {names.iter().map(|n| view! { <th class="cell">{*n}</th> }).collect_view()}
             </tr></thead>
             <tbody>{rows}</tbody>
         </table>
-        {(!held.is_empty()).then(|| view! { <p class="note">{move || text::all_held(&held)}</p> })}
+        <p class="note" data-model=interior.model().name>
+            {move || if held.is_empty() { text::model_name(&interior).to_owned() } else { text::of_model(text::model_name(&interior), text::all_held(&held)) }}
+        </p>
     }
 }
 

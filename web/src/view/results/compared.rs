@@ -65,7 +65,7 @@ pub(super) fn Compared() -> impl IntoView {
                 (!found.unlike_cameras.is_empty()).then(|| words::unlike_cameras(found.unlike_cameras.join(", ")));
             Some(view! {
                 <p data-compared="figures">{words::figures(&sigma0[0], &sigma0[1], &redundancy[0], &redundancy[1])} " " {rms}</p>
-                <p class="note" data-compared="alignment">{alignment_words(&found.alignment)} " " {words::ratios_mean()}</p>
+                <p class="note" data-compared="alignment">{alignment_words(&found.alignment)} " " {if found.independent { words::ratios_independent() } else { words::ratios_mean() }}</p>
                 {[gone, new, unlike].into_iter().flatten().map(|line| view! { <p class="note">{line}</p> }).collect_view()}
             })
         })
@@ -172,7 +172,7 @@ fn Parameters(#[prop(into)] all: Signal<Vec<ParameterChange>>, limit: Signal<f64
         <div class="compared-cameras">
             <table class="table">
                 <thead><tr>
-                    <th class="left">{text::camera}</th><th class="left"></th><th>{words::before}</th><th>{words::after}</th>
+                    <th class="left">{text::camera}</th><td class="left"></td><th>{words::before}</th><th>{words::after}</th>
                     <th>{words::largest_sigma}</th><th class="left">{text::unit}</th><th>{words::times_sigma}</th>
                 </tr></thead>
                 <tbody>{move || all.get().into_iter().map(row).collect_view()}</tbody>

@@ -1,0 +1,170 @@
+// Lists of points of other programs and people: understood, asked where nothing decides, and answered on the step where they are dropped.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { open } from './browser.mjs';
+import { downloads, drop, go, save, scratch, unzipped } from './desk.mjs';
+
+const longer = { timeout: 300_000 };
+const shots = process.env.SIGHTLINE_SHOTS;
+
+const project = {
+  format: 'sightline',
+  version: 1,
+  name: 'Lists',
+  unit: 'mm',
+  cameras: [{ id: 'k', width: 320, height: 240, model: 'brown', c: 400 }],
+  photos: [{ id: '1', camera: 'k', file: 'a.jpg' }],
+  points: [{ id: 'P1' }, { id: 'P2' }],
+  observations: [{ photo: '1', point: 'P1', u: 40, v: 50, sigma: 0.1 }],
+};
+
+async function opened(page) {
+  await drop(page, [scratch('lists.json', JSON.stringify(project))]);
+  await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Lists');
+}
+
+const hash = (page) => page.evaluate(() => location.hash);
+const sheet = (page) => page.waitForSelector('.import-over .import');
+const take = (page) => page.locator('.import .button.primary').first();
+const understood = (page) => page.textContent('[data-reading]');
+const rejected = (page) => page.getAttribute('.rejected-lines', 'data-rejected');
+const column = (page, k) => page.locator(`[data-column="${k}"]`);
+
+async function saved(page) {
+  const files = await downloads(page, 1, () => save(page, false));
+  return JSON.parse(unzipped(Object.values(files)[0])['project.json']);
+}
+
+/** Pictures in both languages and widths, where they are wanted; the page must not be wider than the window. */
+async function pictures(page, name) {
+  for (const language of ['en', 'ko']) {
+    for (const width of [390, 1366]) {
+      await page.setViewportSize({ width, height: width === 390 ? 844 : 768 });
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(wide <= 0, `${name} ${language} ${width}: ${wide} px too wide`);
+      if (shots) await page.screenshot({ path: `${shots}/${name}-${language}-${width}.png` });
+    }
+    await page.getByRole('button', { name: /Language|언어/ }).first().click();
+  }
+}
+
+test('a list is answered on the step where it is dropped: unit, columns, one standard error for all', longer, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await opened(page);
+    for (const step of ['photos', 'targets', 'identities', 'adjust']) {
+      await go(page, step);
+      await drop(page, [scratch('hall.txt', 'Hall 4, total station\nPunkt;Y;X;H;Code\nP1;52,84;31,25;4,5;ST\nP2;52,88;32,57;4,51;ZP\nP2;52,88;32,57;4,51;ZP\nP3;;32,1;4,5;ZP\n')]);
+      await sheet(page);
+      assert.equal(await hash(page), `#${step}`);
+      if (step !== 'adjust') await page.getByRole('button', { name: 'Discard' }).click();
+    }
+    assert.match(await understood(page), /2 points from lines 3 to 4.*semicolons.*Decimal comma.*Columns by the heading.*line 3.*1 line before/);
+    assert.equal(await rejected(page), '2');
+    assert.match(await page.textContent('.rejected-lines'), /5.*P2.*6.*/s);
+    await pictures(page, 'sheet');
+    await page.setViewportSize({ width: 1366, height: 768 });
+    // Lengths of the project are none yet: the unit is asked, and nothing is taken before.
+    assert.equal(await take(page).isDisabled(), true);
+    await page.selectOption('[name=pasted-unit]', 'm');
+    await page.fill('[name=list-sigma]', '2 mm + 2 ppm');
+    await page.press('[name=list-sigma]', 'Enter');
+    assert.match(await understood(page), /common standard error applies to 2 points/);
+    // Another meaning of a column is taken at once.
+    assert.equal(await column(page, 1).inputValue(), 'Y');
+    await column(page, 1).selectOption('X');
+    await column(page, 2).selectOption('Y');
+    await page.selectOption('[name=list-role]', 'check');
+    assert.equal(await take(page).isDisabled(), false);
+    await take(page).click();
+    await page.waitForFunction(() => location.hash === '#control');
+    const { unit, points } = await saved(page);
+    const point = points.find(({ id }) => id === 'P1');
+    assert.deepEqual([unit, point.role, point.xyz], ['m', 'check', [52.84, 31.25, 4.5]]);
+    assert.ok(Math.abs(point.sigma[0] - 0.002) < 1e-5, `${point.sigma}`);
+    // The next list with this heading is read the same way, and says so.
+    await go(page, 'photos');
+    await drop(page, [scratch('hall-5.txt', 'Punkt;Y;X;H;Code\nP7;52,84;31,25;4,5;ST\n')]);
+    await page.waitForSelector('[data-remembered]');
+    assert.equal(await column(page, 1).inputValue(), 'X');
+    await page.getByRole('button', { name: 'Read it afresh' }).click();
+    await page.waitForFunction(() => !document.querySelector('[data-remembered]'));
+    assert.equal(await column(page, 1).inputValue(), 'Y');
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('what nothing decides is asked, and lists of instruments are known by what is in them', longer, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await opened(page);
+    await go(page, 'targets');
+    // A whole number behind decimals may be a code: the columns are asked.
+    await drop(page, [scratch('codes.csv', '1,5.5,6.5,7.5,3\n2,5.1,6.1,7.1,4\n')]);
+    await sheet(page);
+    await page.selectOption('[name=pasted-unit]', 'm');
+    assert.equal(await take(page).isDisabled(), true);
+    await column(page, 4).selectOption('label');
+    assert.equal(await page.locator('[data-asked]').count(), 0);
+    assert.equal(await take(page).isDisabled(), false);
+    await page.getByRole('button', { name: 'Discard' }).click();
+    // Two of them: one press agrees.
+    await drop(page, [scratch('pix4d.csv', 'g1,1.5,2.5,3.5,0.01,0.02\ng2,4.5,5.5,6.5,0.01,0.02\n')]);
+    await page.locator('[data-asked=columns] button').click();
+    await page.waitForFunction(() => !document.querySelector('[data-asked]'));
+    await page.getByRole('button', { name: 'Discard' }).click();
+    // LandXML and JobXML by their content, whatever the names end with; GSI as text.
+    const lists = {
+      'points.xml': ['<LandXML><Units><Metric linearUnit="meter"/></Units><CgPoints><CgPoint name="가">2 1 3</CgPoint></CgPoints></LandXML>', /LandXML/],
+      'job.jxl': ['<JOBFile><Reductions><Point><Name>가</Name><Grid><North>2</North><East>1</East><Elevation>3</Elevation></Grid></Point></Reductions></JOBFile>', /JobXML/],
+      'a.gsi': ['110001+0000000A 81..00+00001000 82..00+00002000 83..00+00003000\n', /Leica GSI/],
+    };
+    for (const [name, [content, format]] of Object.entries(lists)) {
+      await drop(page, [scratch(name, content)]);
+      await sheet(page);
+      assert.match(await understood(page), format);
+      assert.equal(await page.inputValue('[name=pasted-unit]'), 'm');
+      assert.match((await page.textContent('.preview tr.new')).replaceAll(' ', ''), /1\.00002\.00003\.0000/);
+      await page.getByRole('button', { name: 'Discard' }).click();
+    }
+    // A Western code page, told as assumed; another one can be chosen.
+    await drop(page, [scratch('west.csv', Buffer.from('Punkt;Rechtswert;Hochwert;H\xf6he\nS\xfcd;1,5;2,5;3,5\n', 'latin1'))]);
+    await sheet(page);
+    assert.match(await understood(page), /Windows-1252 assumed/);
+    assert.match(await page.textContent('.preview tr.new'), /Süd/);
+    await page.selectOption('[name=list-role]', 'tie');
+    await page.selectOption('[name=pasted-unit]', 'm');
+    await take(page).click();
+    assert.equal((await saved(page)).points.find(({ id }) => id === 'Süd').role, 'tie');
+    // Latitude and longitude are refused: they are not plane coordinates.
+    await drop(page, [scratch('gps.csv', 'id,latitude,longitude,height\n1,37.5,127.1,30\n')]);
+    await page.waitForSelector('.preview tr.wrong');
+    assert.match(await page.textContent('.preview tr.wrong'), /plane system/);
+    await page.getByRole('button', { name: 'Discard' }).click();
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});
+
+test('files for spreadsheets, CAD and surveyors are offered', longer, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await opened(page);
+    await page.evaluate(() => (location.hash = '#files'));
+    await page.waitForSelector('[data-export=spreadsheet]');
+    const given = async (format, names) => downloads(page, names, () => page.click(`[data-export=${format}]`));
+    const tables = await given('spreadsheet', ['points']);
+    assert.deepEqual([...Object.entries(tables).find(([name]) => name.includes('points'))[1].subarray(0, 3)], [0xef, 0xbb, 0xbf]);
+    assert.match(String(Object.values(await given('landxml', 1))[0]), /<LandXML/);
+    assert.match(String(Object.values(await given('dxf-2010', 1))[0]), /\$INSUNITS/);
+    const record = await given('calibration', ['calibration.json']);
+    assert.ok(Object.keys(record).some((name) => name.endsWith('calibration.json')));
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});

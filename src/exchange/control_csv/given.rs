@@ -1,0 +1,44 @@
+//! Columns of a table as its reader says they are, in place of what heading and content say.
+
+use super::assumptions::{Axes, Basis};
+use super::columns::{Columns, Fault, Field};
+use super::heading;
+use crate::error::{Reason, shortened};
+
+/// The columns of a table by choice; units stay those of its heading.
+///
+/// # Errors
+/// [`Fault`] where a name or a coordinate is missing or there twice.
+pub(super) fn given(chosen: &[Option<Field>], heading: Option<&[String]>, widest: usize) -> Result<Columns, Fault> {
+    let mut fields = chosen.to_vec();
+    // What is chosen for no column is left alone.
+    fields.resize(widest.max(heading.map_or(0, <[String]>::len)), None);
+    for (k, field) in fields.iter().enumerate() {
+        let Some(field) = field else { continue };
+        if fields[..k].contains(&Some(*field)) {
+            return Err(field.fault(Reason::HeadingTwice { name: field.name().into() }));
+        }
+    }
+    for field in [Field::Id, Field::X, Field::Y, Field::Z] {
+        if !fields.contains(&Some(field)) {
+            return Err(field.fault(Reason::HeadingIncomplete { name: field.name().into() }));
+        }
+    }
+    let mut units = heading.map(heading::units).unwrap_or_default();
+    units.resize(fields.len(), None);
+    let words = heading.unwrap_or_default();
+    let ignored = words.iter().zip(&fields).filter(|(word, field)| field.is_none() && !word.is_empty());
+    let ignored = ignored.map(|(word, _)| shortened(word)).collect();
+    let place = |field: Field| fields.iter().position(|column| *column == Some(field));
+    let order = if place(Field::X) < place(Field::Y) { Axes::Xy } else { Axes::Yx };
+    Ok(Columns { units, by: Basis::Given, order: (order, Basis::Given), ignored, remarks: Vec::new(), fields })
+}
+
+/// Whether the first row is a heading whose words are not known: no number stands in a column of numbers, where other rows have some.
+pub(super) fn begins_with_words(rows: &[&[String]], chosen: &[Option<Field>]) -> bool {
+    let places = || (0..chosen.len()).filter(|k| chosen[*k].is_some_and(Field::is_coordinate));
+    let number =
+        |row: &[String], k: usize| row.get(k).is_some_and(|word| word.replacen(',', ".", 1).parse::<f64>().is_ok());
+    let Some((first, others)) = rows.split_first() else { return false };
+    places().all(|k| !number(first, k)) && others.iter().any(|row| places().all(|k| number(row, k)))
+}

@@ -1,0 +1,22 @@
+//! The adjustment for those who learn: a small network, one observation explained, datums and estimators beside each other, what a weight or
+//! a target's size does, and the quantities that lessons ask for. Every number is one of the adjustment's own or follows from its matrices.
+
+mod datums;
+mod dense;
+mod eccentric;
+mod explained;
+mod files;
+mod lab;
+mod planted;
+mod values;
+mod weights;
+
+pub use datums::{DatumCase, Datums, Motion, datums};
+pub use dense::{LARGEST, cofactors};
+pub use eccentric::{Bias, biases};
+pub use explained::{Collinearity, Derivative, Explained, explain};
+pub use files::files;
+pub use lab::{lab, moved};
+pub use planted::{Estimate, Planted, Planting, Tested, plant};
+pub use values::{NAMES, evaluate};
+pub use weights::{Weighted, weighted};

@@ -1,0 +1,162 @@
+//! One observation laid open: its collinearity equation with numbers, each derivative beside a numerical one, and where an error of it goes.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::dense::{carried, cofactors, redundancy};
+use crate::adjust::{LinearSystem, Unknown, UnknownKind, linearise};
+use crate::adjustment::AdjustOptions;
+use crate::error::Result;
+use crate::project::{Interior, Parameter, Project};
+use crate::rotation;
+
+/// x = x0 - c U / W + Δx in numbers. In photo coordinates of pixels, whose second axis points down, the sign of the second equation is +.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Collinearity {
+    /// The point seen from the projection centre, along the axes of the camera, in the document's unit.
+    pub uvw: [f64; 3],
+    /// Coordinate of the principal point.
+    pub principal_point: f64,
+    /// Principal distance.
+    pub principal_distance: f64,
+    /// -1, or +1 for an axis that points down.
+    pub sign: f64,
+    /// What distortion and eccentricity add.
+    pub correction: f64,
+    /// The whole: the computed coordinate.
+    pub computed: f64,
+}
+
+/// A derivative of an observation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Derivative {
+    /// Column of A.
+    pub unknown: usize,
+    /// The entry of A.
+    pub analytic: f64,
+    /// Difference quotient of the computed observation; `None` for given values, which are start values too and would move with them.
+    pub numerical: Option<f64>,
+    /// How far an error of one standard error of the observation moves the unknown; `None` above [`super::LARGEST`] unknowns.
+    pub moved: Option<f64>,
+}
+
+/// An observation explained.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Explained {
+    /// Row of A.
+    pub row: usize,
+    /// Its equation; `None` for given values, and for camera models without this form.
+    pub collinearity: Option<Collinearity>,
+    /// One for every entry of its row.
+    pub derivatives: Vec<Derivative>,
+    /// Redundancy number; `None` above [`super::LARGEST`] unknowns.
+    pub redundancy: Option<f64>,
+}
+
+/// Steps of difference quotients, in the engine's scaled unknowns: the error of the quotient is of their square, that of rounding of their inverse.
+const STEP: f64 = 1e-5;
+
+/// Explains the observation of a row of A at the document's values.
+///
+/// # Errors
+/// As [`linearise`].
+pub fn explain(project: &Project, options: &AdjustOptions, row: usize) -> Result<Explained> {
+    let system = linearise(project, options)?;
+    if row >= system.observations.len() {
+        return Ok(Explained { row, ..Explained::default() });
+    }
+    let q = cofactors(&system);
+    let carried = q.as_ref().map(|q| carried(&system, q, row));
+    let sigma = system.observations[row].sigma;
+    let mut derivatives = Vec::new();
+    for (unknown, analytic) in system.a.row(row) {
+        let step = STEP * system.unknowns[unknown].scale;
+        let misclosure = |by: f64| -> Result<f64> {
+            let there = linearise(&changed(project, &system.unknowns[unknown], by), options)?;
+            Ok(there.l[row])
+        };
+        let numerical = match system.observations[row].given {
+            None => Some((misclosure(-step)? - misclosure(step)?) / (2.0 * step)),
+            Some(_) => None,
+        };
+        let moved = carried.as_ref().map(|carried| carried[unknown] * system.p[row] * sigma);
+        derivatives.push(Derivative { unknown, analytic, numerical, moved });
+    }
+    Ok(Explained {
+        row,
+        collinearity: collinearity(project, &system, row),
+        derivatives,
+        redundancy: carried.as_ref().map(|carried| redundancy(&system, carried, row)),
+    })
+}
+
+fn collinearity(project: &Project, system: &LinearSystem, row: usize) -> Option<Collinearity> {
+    let equation = &system.observations[row];
+    let (photo, point) = (equation.photo.as_ref()?, equation.point.as_ref()?);
+    let photo = project.photos.iter().find(|other| other.id == *photo)?;
+    let point = project.points.iter().find(|other| other.id == *point)?;
+    let camera = project.cameras.iter().find(|camera| camera.id == photo.camera)?;
+    let interior = photo.interior.as_ref().filter(|_| camera.per_photo).unwrap_or(&camera.interior);
+    let second = equation.axis.as_deref() == Some("y");
+    let of = |parameter| interior.get(parameter);
+    let (principal_distance, principal_point, sign) = match interior {
+        Interior::Brown { .. } => (of(Parameter::C)?, of(if second { Parameter::Y0 } else { Parameter::X0 })?, -1.0),
+        Interior::Opencv { .. } => {
+            let focal = of(if second { Parameter::Fy } else { Parameter::Fx })?;
+            (focal, of(if second { Parameter::Cy } else { Parameter::Cx })?, if second { 1.0 } else { -1.0 })
+        }
+        _ => return None,
+    };
+    let m = rotation::object_to_camera(photo.rotation?);
+    let uvw = m * (Vector3::from(point.xyz?) - Vector3::from(photo.position?));
+    let computed = equation.value - system.l[row];
+    let ideal = principal_point + sign * principal_distance * uvw[usize::from(second)] / uvw[2];
+    let correction = computed - ideal;
+    Some(Collinearity { uvw: uvw.into(), principal_point, principal_distance, sign, correction, computed })
+}
+
+/// The document with one unknown changed.
+fn changed(project: &Project, unknown: &Unknown, by: f64) -> Project {
+    let mut project = project.clone();
+    let axis =
+        |names: [&str; 3]| names.iter().position(|axis| unknown.name.ends_with(&format!(" {axis}"))).unwrap_or(0);
+    let is = |id: &String, of: &Option<String>| of.as_ref() == Some(id);
+    match unknown.kind {
+        UnknownKind::Rotation => {
+            if let Some(photo) = project.photos.iter_mut().find(|photo| is(&photo.id, &unknown.photo)) {
+                let mut turn = Vector3::zeros();
+                turn[axis(["x", "y", "z"])] = by;
+                let m = rotation::object_to_camera(photo.rotation.unwrap_or_default());
+                photo.rotation = Some(rotation::angles(&rotation::turned(&m, turn)));
+            }
+        }
+        UnknownKind::ProjectionCentre => {
+            let photo = project.photos.iter_mut().find(|photo| is(&photo.id, &unknown.photo));
+            if let Some(position) = photo.and_then(|photo| photo.position.as_mut()) {
+                position[axis(["X", "Y", "Z"])] += by;
+            }
+        }
+        UnknownKind::Point => {
+            let point = project.points.iter_mut().find(|point| is(&point.id, &unknown.point));
+            if let Some(xyz) = point.and_then(|point| point.xyz.as_mut()) {
+                xyz[axis(["X", "Y", "Z"])] += by;
+            }
+        }
+        UnknownKind::InteriorOrientation => {
+            let name = unknown.name.rsplit(' ').next().unwrap_or_default();
+            let camera = project.cameras.iter_mut().find(|camera| is(&camera.id, &unknown.camera));
+            let own = unknown.photo.is_some();
+            let photo = project.photos.iter_mut().find(|photo| own && is(&photo.id, &unknown.photo));
+            let Some(camera) = camera else { return project };
+            let interior = match photo {
+                Some(photo) => photo.interior.get_or_insert(camera.interior),
+                None => &mut camera.interior,
+            };
+            let parameter = interior.parameters().iter().copied().find(|parameter| parameter.name() == name);
+            if let Some((parameter, value)) = parameter.and_then(|p| Some((p, interior.get(p)?))) {
+                interior.set(parameter, value + by);
+            }
+        }
+    }
+    project
+}

@@ -1,0 +1,119 @@
+//! What is shown of an adjustment to those who learn, against the adjustment itself and against dense algebra.
+
+use nalgebra::{DMatrix, DVector};
+use sightline::adjust::{adjust, linearise};
+use sightline::adjustment::AdjustOptions;
+use sightline::project::DatumKind;
+use sightline::teaching::{Planting, biases, cofactors, datums, evaluate, explain, files, lab, moved, plant};
+
+fn options() -> AdjustOptions {
+    AdjustOptions::default()
+}
+
+#[test]
+fn an_explained_observation_adds_up() {
+    let project = moved(&lab().expect("the lab net"), 0.003);
+    let system = linearise(&project, &options()).expect("a system");
+    for row in (0..system.observations.len()).step_by(17) {
+        let found = explain(&project, &options(), row).expect("an explanation");
+        if system.observations[row].given.is_some() {
+            assert!(found.collinearity.is_none());
+            continue;
+        }
+        let c = found.collinearity.expect("an image coordinate");
+        assert!((c.computed - (system.observations[row].value - system.l[row])).abs() < 1e-12);
+        // Of the distortion alone: a fraction of a millimetre.
+        assert!(c.correction.abs() < 0.5, "{}", c.correction);
+        for one in found.derivatives {
+            let size = system.a.dense().column(one.unknown).amax();
+            assert!((one.analytic - one.numerical.expect("of an image coordinate")).abs() < 2e-6 * size);
+        }
+    }
+}
+
+#[test]
+fn redundancy_numbers_are_those_of_the_adjustment() {
+    let project = lab().expect("the lab net");
+    let adjustment = adjust(&project, &options(), &mut |_| true).expect("a result");
+    let names: Vec<String> = adjustment
+        .observations
+        .iter()
+        .flat_map(|o| ["x", "y"].map(|axis| format!("r({} {} {axis})", o.photo, o.point)))
+        .collect();
+    let found = evaluate(&project, &options(), &names).expect("values");
+    let own = adjustment.observations.iter().flat_map(|o| [o.rx, o.ry]);
+    for (own, found) in own.zip(found) {
+        assert!((own.expect("a redundancy number") - found.expect("a value")).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn expressions_are_evaluated_and_faults_named() {
+    let project = lab().expect("the lab net");
+    let ask = |text: &str| evaluate(&project, &options(), &[text.to_owned()]).expect("a network").remove(0);
+    assert_eq!(ask("n - u + d"), ask("redundancy"));
+    assert_eq!(ask("-(2 + 3) * 4 / 8"), Ok(-2.5));
+    assert_eq!(ask("without(5, photos)"), Ok(4.0));
+    assert_eq!(ask("trace(free) < trace(minimal)"), Ok(1.0));
+    assert_eq!(ask("datum_vtpv(free) = datum_vtpv(minimal)"), Ok(1.0));
+    assert!((ask("r_sum").expect("a sum") - ask("redundancy").expect("a count")).abs() < 1e-6);
+    for wrong in ["", "2 +", "(n", "nothing", "r(9 9 x)", "1 / 0", "n n"] {
+        assert!(ask(wrong).is_err(), "{wrong}");
+    }
+}
+
+#[test]
+fn datums_differ_in_their_ellipses_and_not_in_their_residuals() {
+    let project = lab().expect("the lab net");
+    let found = datums(&project, &options(), None).expect("datums");
+    let of = |kind| found.cases.iter().find(|case| case.kind == kind).expect("a case");
+    let (minimal, free) = (of(DatumKind::Minimal), of(DatumKind::Free));
+    assert!((minimal.weighted_squares / free.weighted_squares - 1.0).abs() < 1e-9);
+    assert!(free.trace < minimal.trace && of(DatumKind::Control).weighted_squares > free.weighted_squares);
+    assert_eq!(found.motions.len(), 7);
+    assert!(found.motions.iter().all(|motion| motion.seen < 1e-7));
+}
+
+#[test]
+fn detection_rates_are_the_predicted_power() {
+    let project = lab().expect("the lab net");
+    for size in [0.0, 4.0, 8.0] {
+        let found = plant(&project, &options(), &[Planting { observation: 20, axis: 0, size }]).expect("an answer");
+        let (power, detected) = (found.power.expect("a power"), found.detected.expect("a share"));
+        let spread = (power * (1.0 - power) / found.draws as f64).sqrt();
+        assert!((power - detected).abs() <= 4.0 * spread, "{size} sigma: {power} {detected}");
+        assert!(found.largest.expect("a share") <= detected);
+        assert_eq!(found.estimates.len(), 4);
+    }
+}
+
+#[test]
+fn eccentricity_grows_with_the_square_of_the_diameter() {
+    let project = lab().expect("the lab net");
+    let found = biases(&project, &options(), &[10.0, 20.0]).expect("biases");
+    assert!(found[0].largest > 0.0);
+    assert!((found[1].largest / found[0].largest - 4.0).abs() < 0.01, "{found:?}");
+}
+
+#[test]
+fn files_hold_the_same_solution() {
+    let project = moved(&lab().expect("the lab net"), 0.001);
+    let system = linearise(&project, &options()).expect("a system");
+    let q = cofactors(&system).expect("a small network");
+    let files = files(&project, &options()).expect("files");
+    let read = |name: &str| -> Vec<f64> {
+        let bytes = &files[name];
+        let head = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+        bytes[10 + head..].chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().expect("eight"))).collect()
+    };
+    let a = DMatrix::from_row_slice(system.a.rows, system.a.columns, &read("A.npy"));
+    assert_eq!(a, system.a.dense());
+    let (x, v) = (DVector::from_vec(read("x.npy")), DVector::from_vec(read("v.npy")));
+    assert!((&a * x - DVector::from_row_slice(&system.l) - v).amax() < 1e-12);
+    let scale = |k: usize| q[(k, k)].sqrt();
+    let n = DMatrix::from_row_slice(a.ncols(), a.ncols(), &read("N.npy"));
+    let product = DMatrix::from_row_slice(a.ncols(), a.ncols(), &read("Qxx.npy")) * n;
+    let far = (0..a.ncols()).flat_map(|i| (0..a.ncols()).map(move |j| (i, j)));
+    let far = far.map(|(i, j)| (product[(i, j)] - f64::from(u8::from(i == j))).abs() * scale(j) / scale(i));
+    assert!(far.fold(0.0, f64::max) < 1e-8);
+}

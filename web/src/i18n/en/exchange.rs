@@ -1,0 +1,74 @@
+//! Texts of files of other programs: what came in, and what is written for them.
+
+use super::{English, choose};
+use crate::i18n::declare;
+
+declare! { interchange {
+    reading: "Reading files";
+    opened_from(format): "Opened from {format}";
+    read_from(format, files): "read from {format}: {files}";
+    more_files(files, more): "{files} and {more} more";
+    assumed: "Assumed";
+    not_kept: "Not kept";
+    converted: "Camera models converted";
+    assumed_sigma: "The files give no standard errors of image measurements: 1 px each.";
+    assumed_size_principal_point: "The file gives no image size: twice the principal point.";
+    assumed_size_measurements: "The file gives no image size: the smallest one around all measurements, with their origin at its centre.";
+    assumed_four: "Four distortion coefficients are k1, k2, p1, p2. For a fisheye lens this camera is wrong.";
+    assumed_unit: "The files give no unit of length. The unit of the project is only a name until a distance or control points are given in step 4.";
+    assumed_chunk: "Coordinates are in the chunk's own system, because the reference system is geographic or a map projection.";
+    counted(name, count): "{name}: {count}";
+    conversion(camera, from, to, max, rms): "{camera}: {from} → {to}, at most {max} px, RMS {rms} px.";
+    conversion_large: "This is more than 0.05 px: residuals and coordinates can show it.";
+    cameras_read(cameras, files): "{cameras} {cameras:camera|cameras} from {files} kept in Equipment.";
+    no_camera_fits(size): "No camera of the open project has {size} px, so the calibration is not offered there.";
+    several_networks(list): "Several networks were dropped together: {list}. Open them one after the other; nothing was opened.";
+    another_project: "Another project was opened from this drop. Open this one by itself.";
+    conversion_asked(list): "{list} Open with this difference?";
+    read_anyway: "Open with this difference";
+    for_this_project: "For the cameras of the open project";
+    for_camera(camera): "Camera {camera}";
+
+    files: "Files";
+    files_for_others: "Files for other programs";
+    files_sentence: "Numbers use a decimal point. Adjusted values are written where there is a current result.";
+    files_stale: "The result is out of date: the values before the adjustment are written. Adjust first to write adjusted ones.";
+    calibrated_camera: "Calibrated camera";
+    whole_network: "Whole network";
+    points: "Points";
+    cad: "CAD";
+    camera: "Camera";
+    values_adjusted: "adjusted, with covariance";
+    values_given: "as given in the project, not adjusted";
+    no_camera_yet: "The project has no camera yet.";
+    opencv_means: "camera matrix and 5 to 14 coefficients, YAML";
+    ros_means: "camera_info, YAML";
+    kalibr_means: "camchain, YAML";
+    mrcal_means: "cameramodel";
+    agisoft_means: "calibration for Metashape, XML";
+    micmac_means: "AutoCal, XML";
+    colmap_camera_means: "cameras.txt";
+    colmap_means: "cameras, images, points as text";
+    colmap_binary_means: "the same as binary files";
+    bundler_means: "bundle.out with its list of photos";
+    bal_means: "Bundle Adjustment in the Large, one text";
+    meshroom_means: "scene.sfm of AliceVision";
+    metashape_means: "cameras and markers, XML";
+    opencv_points_means: "image and object points of every photo for calibration, YAML";
+    tables_means: "points, cameras, photos, observations with standard errors and residuals";
+    tabs_means: "the same, separated by tabs";
+    control_means: "given coordinates with standard errors";
+    vstars_means: "points with standard errors";
+    dxf_means: "points, lines, names on layers";
+    ply_means: "points, ellipsoids, cameras";
+    gltf_means: "the 3-D view as a scene";
+    prepare: "Prepare";
+    preparing: "Preparing";
+    download: "Download";
+    download_format(format): "Download {format}";
+    prepare_format(format): "Prepare {format}";
+    exact: "The camera model is written exactly, without conversion.";
+    converted_covariance: "With the covariance of its parameters.";
+    no_place(list): "Without a place in this format: {list}.";
+    write_anyway: "Prepare with this difference";
+}}
