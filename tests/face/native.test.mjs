@@ -1,4 +1,5 @@
-// The same photo gives the same targets natively and as wasm, the same network the same adjustment: to 1e-9, every number.
+// The same photo gives the same targets natively and as wasm, the same network the same adjustment: to 1e-9, every number but those of the
+// residual patterns.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
@@ -96,8 +97,13 @@ test('networks: every datum, both camera models, robust and with snooping, with 
       const file = join(folder, `${model}-${kind}.json`);
       writeFileSync(file, JSON.stringify(project));
       for (const options of [{}, { robust: 'huber' }, { snooping: true }, { residuals: 'corrected' }]) {
-        const here = sightline.adjust(project, options);
-        compare(JSON.parse(JSON.stringify(here)), natively('adjust', file, options), 1e-9, `${model} ${kind} ${JSON.stringify(options)}`);
+        const { patterns, ...here } = JSON.parse(JSON.stringify(sightline.adjust(project, options)));
+        const { patterns: expected, ...there } = natively('adjust', file, options);
+        compare(here, there, 1e-9, `${model} ${kind} ${JSON.stringify(options)}`);
+        // What the unknowns leave of a field is the difference of numbers up to 1e5 times as large, which a solution of equations of
+        // condition 1e6 gives to 1e-10.
+        assert.ok(patterns.length > 0);
+        compare(patterns, expected, 1e-5, `${model} ${kind} ${JSON.stringify(options)} patterns`);
       }
     }
   }
