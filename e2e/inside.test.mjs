@@ -10,7 +10,7 @@ const inside = async (page) => {
   await page.waitForSelector('.steps-taken [data-step-number]', { timeout: 60_000 });
 };
 const number = (text) => {
-  const [, mantissa, exponent] = /(-?[\d.]+)(?: × 10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?/.exec(text.replaceAll('−', '-').replaceAll(/[  ]/g, ''));
+  const [, mantissa, exponent] = /(-?[\d.]+)(?:×10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?/.exec(text.replaceAll('−', '-').replaceAll(/\s/g, ''));
   const digits = [...(exponent ?? '⁰')].map((c) => (c === '⁻' ? '-' : '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(c))).join('');
   return Number(mantissa) * 10 ** Number(digits);
 };
@@ -83,7 +83,7 @@ test('three datums, a planted error and weights stand beside each other', { time
 test('it speaks Korean, fits a phone, and opens from an experiment', { timeout: 300_000 }, async () => {
   const { page, errors, close } = await open({ width: 390, height: 844 });
   try {
-    await page.evaluate(() => localStorage.setItem('language', 'ko'));
+    await page.evaluate(() => localStorage.setItem('sightline.language', 'ko'));
     await page.reload();
     await page.evaluate(() => (location.hash = '#experiments/kim'));
     await page.click('.action .run');

@@ -45,7 +45,7 @@ use solve::session::{Log, RobustVariance, Session};
 pub use inside::linear_system::{Equation, LinearSystem, Unknown, UnknownKind, linearise};
 pub use inside::normal_equations::{Block, BlockKind, FillIn, Motion, NormalEquations, Reduced, normal_equations};
 pub use inside::sparse::{SparseMatrix, npy};
-pub use inside::stepping::{Adjuster, StepState, start_adjustment};
+pub use inside::stepping::{Adjuster, StepState, at_end, start_adjustment};
 pub use problem::unmodelled::estimate as unmodelled;
 
 /// Variance factors of the parameters of one camera are one factor; equations at the adjusted values repeat it to rounding and the last

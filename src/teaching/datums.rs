@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::adjust::{adjust, apply, linearise, normal_equations};
+use crate::adjust::{Adjuster, adjust, at_end};
 use crate::adjustment::{AdjustOptions, AdjustedPoint, StatisticsChoice};
 use crate::error::{Error, Result};
 use crate::project::{Datum, DatumKind, Project, Role};
@@ -72,7 +72,7 @@ pub fn datums(project: &Project, options: &AdjustOptions, held: Option<&[String]
     let mut motions = Vec::new();
     for kind in [DatumKind::Control, DatumKind::Minimal, DatumKind::Free] {
         let points = held.filter(|_| kind == DatumKind::Minimal).map(<[String]>::to_vec);
-        let mut under = Project { datum: Datum { kind, points }, ..project.clone() };
+        let under = Project { datum: Datum { kind, points }, ..project.clone() };
         let control = under.points.iter().any(|point| point.role == Role::Control);
         if kind == DatumKind::Control && !control {
             cases.push(failed_case(kind, None));
@@ -84,8 +84,8 @@ pub fn datums(project: &Project, options: &AdjustOptions, held: Option<&[String]
             Ok(adjustment) => {
                 let sigma0 = adjustment.sigma0;
                 let variance = sigma0.map_or(1.0, |sigma0| sigma0 * sigma0);
-                under = apply(&under, &adjustment);
-                let system = linearise(&under, &options)?;
+                let end = at_end(&under, &options)?;
+                let system = end.linear_system()?;
                 let squares = |image: bool| -> f64 {
                     let rows = system.observations.iter().zip(system.l.iter().zip(&system.p));
                     rows.filter(|(row, _)| !image || row.given.is_none()).map(|(_, (l, p))| p * l * l).sum()
@@ -95,7 +95,7 @@ pub fn datums(project: &Project, options: &AdjustOptions, held: Option<&[String]
                 let sum = |axis: usize| all.iter().map(|variances| variances[axis]).sum::<f64>();
                 let count = all.len().max(1) as f64;
                 if kind == DatumKind::Free {
-                    motions = moved(&under, &options, &adjustment.points)?;
+                    motions = moved(&end, &adjustment.points)?;
                 }
                 cases.push(DatumCase {
                     kind,
@@ -132,8 +132,8 @@ fn failed_case(kind: DatumKind, failed: Option<Box<Error>>) -> DatumCase {
     }
 }
 
-fn moved(project: &Project, options: &AdjustOptions, points: &[AdjustedPoint]) -> Result<Vec<Motion>> {
-    let (system, normal) = (linearise(project, options)?, normal_equations(project, options)?);
+fn moved(end: &Adjuster, points: &[AdjustedPoint]) -> Result<Vec<Motion>> {
+    let (system, normal) = (end.linear_system()?, end.normal_equations()?);
     let motion = |motion: crate::adjust::Motion| {
         let at = |point: &AdjustedPoint| {
             let mut moved = [0.0; 3];

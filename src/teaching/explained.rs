@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::dense::{carried, cofactors, redundancy};
-use crate::adjust::{LinearSystem, Unknown, UnknownKind, linearise};
+use crate::adjust::{Adjuster, LinearSystem, Unknown, UnknownKind, linearise};
 use crate::adjustment::AdjustOptions;
 use crate::error::Result;
 use crate::project::{Interior, Parameter, Project};
@@ -56,23 +56,26 @@ pub struct Explained {
 /// Steps of difference quotients, in the engine's scaled unknowns: the error of the quotient is of their square, that of rounding of their inverse.
 const STEP: f64 = 1e-5;
 
-/// Explains the observation of a row of A at the document's values.
+/// Explains the observation of a row of A at the present values of an adjustment.
 ///
 /// # Errors
 /// As [`linearise`].
-pub fn explain(project: &Project, options: &AdjustOptions, row: usize) -> Result<Explained> {
-    let system = linearise(project, options)?;
+pub fn explain(at: &Adjuster, options: &AdjustOptions, row: usize) -> Result<Explained> {
+    let system = at.linear_system()?;
     if row >= system.observations.len() {
         return Ok(Explained { row, ..Explained::default() });
     }
     let q = cofactors(&system);
     let carried = q.as_ref().map(|q| carried(&system, q, row));
     let sigma = system.observations[row].sigma;
+    // Control points and observed parameters too at their present values, which the state's document keeps as given.
+    let not_turned = system.unknowns.iter().filter(|unknown| unknown.kind != UnknownKind::Rotation);
+    let here = not_turned.fold(at.state().project.clone(), |here, unknown| changed(&here, unknown, 0.0));
     let mut derivatives = Vec::new();
     for (unknown, analytic) in system.a.row(row) {
         let step = STEP * system.unknowns[unknown].scale;
         let misclosure = |by: f64| -> Result<f64> {
-            let there = linearise(&changed(project, &system.unknowns[unknown], by), options)?;
+            let there = linearise(&changed(&here, &system.unknowns[unknown], by), options)?;
             Ok(there.l[row])
         };
         let numerical = match system.observations[row].given {
@@ -84,7 +87,7 @@ pub fn explain(project: &Project, options: &AdjustOptions, row: usize) -> Result
     }
     Ok(Explained {
         row,
-        collinearity: collinearity(project, &system, row),
+        collinearity: collinearity(&here, &system, row),
         derivatives,
         redundancy: carried.as_ref().map(|carried| redundancy(&system, carried, row)),
     })
@@ -115,7 +118,7 @@ fn collinearity(project: &Project, system: &LinearSystem, row: usize) -> Option<
     Some(Collinearity { uvw: uvw.into(), principal_point, principal_distance, sign, correction, computed })
 }
 
-/// The document with one unknown changed.
+/// The document with one unknown at its present value changed by `by`; a rotation from the document's own.
 fn changed(project: &Project, unknown: &Unknown, by: f64) -> Project {
     let mut project = project.clone();
     let axis =
@@ -133,13 +136,13 @@ fn changed(project: &Project, unknown: &Unknown, by: f64) -> Project {
         UnknownKind::ProjectionCentre => {
             let photo = project.photos.iter_mut().find(|photo| is(&photo.id, &unknown.photo));
             if let Some(position) = photo.and_then(|photo| photo.position.as_mut()) {
-                position[axis(["X", "Y", "Z"])] += by;
+                position[axis(["X", "Y", "Z"])] = unknown.value + by;
             }
         }
         UnknownKind::Point => {
             let point = project.points.iter_mut().find(|point| is(&point.id, &unknown.point));
             if let Some(xyz) = point.and_then(|point| point.xyz.as_mut()) {
-                xyz[axis(["X", "Y", "Z"])] += by;
+                xyz[axis(["X", "Y", "Z"])] = unknown.value + by;
             }
         }
         UnknownKind::InteriorOrientation => {
@@ -153,8 +156,8 @@ fn changed(project: &Project, unknown: &Unknown, by: f64) -> Project {
                 None => &mut camera.interior,
             };
             let parameter = interior.parameters().iter().copied().find(|parameter| parameter.name() == name);
-            if let Some((parameter, value)) = parameter.and_then(|p| Some((p, interior.get(p)?))) {
-                interior.set(parameter, value + by);
+            if let Some(parameter) = parameter {
+                interior.set(parameter, unknown.value + by);
             }
         }
     }

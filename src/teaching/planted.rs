@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::dense::{carried, cofactors, redundancy};
-use crate::adjust::{adjust, apply, linearise};
+use crate::adjust::{adjust, at_end};
 use crate::adjustment::{AdjustOptions, Adjustment, Robust, StatisticsChoice};
 use crate::error::Result;
 use crate::noise::Noise;
@@ -128,7 +128,7 @@ pub fn plant(project: &Project, options: &AdjustOptions, errors: &[Planting]) ->
     }
     let before = first.and_then(|first| tested(&without).into_iter().find(|one| at(one, first)));
     let (power, detected, largest) = match (first, before) {
-        (Some(first), Some(before)) => simulated(project, &plain, &without, first, before)?,
+        (Some(first), Some(before)) => simulated(project, &plain, first, before)?,
         _ => (None, None, None),
     };
     Ok(Planted {
@@ -202,12 +202,11 @@ fn estimate(
 fn simulated(
     project: &Project,
     options: &AdjustOptions,
-    without: &Adjustment,
     first: Planting,
     before: Tested,
 ) -> Result<(Option<f64>, Option<f64>, Option<f64>)> {
     let limit = critical_w();
-    let system = linearise(&apply(project, without), options)?;
+    let system = at_end(project, options)?.linear_system()?;
     let Some(q) = cofactors(&system) else { return Ok((None, None, None)) };
     let shift = first.size * before.r.sqrt();
     let power = tail(limit - shift) + tail(limit + shift);

@@ -19,7 +19,7 @@ use super::dense::{carried, cofactors, redundancy};
 use super::eccentric::biases;
 use super::planted::tail;
 use crate::adjust::{
-    Adjuster, LinearSystem, NormalEquations, adjust, apply, linearise, normal_equations, start_adjustment,
+    Adjuster, LinearSystem, NormalEquations, adjust, apply, at_end, linearise, normal_equations, start_adjustment,
 };
 use crate::adjustment::{AdjustOptions, Adjustment};
 use crate::error::Result;
@@ -231,7 +231,7 @@ struct Network<'a> {
 impl<'a> Network<'a> {
     fn new(project: &'a Project, options: &'a AdjustOptions) -> Result<Self> {
         let adjustment = adjust(project, options, &mut |_| true)?;
-        let system = linearise(&apply(project, &adjustment), options)?;
+        let system = at_end(project, options)?.linear_system()?;
         Ok(Self {
             project,
             options,

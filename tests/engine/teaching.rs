@@ -1,7 +1,7 @@
 //! What is shown of an adjustment to those who learn, against the adjustment itself and against dense algebra.
 
 use nalgebra::{DMatrix, DVector};
-use sightline::adjust::{adjust, linearise};
+use sightline::adjust::{Adjuster, adjust, linearise, start_adjustment};
 use sightline::adjustment::AdjustOptions;
 use sightline::project::DatumKind;
 use sightline::teaching::{Planting, biases, cofactors, datums, evaluate, explain, files, lab, moved, plant};
@@ -12,10 +12,20 @@ fn options() -> AdjustOptions {
 
 #[test]
 fn an_explained_observation_adds_up() {
-    let project = moved(&lab().expect("the lab net"), 0.003);
-    let system = linearise(&project, &options()).expect("a system");
+    let mut adjuster = start_adjustment(&moved(&lab().expect("the lab net"), 0.003), &options()).expect("a start");
+    adds_up(&adjuster);
+    while adjuster.state().termination.is_none() {
+        adjuster.step().expect("a step");
+    }
+    adds_up(&adjuster);
+}
+
+fn adds_up(adjuster: &Adjuster) {
+    let system = adjuster.linear_system().expect("a system");
+    let residuals = adjuster.state().residuals.iter();
+    assert!(system.l.iter().zip(residuals).all(|(l, v)| *l == -v));
     for row in (0..system.observations.len()).step_by(17) {
-        let found = explain(&project, &options(), row).expect("an explanation");
+        let found = explain(adjuster, &options(), row).expect("an explanation");
         if system.observations[row].given.is_some() {
             assert!(found.collinearity.is_none());
             continue;

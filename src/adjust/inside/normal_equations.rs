@@ -114,7 +114,12 @@ pub fn normal_equations(project: &Project, options: &AdjustOptions) -> Result<No
     })
 }
 
-fn of_system(session: &Session<'_>, options: &AdjustOptions, system: &LinearSystem) -> Result<NormalEquations> {
+/// The normal equations of a session's observation equations.
+pub(super) fn of_system(
+    session: &Session<'_>,
+    options: &AdjustOptions,
+    system: &LinearSystem,
+) -> Result<NormalEquations> {
     let network = &session.network;
     let columns = Columns::new(network);
     let blocks = blocks(session, &columns);

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::adjust::equations::right_hand_side;
 use crate::adjust::problem::additional::LeftOut;
 use crate::adjust::problem::numbering::Numbering;
+use crate::adjust::problem::state::State;
 use crate::adjust::problem::{eccentric, far_points, unmodelled};
 use crate::adjust::report::values::applied;
 use crate::adjust::solve::session::{Log, Session, unsound};
@@ -18,7 +19,8 @@ use crate::error::Result;
 use crate::project::Project;
 use crate::rotation;
 
-use super::linear_system::{Columns, of_session};
+use super::linear_system::{Columns, LinearSystem, of_session};
+use super::normal_equations::{NormalEquations, of_system};
 
 /// What is known after a step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,8 +53,16 @@ pub struct StepState {
 pub struct Adjuster {
     project: Project,
     options: AdjustOptions,
-    states: Vec<StepState>,
+    reached: Vec<Reached>,
     at: usize,
+}
+
+/// A state with all its values; the document of [`StepState`] keeps given values as given.
+#[derive(Clone, Debug)]
+struct Reached {
+    told: StepState,
+    values: State,
+    shift: Vec<[f64; 2]>,
 }
 
 /// Begins an adjustment at the document's values.
@@ -61,7 +71,16 @@ pub struct Adjuster {
 /// As [`adjust`].
 pub fn start_adjustment(project: &Project, options: &AdjustOptions) -> Result<Adjuster> {
     let first = after(project, options, 0, None)?;
-    Ok(Adjuster { project: project.clone(), options: options.clone(), states: vec![first], at: 0 })
+    Ok(Adjuster { project: project.clone(), options: options.clone(), reached: vec![first], at: 0 })
+}
+
+/// An adjustment at the end of its iteration, without the states on the way.
+///
+/// # Errors
+/// As [`adjust`].
+pub fn at_end(project: &Project, options: &AdjustOptions) -> Result<Adjuster> {
+    let last = after(project, options, usize::MAX, None)?;
+    Ok(Adjuster { project: project.clone(), options: options.clone(), reached: vec![last], at: 0 })
 }
 
 impl Adjuster {
@@ -70,23 +89,49 @@ impl Adjuster {
     /// # Errors
     /// As [`adjust`].
     pub fn step(&mut self) -> Result<&StepState> {
-        if self.at + 1 == self.states.len() && self.states[self.at].termination.is_none() {
-            let next = after(&self.project, &self.options, self.at + 1, Some(&self.states[self.at]))?;
-            self.states.push(next);
+        if self.at + 1 == self.reached.len() && self.state().termination.is_none() {
+            let next = after(&self.project, &self.options, self.at + 1, Some(self.state()))?;
+            self.reached.push(next);
         }
-        self.at = (self.at + 1).min(self.states.len() - 1);
-        Ok(&self.states[self.at])
+        self.at = (self.at + 1).min(self.reached.len() - 1);
+        Ok(self.state())
     }
 
     /// Goes back by one step; stays at the initial values.
     pub fn back(&mut self) -> &StepState {
         self.at = self.at.saturating_sub(1);
-        &self.states[self.at]
+        self.state()
     }
 
     /// The present state.
     pub fn state(&self) -> &StepState {
-        &self.states[self.at]
+        &self.reached[self.at].told
+    }
+
+    /// The observation equations at the present values. [`linearise`](super::linear_system::linearise) of the state's document differs
+    /// where given values take part: there the document has the given value of a control point, here its present one counts.
+    ///
+    /// # Errors
+    /// As [`adjust`].
+    pub fn linear_system(&self) -> Result<LinearSystem> {
+        self.here(|session| of_session(session, &self.options))
+    }
+
+    /// The normal equations at the present values.
+    ///
+    /// # Errors
+    /// As [`adjust`].
+    pub fn normal_equations(&self) -> Result<NormalEquations> {
+        self.here(|session| of_system(session, &self.options, &of_session(session, &self.options)?))
+    }
+
+    fn here<T>(&self, work: impl FnOnce(&Session<'_>) -> Result<T>) -> Result<T> {
+        let reached = &self.reached[self.at];
+        with_session(&self.project, &self.options, |mut session| {
+            session.state = reached.values.clone();
+            session.shift.clone_from(&reached.shift);
+            work(&session)
+        })
     }
 
     /// The whole adjustment.
@@ -117,13 +162,12 @@ pub(in crate::adjust) fn with_session<T>(
 }
 
 /// The state after so many steps from the document's values.
-fn after(project: &Project, options: &AdjustOptions, steps: usize, before: Option<&StepState>) -> Result<StepState> {
+fn after(project: &Project, options: &AdjustOptions, steps: usize, before: Option<&StepState>) -> Result<Reached> {
     with_session(project, options, |mut session| {
-        let (mut iteration, mut termination) = (None, None);
+        let (mut iteration, mut termination, mut taken) = (None, None, 0);
         if steps == 0 {
             session.shift = eccentric::shifts(session.project, &session.network, &session.state);
         } else {
-            let mut taken = 0;
             let mut each = |one: &Iteration| {
                 taken += 1;
                 iteration = Some(one.clone());
@@ -139,8 +183,9 @@ fn after(project: &Project, options: &AdjustOptions, steps: usize, before: Optio
         let corrections =
             before.map_or_else(|| vec![0.0; values.len()], |before| corrections(&session, &values, before));
         let redundancy = session.redundancy;
-        Ok(StepState {
-            step: steps,
+        let told = StepState {
+            // At values that are the solution already a step takes no iteration.
+            step: steps.min(taken.max(1)),
             project: applied(&session),
             iteration,
             weighted_squares,
@@ -149,7 +194,8 @@ fn after(project: &Project, options: &AdjustOptions, steps: usize, before: Optio
             corrections,
             residuals: system.l.iter().map(|l| -l).collect(),
             termination,
-        })
+        };
+        Ok(Reached { told, values: session.state.clone(), shift: session.shift.clone() })
     })
 }
 

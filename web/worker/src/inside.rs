@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use sightline::adjust::{Adjuster, linearise, normal_equations, start_adjustment};
+use sightline::adjust::{Adjuster, start_adjustment};
 use sightline::exchange::package::archive;
 use sightline::project::Project;
 use sightline::{Result, teaching};
@@ -47,9 +47,7 @@ fn project(of: &InsideOf) -> Result<Project> {
 impl Service<LookInside> for Engine {
     fn serve(&self, task: LookInside, _: Vec<Given>, _: Progress<Nothing>) -> Served<Looked> {
         let mut looked = at_step(&task.of, task.step, |adjuster| {
-            let project = &adjuster.state().project;
-            let system = linearise(project, &task.of.options)?;
-            let normal = normal_equations(project, &task.of.options)?;
+            let (system, normal) = (adjuster.linear_system()?, adjuster.normal_equations()?);
             Ok(Looked { state: adjuster.state().clone(), system, normal })
         })?;
         let bytes = matrices(&mut looked);
@@ -65,7 +63,7 @@ impl Service<Inquire> for Engine {
         let options = &of.options;
         let found = match inquiry {
             Inquiry::Row { step, row } => {
-                Found::Row(at_step(&of, step, |at| teaching::explain(&at.state().project, options, row))?)
+                Found::Row(at_step(&of, step, |at| teaching::explain(at, options, row))?)
             }
             Inquiry::Datums(held) => Found::Datums(teaching::datums(&project(&of)?, options, held.as_deref())?),
             Inquiry::Plant(errors) => Found::Plant(teaching::plant(&project(&of)?, options, &errors)?),
