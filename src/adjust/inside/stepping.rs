@@ -3,7 +3,7 @@
 //! After k steps the values are those of [`adjust`](crate::adjust::adjust) stopped after its k-th iteration, bit by bit: both run the same
 //! iteration. Robust estimation, the search for gross errors and variance components follow after it and are not stepped through.
 
-use nalgebra::Rotation3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::adjust::equations::right_hand_side;
@@ -204,9 +204,17 @@ fn corrections(session: &Session<'_>, values: &[f64], before: &StepState) -> Vec
     let columns = Columns::new(&session.network);
     for (k, (block, pose)) in session.network.photos.iter().zip(&session.state.poses).enumerate() {
         let then = rotation::object_to_camera(before.project.photos[block.index].rotation.unwrap_or_default());
-        let turn = Rotation3::from_matrix_unchecked(pose.matrix() * then.transpose()).scaled_axis();
+        let turn = turn_vector(&(pose.matrix() * then.transpose()));
         let first = columns.photo(k).start;
         corrections[first..first + 3].copy_from_slice(turn.as_slice());
     }
     corrections
+}
+
+/// δ of R = exp([δ]×), from the skew part sin|δ| δ/|δ|: from the trace alone small turns would lose half their digits, and where rounding
+/// makes it larger than 3 there is none.
+fn turn_vector(r: &Matrix3<f64>) -> Vector3<f64> {
+    let skew = 0.5 * Vector3::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
+    let sine = skew.norm();
+    if sine == 0.0 { skew } else { skew * (sine.atan2(0.5 * (r.trace() - 1.0)) / sine) }
 }

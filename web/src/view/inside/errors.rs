@@ -83,7 +83,7 @@ pub fn Errors() -> impl IntoView {
                     <input type="range" name="error-size" min="0" max="20" step="0.5" prop:value=move || size.get().to_string()
                         on:input=move |e| size.set(event::value(&e).parse().unwrap_or(0.0)) on:change=move |_| plant()/></label>
             </div>
-            {move || inside.planted.get().filter(|_| chosen.get().is_some()).map_or_else(
+            {move || inside.planted.get().filter(|found| found.before.is_some() || found.tested.is_empty()).map_or_else(
                 || view! { <p class="note">{words::computing}</p> }.into_any(),
                 |found| shown(&found, chosen.get(), name),
             )}
