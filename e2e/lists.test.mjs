@@ -39,6 +39,9 @@ async function saved(page) {
 /** Pictures in both languages and widths, where they are wanted; the page must not be wider than the window. */
 async function pictures(page, name) {
   for (const language of ['en', 'ko']) {
+    // Menus speak the language that was chosen while they stand there.
+    const words = await page.$$eval('[name=list-role] option, [data-column] option', (all) => all.map((option) => option.textContent).join(' '));
+    (language === 'ko' ? assert.match : assert.doesNotMatch)(words, /[가-힣]/);
     for (const width of [390, 1366]) {
       await page.setViewportSize({ width, height: width === 390 ? 844 : 768 });
       const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
@@ -75,7 +78,10 @@ test('a list is answered on the step where it is dropped: unit, columns, one sta
     assert.equal(await column(page, 1).inputValue(), 'Y');
     await column(page, 1).selectOption('X');
     await column(page, 2).selectOption('Y');
+    await page.focus('[name=list-role]');
     await page.selectOption('[name=list-role]', 'check');
+    // The sheet is drawn anew by a choice, and the menu keeps the focus.
+    await page.waitForFunction(() => document.activeElement.name === 'list-role' && document.activeElement.value === 'check');
     assert.equal(await take(page).isDisabled(), false);
     await take(page).click();
     await page.waitForFunction(() => location.hash === '#control');

@@ -278,6 +278,21 @@ pub fn focus_id(id: &str) {
     }
 }
 
+/// A selector of the field that has the focus, by its name or column: it finds the field again where the page draws it anew.
+pub fn focused_field() -> Option<String> {
+    let element = window()?.document()?.active_element()?;
+    let by = |name: &str| Some(format!("[{name}=\"{}\"]", element.get_attribute(name)?));
+    by("name").or_else(|| by("data-column"))
+}
+
+/// Gives the first such element of the page the focus.
+pub fn focus_first(which: &str) {
+    let found = window().and_then(|w| w.document()).and_then(|d| d.query_selector(which).ok().flatten());
+    if let Some(element) = found.and_then(|e| e.dyn_into::<HtmlElement>().ok()) {
+        let _ = element.focus();
+    }
+}
+
 /// A name that no other has.
 pub fn unique_name() -> String {
     let part = || format!("{:08x}", (js_sys::Math::random() * 4_294_967_296.0) as u32);

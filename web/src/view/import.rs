@@ -14,9 +14,9 @@ use sightline::units::Unit;
 use super::control::{CoordinateHead, sigma_cells, xyz_cells};
 use super::field::Field;
 use super::icon::{Glyph, Icon};
-use crate::browser::event;
+use crate::browser::{event, page};
 use crate::format;
-use crate::i18n::{Text, errors, lists, text, text::role_word};
+use crate::i18n::{Text, errors, language, lists, text, text::role_word};
 use crate::store::Desk;
 use crate::store::control::Pasted;
 
@@ -42,7 +42,15 @@ pub fn ImportOver() -> impl IntoView {
 #[component]
 pub fn ImportSheet() -> impl IntoView {
     let desk = expect_context::<Desk>();
-    view! { {move || desk.pasted.get().map(|pasted| view! { <Sheet pasted/> })} }
+    let sheet = move || {
+        // The words of menus do not change by themselves, and every choice reads the list anew.
+        language();
+        if let Some(field) = page::focused_field() {
+            page::after(0, move || page::focus_first(&format!(".import {field}")));
+        }
+        desk.pasted.get().map(|pasted| view! { <Sheet pasted/> })
+    };
+    view! { {sheet} }
 }
 
 #[component]

@@ -62,9 +62,7 @@ impl Service<Inquire> for Engine {
         let Inquire { of, inquiry } = task;
         let options = &of.options;
         let found = match inquiry {
-            Inquiry::Row { step, row } => {
-                Found::Row(at_step(&of, step, |at| teaching::explain(at, options, row))?)
-            }
+            Inquiry::Row { step, row } => Found::Row(at_step(&of, step, |at| teaching::explain(at, options, row))?),
             Inquiry::Datums(held) => Found::Datums(teaching::datums(&project(&of)?, options, held.as_deref())?),
             Inquiry::Plant(errors) => Found::Plant(teaching::plant(&project(&of)?, options, &errors)?),
             Inquiry::Weigh(image, control) => {
