@@ -208,7 +208,10 @@ pub(crate) fn fit<T: Sample>(
     if dropped > 0 && mean * variance > covariance[0] + covariance[2] {
         covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
     }
-    let by_shape = work.band.shifts_by_shape(&state.outline, work.origin, state.blur, state.lit.contrast, &cofactors);
+    let by_shape = match variance > limits::SHAPED * noise {
+        true => work.band.shifts_by_shape(&state.outline, work.origin, state.blur, state.lit.contrast, &cofactors),
+        false => [0.0; 3],
+    };
     let Workspace { band, field, origin, coloured, mean, .. } = work;
     let mut colour = None;
     if *coloured || beyond {
