@@ -10,6 +10,7 @@
 
 use super::acceptance::{
     alike as limits,
+    levels::ROUNDING,
     size::{EDGES_LARGE, FIT_SMALL},
 };
 use super::code::{may_be_in_ring, outline_of};
@@ -17,6 +18,7 @@ use super::edges::surround::{self, Glance};
 use super::ellipse::outline::Outline;
 use super::lump::{self, Lump};
 use super::measure::Measure;
+use super::picture::noise::Levels;
 use super::rendered::band::{Prior, Region};
 use super::rendered::fit::{self, Fit};
 use crate::detection::{Method, Polarity, Quality, Reason, Target};
@@ -233,6 +235,7 @@ impl<T: Sample> Measure<'_, T> {
                 stairs: false,
                 quantum: self.levels.quantum,
                 developed: self.levels.developed,
+                shape: 0.0,
                 prior: Some(prior),
             };
             let fit = fit::fit(&self.plane, &region, alike.blur[0], CONVERGED, &mut self.work).ok_or(Reason::NoFit)?;
@@ -355,6 +358,13 @@ impl<T: Sample> Measure<'_, T> {
     fn level_around(&self, outline: &Outline, alike: &Alike, kept: &[bool]) -> Result<surround::Surround, Reason> {
         surround::measure(&self.plane, outline, APART * alike.blur[0], kept, u32::MAX).ok_or(Reason::AtBorder)
     }
+}
+
+/// How many times the noise of its flat ground the rims of a picture have, as denoising in a camera leaves it; `uneven` is what the fits of
+/// its targets leave, each less its mean profile across the rim. 1 where targets are few.
+pub(crate) fn rim_noise(uneven: Vec<f64>, levels: &Levels) -> f64 {
+    let ground = levels.noise.max(ROUNDING * levels.quantum);
+    if uneven.len() < limits::ENOUGH { 1.0 } else { median_and_spread(uneven)[0] / ground }
 }
 
 /// Leaves out of what only a softened picture shows what is much fainter than nearly all targets of its kind that are known without

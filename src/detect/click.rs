@@ -2,7 +2,7 @@
 
 use super::measure::{Found, Measure};
 use super::part::Part;
-use super::picture::noise;
+use super::picture::noise::{self, Levels};
 use super::search::{self, Hidden};
 use super::{Outline, Plane, code};
 use crate::detect::acceptance::place::BESIDE;
@@ -14,10 +14,14 @@ const WINDOWS: [usize; 3] = [64, 192, 1000];
 /// The last window where codes are read: small dots in rings are found by what many others have in common.
 const LAST: usize = 2000;
 
+/// What a click says is a target is judged by so many times the noise of the flat ground, where nothing else is found: at rims a camera's
+/// denoising leaves up to that much more, and the fit's own residuals tell the standard error.
+const NOISE_AT_RIMS: [f64; 2] = [2.5, 6.0];
+
 /// The target under the click, or the nearest one within a few pixels of it.
 pub(super) fn measure<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Option<Target> {
     let method = options.method;
-    let mut found = at(plane, u, v, options, |measure, found| measure.finish(found, method).ok());
+    let mut found = at(plane, u, v, options, 1.0, |measure, found| measure.finish(found, method).ok());
     code::read_in(&plane, found.as_mut_slice(), options.codes);
     let is_settled =
         |target: &Target| options.codes == Codes::None || target.code.is_some() || !target.code_candidates.is_empty();
@@ -26,7 +30,8 @@ pub(super) fn measure<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &Dete
     }
     // a dot may be measured otherwise, and read, where others tell of it
     let coded = |target: &Target| found.is_none() || target.code.is_some();
-    in_ordinary(plane, u, v, options).filter(coded).or(found)
+    let noisy = |noise| at(plane, u, v, options, noise, |measure, found| measure.finish(found, method).ok());
+    in_ordinary(plane, u, v, options).filter(coded).or(found).or_else(|| NOISE_AT_RIMS.into_iter().find_map(noisy))
 }
 
 /// The target under the click where the picture is no laboratory's: as the whole picture would be searched, in windows.
@@ -49,22 +54,26 @@ fn in_ordinary<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptio
 /// Every method's measurement of the target under the click.
 pub(super) fn compare<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Vec<MethodResult> {
     let all = [Method::LeastSquares, Method::Ellipse, Method::Intensity, Method::Gradient];
-    let results = at(plane, u, v, options, |measure, found| {
-        measure.finish(found, Method::LeastSquares).ok()?;
-        Some(all.map(|method| match measure.finish(found, method) {
-            Ok(target) => MethodResult { method, target: Some(target), reason: None },
-            Err(reason) => MethodResult { method, target: None, reason: Some(reason) },
-        }))
-    });
-    results.map(Vec::from).unwrap_or_default()
+    let results = |noise| {
+        at(plane, u, v, options, noise, |measure, found| {
+            measure.finish(found, Method::LeastSquares).ok()?;
+            Some(all.map(|method| match measure.finish(found, method) {
+                Ok(target) => MethodResult { method, target: Some(target), reason: None },
+                Err(reason) => MethodResult { method, target: None, reason: Some(reason) },
+            }))
+        })
+    };
+    results(1.0).or_else(|| NOISE_AT_RIMS.into_iter().find_map(results)).map(Vec::from).unwrap_or_default()
 }
 
-/// Finds the blobs of a window around the place and hands the one that the click means to `finish`.
+/// Finds the blobs of a window around the place and hands the one that the click means to `finish`, judged by so many times the noise of
+/// the flat ground.
 fn at<T: Sample, R>(
     plane: Plane<T>,
     u: f64,
     v: f64,
     options: &DetectOptions,
+    noise: f64,
     mut finish: impl FnMut(&mut Measure<T>, &Found) -> Option<R>,
 ) -> Option<R> {
     for size in WINDOWS {
@@ -85,6 +94,7 @@ fn at<T: Sample, R>(
             })
             .collect();
         candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let levels = Levels { noise: noise * levels.noise, ..levels };
         let mut measure = Measure::new(plane, levels, options);
         for (_, outline, bright) in candidates {
             let found = measure.confirm(&outline, bright).ok();

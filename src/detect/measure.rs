@@ -53,6 +53,8 @@ pub(crate) struct Measure<'a, T> {
     prior: Option<Prior>,
     /// What neighbouring pixels of the target measured last share.
     pub colour: Option<Colour>,
+    /// Rms of what the last fit of a rendered ellipse left, less its mean profile across the rim; 0 without one.
+    pub uneven: f64,
 }
 
 /// A target as found from its edges, before the final measurement.
@@ -84,7 +86,16 @@ impl Found {
 impl<'a, T: Sample> Measure<'a, T> {
     /// Nothing measured yet.
     pub fn new(plane: Plane<'a, T>, levels: Levels, options: &'a DetectOptions) -> Self {
-        Self { plane, levels, options, edges: Edges::default(), work: Workspace::default(), prior: None, colour: None }
+        Self {
+            plane,
+            levels,
+            options,
+            edges: Edges::default(),
+            work: Workspace::default(),
+            prior: None,
+            colour: None,
+            uneven: 0.0,
+        }
     }
 
     /// Edges on `count` rays, of a target of about this blur.
@@ -160,6 +171,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             Method::LeastSquares => {
                 let (fit, around) = self.least_squares(found)?;
                 self.colour = fit.colour;
+                self.uneven = fit.uneven;
                 surround = around;
                 outline = fit.outline;
                 (contrast, blur, fit_rms) = (fit.contrast.abs(), fit.blur, fit.rms);
@@ -282,6 +294,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             stairs: self.levels.stairs,
             quantum: self.levels.quantum,
             developed: self.levels.developed,
+            shape: if whole { found.ellipse.rms } else { 0.0 },
             prior: self.prior,
         };
         let (plane, work) = (&self.plane, &mut self.work);

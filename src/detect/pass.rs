@@ -1,6 +1,6 @@
 //! One pass over a picture: candidates of the search, what is measured of them, and what something hides.
 
-use super::acceptance::alike::ENOUGH;
+use super::acceptance::alike::{ENOUGH, NOISY_RIMS};
 use super::acceptance::size::{ALIKE_LARGE, ALIKE_SMALL};
 use super::alike::{self, Alike, Wanted};
 use super::code;
@@ -12,7 +12,7 @@ use super::rendered::colour::{Colour, Correlation};
 use super::search::blob::NoBlob;
 use super::search::census::Census;
 use super::search::{self, Blobs, Candidate, Hidden};
-use crate::detection::{DetectOptions, Detection, Reason, Target};
+use crate::detection::{DetectOptions, Detection, Polarity, Reason, Target};
 use crate::image::{Plane, Sample};
 
 /// What one pass over a picture found.
@@ -76,7 +76,7 @@ pub(super) fn pass<T: Sample>(
     let mut measure = Measure::new(plane, levels, options);
     measure.work.coloured = coloured;
     measure.work.mean = soft.map_or(0.0, |soft| soft.blur);
-    let mut colours = Vec::new();
+    let (mut colours, mut uneven) = (Vec::new(), Vec::new());
     let mut doubtful: Vec<Outline> = Vec::new();
     let mut covered: Vec<Candidate> = Vec::new();
     for candidate in blobs.iter().flat_map(|blobs| &blobs.candidates) {
@@ -87,6 +87,7 @@ pub(super) fn pass<T: Sample>(
         match measure.confirm(outline, *bright).and_then(|found| measure.finish(&found, options.method)) {
             Ok(target) => {
                 colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
+                uneven.push(measure.uneven);
                 census.accept(target, *bright);
             }
             Err(reason) => {
@@ -126,13 +127,32 @@ pub(super) fn pass<T: Sample>(
     }
     let shapeless = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
     doubtful.extend(shapeless.filter_map(|no| disc(no, options)));
+    let rim_noise = alike::rim_noise(uneven, &measure.levels);
+    let [shared, hiding] = NOISY_RIMS;
+    if rim_noise > shared && !measure.work.coloured {
+        measure.work.coloured = true;
+        colours = measured_again(&mut measure, &mut census.targets);
+    }
     if let Some(alike) = alike::of(&mut measure, known, &census.targets)
-        && (soft.is_some() || alike.swallows())
+        && (soft.is_some() || rim_noise > hiding || alike.swallows())
     {
         take_alike(&mut measure, &mut census, &mut colours, &doubtful, &alike, Wanted::Disc);
     }
     let grounds = std::mem::take(&mut census.grounds);
     Pass { detection: census.finish(), grounds, colours, doubtful }
+}
+
+/// Measures targets again where neighbouring pixels turn out to share their noise; what they share.
+fn measured_again<T: Sample>(measure: &mut Measure<T>, targets: &mut [Target]) -> Vec<([f64; 2], Colour)> {
+    let mut colours = Vec::new();
+    for target in targets {
+        let found = measure.confirm(&code::outline_of(target), target.polarity == Polarity::Bright);
+        if let Ok(again) = found.and_then(|found| measure.finish(&found, measure.options.method)) {
+            *target = again;
+            colours.extend(measure.colour.take().map(|colour| ([target.u, target.v], colour)));
+        }
+    }
+    colours
 }
 
 /// Whether targets are enough, and all of them so clear that covered ones of the same photo are seen above the lowest level.

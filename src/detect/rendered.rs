@@ -19,6 +19,7 @@ mod flats;
 pub(crate) mod lit;
 pub(crate) mod neighbours;
 mod scatter;
+mod shape;
 mod sketch;
 pub(crate) mod strip;
 mod taken;

@@ -8,7 +8,7 @@ use wide::{f32x4, f32x8};
 
 use super::flats::Flats;
 use super::lit::Lit;
-use super::scatter::Lights;
+use super::scatter::{Lights, Rim};
 use super::strip::Strip;
 use crate::detect::edges::surround::Surround;
 use crate::detect::ellipse::outline::Outline;
@@ -49,6 +49,8 @@ pub(crate) struct Region<'a> {
     pub quantum: f64,
     /// Whether what is left all around is what a camera does to edges.
     pub developed: bool,
+    /// How far the rim departs from an ellipse, rms in pixels.
+    pub shape: f64,
     /// What is known of blur and contrast, if anything.
     pub prior: Option<Prior>,
 }
@@ -353,13 +355,13 @@ impl Band {
 
     /// How the squares of the residuals go with the share of the disc, and the light's part in the centre.
     #[inline(never)]
-    pub fn lights(&self, cofactors: &Normal, contrast: f64) -> Lights {
+    pub fn lights<const RIM: bool>(&self, cofactors: &Normal, contrast: f64) -> Lights {
         let columns = self.columns().map(|column| column.as_chunks::<8>().0);
         let scale = |i: usize| if i < 2 * DERIVATIVES { contrast } else { 1.0 };
         let factor = |i: usize, j: usize| f32x8::splat((cofactors[(i, j)] * scale(i) * scale(j)) as f32);
         let factors: [[f32x8; UNKNOWNS]; UNKNOWNS] = std::array::from_fn(|i| std::array::from_fn(|j| factor(i, j)));
         let [kept, share, residual] = [&self.kept, &self.share, &self.residual].map(|column| column.as_chunks::<8>().0);
-        let mut sums = [f32x8::ZERO; 8];
+        let (mut sums, mut rims) = ([f32x8::ZERO; 8], [f32x8::ZERO; 7]);
         for k in 0..columns[0].len() {
             let row = columns.map(|column| f32x8::new(column[k]));
             let moved = |i: usize| (0..UNKNOWNS).fold(f32x8::ZERO, |sum, j| sum + factors[i][j] * row[j]);
@@ -378,11 +380,23 @@ impl Band {
             for (sum, term) in sums.iter_mut().zip(terms) {
                 *sum += term;
             }
+            if RIM {
+                let rim = f32x8::splat(4.0) * share * (f32x8::splat(1.0) - share);
+                let of_rim = rim * free;
+                let terms = [of_rim, of_rim * share, of_rim * rim, rim * square, rim * u * u, rim * u * v, rim * v * v];
+                for (sum, term) in rims.iter_mut().zip(terms) {
+                    *sum += term;
+                }
+            }
         }
-        let [n, lit, second, all, bright, uu, uv, vv] =
-            sums.map(|sum| sum.to_array().into_iter().map(f64::from).sum::<f64>());
+        let total = |sum: f32x8| sum.to_array().into_iter().map(f64::from).sum::<f64>();
+        let rim = RIM.then(|| {
+            let [one, lit, square, squares, uu, uv, vv] = rims.map(total);
+            Rim { powers: [one, lit, square], squares, moved: [uu, uv, vv].map(|sum| sum / (contrast * contrast)) }
+        });
+        let [n, lit, second, all, bright, uu, uv, vv] = sums.map(total);
         let centre = [uu, uv, vv].map(|sum| sum / (contrast * contrast));
-        Lights { powers: [n, lit, second], squares: [all, bright], lit: centre }
+        Lights { powers: [n, lit, second], squares: [all, bright], lit: centre, rim }
     }
 
     pub(super) fn columns(&self) -> [&[f32]; UNKNOWNS] {

@@ -196,7 +196,11 @@ pub(crate) fn fit<T: Sample>(
     let values = if all_around { work.band.take_profile(&state.outline, work.origin) } else { 0 };
     // a value takes the noise of a ring half a pixel wide, of which a mean has left that many times the variance
     let taken = values as f64 * (work.mean * std::f64::consts::PI.sqrt()).max(1.0);
-    let lights = work.band.lights(&cofactors, state.lit.contrast).of_profile(taken);
+    let lights = match beyond {
+        true => work.band.lights::<true>(&cofactors, state.lit.contrast),
+        false => work.band.lights::<false>(&cofactors, state.lit.contrast),
+    }
+    .of_profile(taken);
     let mut covariance = scatter::covariance(&cofactors, &lights, &flats, &state.lit);
     // what is left around a disturbance follows no light: the mean of all may tell more of it
     let mean = cofactors[(0, 0)] + cofactors[(1, 1)];
@@ -204,6 +208,10 @@ pub(crate) fn fit<T: Sample>(
     if dropped > 0 && mean * variance > covariance[0] + covariance[2] {
         covariance = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place] * variance);
     }
+    let by_shape = match variance > limits::SHAPED * noise {
+        true => work.band.shifts_by_shape(&state.outline, work.origin, state.blur, state.lit.contrast, &cofactors),
+        false => [0.0; 3],
+    };
     let Workspace { band, field, origin, coloured, mean, .. } = work;
     let mut colour = None;
     if *coloured || beyond {
@@ -234,7 +242,7 @@ pub(crate) fn fit<T: Sample>(
         rms,
         uneven,
         disturbed: dropped as f64 / used as f64,
-        covariance,
+        covariance: std::array::from_fn(|i| covariance[i] + by_shape[i]),
     })
 }
 
@@ -274,9 +282,12 @@ impl Workspace {
         // an edge sharper than any that is rendered leaves up to 0.4 of the least blur in a pixel
         let sharp = if state.blur <= BLUR.0 { limits::SHARP * state.lit.contrast.abs() } else { 0.0 };
         let profile = if region.stairs { limits::STAIRS } else { limits::LENS };
+        // where the rim departs from an ellipse, by the steepness of its profile
+        let steepest = 1.0 / (std::f64::consts::TAU * (state.blur * state.blur + 1.0 / 12.0)).sqrt();
+        let shape = limits::DEPARTS * region.shape * steepest;
         let least = (limits::OUTLIER * region.surround.noise.max(limits::QUIET))
             .max(sharp)
-            .max(profile * state.lit.contrast.abs());
+            .max(profile.max(shape) * state.lit.contrast.abs());
         // rounding to levels that lie apart moves a sample by up to half of that
         let least = least + (region.quantum - 1.0) / 2.0;
         least.max(limits::OUTLIER * self.band.robust_deviation(least / limits::OUTLIER))

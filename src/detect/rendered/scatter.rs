@@ -10,7 +10,10 @@
 //! ```
 //!
 //! with j the row of the design matrix. The mean of all squares would not do: most pixels of the band lie on the ground, what
-//! determines the centre lies half way up the rim.
+//! determines the centre lies half way up the rim. For the same reason a third term c 4I(1 - I) takes what rims have more than either side
+//! of them, where the residuals are beyond the noise: in-camera denoising and compression leave noise where edges are.
+
+use nalgebra::{Matrix3, Matrix3x2, Vector3};
 
 use super::band::Normal;
 use super::flats::Flats;
@@ -25,13 +28,28 @@ pub(crate) struct Lights {
     pub squares: [f64; 2],
     /// Of I z z' for the centre: uu, uv, vv.
     pub lit: [f64; 3],
+    /// The same with R = 4I(1 - I), where that is wanted.
+    pub rim: Option<Rim>,
+}
+
+/// Sums over the pixels of the band with R = 4I(1 - I), which is 1 half way up the rim.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Rim {
+    /// Of (1 - h) R, (1 - h) I R, (1 - h) R².
+    pub powers: [f64; 3],
+    /// Of r² R.
+    pub squares: f64,
+    /// Of R z z' for the centre: uu, uv, vv.
+    pub moved: [f64; 3],
 }
 
 impl Lights {
     /// Of residuals from which a profile has taken the squares of so many.
     pub fn of_profile(self, taken: f64) -> Self {
         let free = (self.powers[0] - taken).max(0.5 * self.powers[0]);
-        Self { squares: self.squares.map(|sum| sum * self.powers[0] / free), ..self }
+        let scale = self.powers[0] / free;
+        let rim = self.rim.map(|rim| Rim { squares: scale * rim.squares, ..rim });
+        Self { squares: self.squares.map(|sum| scale * sum), rim, ..self }
     }
 
     /// Mean square of the residuals.
@@ -42,13 +60,36 @@ impl Lights {
 
 /// Covariance (uu, uv, vv) of the centre with the cofactors of all unknowns.
 pub(crate) fn covariance(cofactors: &Normal, band: &Lights, flats: &Flats, lit: &Lit) -> [f64; 3] {
-    let [ground, growth] = line(band.powers, band.squares);
+    let [ground, growth, rim] = curve(band);
     // Inside, z is linear: the disc's level is that of the ground and the contrast, and its slope follows the light.
     let steep = lit.steepness(1.0);
     let row = |i: usize| [cofactors[(i, 6)] + cofactors[(i, 7)], steep * cofactors[(i, 8)], steep * cofactors[(i, 9)]];
     let disc = flats.inside.products(&[row(0), row(1)]);
     let own = [(0, 0), (0, 1), (1, 1)].map(|place| cofactors[place]);
-    std::array::from_fn(|k| ground * own[k] + growth * (band.lit[k] + disc[k]))
+    let moved = band.rim.map_or([0.0; 3], |rim| rim.moved);
+    std::array::from_fn(|k| ground * own[k] + growth * (band.lit[k] + disc[k]) + rim * moved[k])
+}
+
+/// a, b and c of the variance a + b I + c R, a line where rims have no more than it, and never negative between ground and disc.
+fn curve(band: &Lights) -> [f64; 3] {
+    let [ground, growth] = line(band.powers, band.squares);
+    let Some(rim) = band.rim else { return [ground, growth, 0.0] };
+    let ([n, first, second], [all, lit]) = (band.powers, band.squares);
+    let [of_rim, lit_rim, rim_rim] = rim.powers;
+    let normal = Matrix3::new(n, first, of_rim, first, second, lit_rim, of_rim, lit_rim, rim_rim);
+    let right = Vector3::new(all, lit, rim.squares);
+    // all three; no noise on the ground; none on the disc
+    let disc_and_rim = Matrix3x2::new(0.0, 0.0, 1.0, 0.0, 0.0, 1.0);
+    let ground_and_rim = Matrix3x2::new(1.0, 0.0, -1.0, 0.0, 0.0, 1.0);
+    let within = |basis: Matrix3x2<f64>| {
+        let solved = (basis.transpose() * normal * basis).cholesky()?.solve(&(basis.transpose() * right));
+        Some(basis * solved)
+    };
+    let whole = normal.cholesky().map(|factor| factor.solve(&right));
+    let ways = [whole, within(disc_and_rim), within(ground_and_rim)];
+    let sound = |[a, b, c]: [f64; 3]| a >= 0.0 && a + b >= -1e-12 * a && c >= 0.0;
+    let found = ways.into_iter().flatten().map(|way| [way[0], way[1], way[2]]).find(|way| sound(*way));
+    found.unwrap_or([ground, growth, 0.0])
 }
 
 /// a and b of the variance a + b I, never negative between ground and disc.
@@ -80,6 +121,28 @@ mod tests {
         let sum = |f: &dyn Fn(f64) -> f64| shares.iter().map(|share| f(*share)).sum::<f64>();
         let powers = [sum(&|_| 1.0), sum(&|share| share), sum(&|share| share * share)];
         line(powers, [sum(&square), sum(&|share| share * square(share))])
+    }
+
+    #[test]
+    fn what_rims_have_more_is_found() {
+        let shares: Vec<f64> = (0..100).map(|k| (f64::from(k) / 99.0).powi(2)).collect();
+        let sum = |f: &dyn Fn(f64) -> f64| shares.iter().map(|share| f(*share)).sum::<f64>();
+        let of_rim = |share: f64| 4.0 * share * (1.0 - share);
+        for [a, b, c] in [[1.5, 4.0, 20.0], [1.0, -1.0, 40.0], [0.0, 2.0, 7.0], [2.0, 1.0, 0.0]] {
+            let square = |share: f64| a + b * share + c * of_rim(share);
+            let band = Lights {
+                powers: [sum(&|_| 1.0), sum(&|s| s), sum(&|s| s * s)],
+                squares: [sum(&square), sum(&|s| s * square(s))],
+                lit: [0.0; 3],
+                rim: Some(Rim {
+                    powers: [sum(&of_rim), sum(&|s| s * of_rim(s)), sum(&|s| of_rim(s).powi(2))],
+                    squares: sum(&|s| of_rim(s) * square(s)),
+                    moved: [0.0; 3],
+                }),
+            };
+            let found = curve(&band);
+            assert!(found.iter().zip([a, b, c]).all(|(found, given)| (found - given).abs() < 1e-9), "{found:?}");
+        }
     }
 
     #[test]

@@ -102,6 +102,7 @@ mod tests {
                 stairs: false,
                 quantum: 1.0,
                 developed: false,
+                shape: 0.0,
                 prior: None,
             };
             field.place(&outline, blur, half_band);
