@@ -18,7 +18,7 @@ use wasm_bindgen::prelude::*;
 
 use fault::thrown;
 use sightline::adjustment::{AdjustOptions, Iteration};
-use sightline::calibration::{DifferenceOptions, UncertaintyOptions};
+use sightline::calibration::{CrossOptions, DifferenceOptions, UncertaintyOptions};
 use sightline::detection::{Channel, ColoursApart, DetectOptions};
 use sightline::exchange::foreign::CameraOptions;
 use sightline::experiments::ExperimentOptions;
@@ -416,6 +416,19 @@ pub fn compare_cameras(
         let asked: DifferenceOptions = value::options(&options, &[])?;
         let (a, b): (Camera, Camera) = (value::read(&a, "a")?, value::read(&b, "b")?);
         calibration::compare_cameras(&a, &b, &asked)
+    };
+    found().map(|found| value::write(&found)).map_err(|error: Error| thrown(&error))
+}
+
+/// Splits the photos, calibrates the camera from each part, and compares the parts with what their standard errors allow.
+#[wasm_bindgen(js_name = crossValidate, unchecked_return_type = "CrossValidation")]
+pub fn cross_validate(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "CrossOptions")] options: JsValue,
+) -> Thrown {
+    let found = || {
+        let asked: CrossOptions = value::options(&options, &[])?;
+        calibration::cross_validate(&value::project(&project)?, &asked)
     };
     found().map(|found| value::write(&found)).map_err(|error: Error| thrown(&error))
 }

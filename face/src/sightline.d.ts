@@ -1889,6 +1889,50 @@ export interface CameraDifference {
   max_px: number | null;
 }
 
+/** What `crossValidate` takes. `reference` is not `photos`. */
+export interface CrossOptions extends DifferenceOptions {
+  /** In how many parts the photos are split, balanced by position and roll: 2, at most 8. */
+  parts?: number;
+  /** May be left out where the project has one camera. */
+  camera?: string | null;
+  /** How each part is adjusted; not with `snooping`, `robust` or `variance_components`, which take a wrong model for noise. */
+  adjust?: AdjustOptions;
+}
+
+/** A part of the photos, calibrated by itself. */
+export interface CrossPart {
+  photos: string[];
+  sigma0: number | null;
+  /** What its residuals significantly depend on (p < 0.001). */
+  patterns: PatternKind[];
+  camera: AdjustedCameraResult;
+}
+
+/** What `crossValidate` gives. Maps are rows of `v` of columns `u`; null where a part gives no ray. */
+export interface CrossValidation {
+  camera: string;
+  parts: CrossPart[];
+  u: number[];
+  v: number[];
+  /** Standard error of the difference of two parts by the a priori standard errors (not scaled with sigma0, which a wrong model makes large), pixels: the root of the sum of both covariances in the worst direction. */
+  predicted: (number | null)[][];
+  /** Length of the difference after the best rotation, pixels. */
+  observed: (number | null)[][];
+  /** Observed over predicted; of several pairs of parts the largest. */
+  ratio_map: (number | null)[][];
+  /** Whether every part has a measurement within one step of the grid. Only there the parts are judged. */
+  covered: boolean[][];
+  /** The covered place with the largest ratio; `sigma` is what was predicted there. */
+  worst: { u: number; v: number; sigma: number } | null;
+  ratio: number | null;
+  /** The largest ratio to standard errors that include sigma0. */
+  ratio_with_sigma0: number | null;
+  /** The ratio that a right model exceeds anywhere once in a thousand, by draws from the covariances; at least 2. */
+  limit: number;
+  /** `larger_noise`: beyond the limit, but not with sigma0, and no part has a pattern: the a priori standard errors are too small. */
+  verdict: "agrees" | "larger_noise" | "wrong_model";
+}
+
 /** What `compareEpochs` takes. */
 export interface CompareOptions {
   /** Two or more, in time. */

@@ -26,6 +26,7 @@ mod adjust {
 
 /// Whether a calibration is good.
 mod calibration {
+    mod cross;
     mod patterns;
     mod uncertainty;
 }

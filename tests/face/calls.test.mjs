@@ -128,6 +128,7 @@ function calls() {
     measureFeatures: [[project, {}], 5],
     projectionUncertainty: [[project, adjustment, { grid: [3, 3] }], 5],
     compareCameras: [[project.cameras[0], project.cameras[0], { grid: [3, 3] }], 10],
+    crossValidate: [[project, { grid: [3, 3], adjust: { max_iterations: 5 } }], 2],
     nearestNames: [[project, project, 0.1], 10],
     compareEpochs: [[epochs()], 10],
     readList: [['a,1,2,3,0.1,0.1,0.1\nb,4,5,6,0.1,0.1,0.1', {}], 10],
