@@ -1,12 +1,14 @@
-//! Is a calibration good? How well a camera predicts where a point appears, how far two calibrations differ in that, and whether parts of the
-//! photos say the same.
+//! Is a calibration good? How well a camera predicts where a point appears, how far two calibrations differ in that, whether parts of the
+//! photos say the same, and which camera model they support.
 //!
 //! A calibration with a shifted principal point and a rotation that makes up for it predicts the same directions. What a motion of the
 //! camera can take over is therefore taken out first, of an uncertainty as of a difference; [`MotionReference`] says how.
 //!
 //! Source: D. Kogan, mrcal, "Projection uncertainty" and "Differencing", <https://mrcal.secretsauce.net>.
 
+mod conversion;
 mod difference;
+mod models;
 mod motion;
 mod places;
 mod split;
@@ -15,7 +17,9 @@ mod validation;
 
 use serde::{Deserialize, Serialize};
 
+pub use conversion::{ModelConversion, convert_camera};
 pub use difference::{CameraDifference, DifferenceOptions, compare_cameras};
+pub use models::{ComparedModel, ModelVerdict, ModelsOptions, compare_models};
 pub use uncertainty::{ProjectionUncertainty, UncertaintyOptions, WorstPlace, projection_uncertainty};
 pub use validation::{CrossOptions, CrossPart, CrossValidation, CrossVerdict, cross_validate};
 

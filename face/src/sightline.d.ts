@@ -1927,10 +1927,65 @@ export interface CrossValidation {
   ratio: number | null;
   /** The largest ratio to standard errors that include sigma0. */
   ratio_with_sigma0: number | null;
-  /** The ratio that a right model exceeds anywhere once in a thousand, by draws from the covariances; at least 2. */
+  /** The ratio that a right model exceeds anywhere once in a thousand, by draws from the covariances, at least 2; 2 where the residuals of every part have a pattern. */
   limit: number;
   /** `larger_noise`: beyond the limit, but not with sigma0, and no part has a pattern: the a priori standard errors are too small. */
   verdict: "agrees" | "larger_noise" | "wrong_model";
+}
+
+/** Name of a camera model. */
+export type CameraModelName = "brown" | "opencv" | "opencv_rational" | "opencv_fisheye";
+
+/** What a camera in another model has left. */
+export interface ModelConversion {
+  camera: string;
+  from: CameraModelName;
+  to: CameraModelName;
+  /** Largest difference of the pixels of one direction over the picture; null while the principal distance is not known. */
+  max_px: number | null;
+  rms_px: number | null;
+  /** Share of the picture that it holds for: a perspective model has no image of rays far off the axis (75 degrees). */
+  share: number;
+  /** Parameters whose a priori values have no place in the other model. */
+  dropped: Parameter[];
+}
+
+/** What `convertCamera` gives: the camera, the interior orientations of its photos and its colours in the other model. */
+export interface ConvertedCamera {
+  project: Project;
+  conversion: ModelConversion;
+}
+
+/** What `compareModels` takes. */
+export interface ModelsOptions {
+  /** May be left out where the project has one camera. */
+  camera?: string | null;
+  /** Of the choice of image points that are held out: 1. */
+  seed?: number;
+  /** How each model is adjusted; not with `snooping`, `robust` or `variance_components`, by which every model would choose its own observations. */
+  adjust?: AdjustOptions;
+}
+
+/** A camera model on the network; `compareModels` gives one each. */
+export interface ComparedModel {
+  model: CameraModelName;
+  /** What its start values left of the present camera; null where it could not be converted. */
+  conversion: ModelConversion | null;
+  /** With its adjusted values, and what is estimated of it; null where it failed. */
+  camera: Camera | null;
+  sigma0: number | null;
+  /** Estimated. */
+  parameters: Parameter[];
+  /** Parameters of distortion that are not told from 0. */
+  insignificant: Parameter[];
+  /** Of coordinates of a fifth of the image points, predicted without them, pixels; null where none could be held out. */
+  held_out_rms: number | null;
+  /** Schwarz's criterion less that of the best. */
+  bic: number | null;
+  /** `too_stiff`: it cannot follow the lens; `overfits`: no better than the best, with more parameters. */
+  verdict: "best" | "as_good_with_fewer" | "as_good" | "too_stiff" | "overfits" | "failed";
+  /** Why it failed: an error as in `data` of one that is thrown. */
+  failure: Record<string, unknown> | null;
 }
 
 /** What `compareEpochs` takes. */

@@ -27,6 +27,7 @@ mod adjust {
 /// Whether a calibration is good.
 mod calibration {
     mod cross;
+    mod models;
     mod patterns;
     mod uncertainty;
 }

@@ -129,6 +129,8 @@ function calls() {
     projectionUncertainty: [[project, adjustment, { grid: [3, 3] }], 5],
     compareCameras: [[project.cameras[0], project.cameras[0], { grid: [3, 3] }], 10],
     crossValidate: [[project, { grid: [3, 3], adjust: { max_iterations: 5 } }], 2],
+    compareModels: [[project, { adjust: { max_iterations: 5 } }], 1],
+    convertCamera: [[project, project.cameras[0].id, 'opencv'], 5],
     nearestNames: [[project, project, 0.1], 10],
     compareEpochs: [[epochs()], 10],
     readList: [['a,1,2,3,0.1,0.1,0.1\nb,4,5,6,0.1,0.1,0.1', {}], 10],

@@ -185,7 +185,18 @@ pub fn reason(reason: &Reason) -> String {
             );
         }
         R::ModelsJudgedPlainly => {
-            "데이터 스누핑, 로버스트 가중, 분산성분은 잘못된 모델의 잔차를 과대오차나 잡음으로 봅니다. 먼저 과대오차를 끄고, 이 옵션들 없이 계산하십시오"
+            "데이터 스누핑, 로버스트 가중, 분산성분은 잘못된 모형의 잔차를 과대오차나 잡음으로 봅니다. 먼저 과대오차를 끄고, 이 옵션들 없이 계산하십시오"
+        }
+        R::ModelWithoutImages { missing } => {
+            return format!(
+                "이 모형로는 영상점 {missing}개의 상이 생기지 않습니다. 이렇게 넓은 화각의 렌즈에는 opencv_fisheye가 필요합니다"
+            );
+        }
+        R::ModelNotConverged => {
+            "이 모형의 조정이 수렴하지 않습니다. 렌즈가 모형과 너무 다르거나 망이 모형의 변수를 결정하지 못합니다"
+        }
+        R::ModelNotFitted { model } => {
+            return format!("카메라 모형 {model}의 어떤 값으로도 이 카메라의 광선을 나타낼 수 없습니다");
         }
         R::DatumPoints => "기준계에는 한 직선 위에 있지 않은 점이 셋 이상 필요합니다",
         R::NoImage => "점의 상이 생기지 않는 곳에서 반복이 끝났습니다. 초기값을 개선하십시오",
@@ -539,6 +550,7 @@ pub fn thing(thing: Thing) -> &'static str {
         Thing::Layer => "레이어",
         Thing::Epoch => "시기",
         Thing::Group => "그룹",
+        Thing::CameraModel => "카메라 모형",
     }
 }
 
