@@ -642,6 +642,17 @@ export interface ResidualPattern {
   named: boolean;
 }
 
+/** The parameters of a camera that are hardly told apart, or those of a photo from its camera's. */
+export interface CorrelationGroup {
+  camera: string;
+  /** Where one parameter of each pair is the photo's, or the interior orientation is. */
+  photo: string | null;
+  /** The largest correlation first. */
+  pairs: { first: string; second: string; correlation: number }[];
+  /** The parameter that is held at the least cost; null where neither of the first pair is a camera's. */
+  hold: Parameter | null;
+}
+
 /** What a solvable network is weak in. */
 export type Advice =
   | { kind: "high_correlation"; camera: string; photo: string | null; first: string; second: string; correlation: number }
@@ -881,6 +892,8 @@ export interface Adjustment {
   /** Tests of the image residuals for patterns; missing without full statistics, and where the iteration did not converge. */
   patterns?: ResidualPattern[];
   advice: Advice[];
+  /** Its `high_correlation` entries in groups; missing without any. */
+  correlation_groups?: CorrelationGroup[];
   /** Every item of the input that took no part; empty when all took part. */
   left_out: LeftOut[];
   /** Of the points asked for, three rows each in their order. */
