@@ -25,7 +25,7 @@ use nalgebra::{DMatrix, Matrix3};
 
 use crate::adjustment::{
     AdjustOptions, AdjustedCamera, AdjustedPoint, Adjustment, Advice, Iteration, Measured, ResidualPlace,
-    StatisticsChoice, Termination,
+    StatisticsChoice, Termination, correlation_groups,
 };
 use crate::error::{Defect, Error, Place, Reason, Result};
 use crate::features::{self, Function};
@@ -149,6 +149,7 @@ pub fn adjust(
     }
     // Wrong axes or units make single points misfit: they are the cause.
     adjustment.advice.sort_by_key(|advice| !questions::is_cause(advice));
+    adjustment.correlation_groups = correlation_groups(&adjustment.advice);
     if !document.features.is_empty() || !document.systems.is_empty() {
         let stated = solution.cofactors.is_some();
         let mut carry = |functions: &[Function]| match stated {

@@ -4,6 +4,7 @@
 //! (brown model) or pixels (opencv model). No number is NaN or infinite.
 
 mod camera;
+mod correlations;
 pub(crate) mod criteria;
 mod features;
 mod given;
@@ -16,6 +17,7 @@ use serde::{Deserialize, Serialize};
 use crate::project::{Camera, Parameter};
 
 pub use camera::AdjustedCamera;
+pub use correlations::{CorrelatedPair, CorrelationGroup, correlation_groups};
 pub use criteria::Criteria;
 pub(crate) use criteria::is_distortion;
 pub use features::{FeatureResidual, Measured, MeasuredFeature, MeasuredSystem, Quantity, SystemPoint};
@@ -653,6 +655,9 @@ pub struct Adjustment {
     /// What the network is weak in.
     #[serde(default)]
     pub advice: Vec<Advice>,
+    /// The correlations of the advice in groups, one a camera or photo; empty without any.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub correlation_groups: Vec<CorrelationGroup>,
     /// Every item of the input that took no part; empty when all took part.
     #[serde(default)]
     pub left_out: Vec<LeftOutItem>,

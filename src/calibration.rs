@@ -1,19 +1,31 @@
-//! Is a calibration good? How well a camera predicts where a point appears, and how far two calibrations differ in that.
+//! Is a calibration good? How well a camera predicts where a point appears, how far two calibrations differ in that, whether parts of the
+//! photos say the same, and which camera model they support.
 //!
 //! A calibration with a shifted principal point and a rotation that makes up for it predicts the same directions. What a motion of the
 //! camera can take over is therefore taken out first, of an uncertainty as of a difference; [`MotionReference`] says how.
 //!
 //! Source: D. Kogan, mrcal, "Projection uncertainty" and "Differencing", <https://mrcal.secretsauce.net>.
 
+mod conversion;
 mod difference;
+mod models;
 mod motion;
 mod places;
+mod split;
 mod uncertainty;
+mod validation;
 
 use serde::{Deserialize, Serialize};
 
+pub use conversion::{ModelConversion, convert_camera};
 pub use difference::{CameraDifference, DifferenceOptions, compare_cameras};
+pub use models::{ComparedModel, ModelVerdict, ModelsOptions, compare_models};
 pub use uncertainty::{ProjectionUncertainty, UncertaintyOptions, WorstPlace, projection_uncertainty};
+pub use validation::{CrossOptions, CrossPart, CrossValidation, CrossVerdict, cross_validate};
+
+use crate::adjustment::AdjustOptions;
+use crate::error::{Error, Place, Reason, Result, Thing};
+use crate::project::{Camera, Project};
 
 /// Which motion of the camera is taken out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,3 +55,28 @@ pub enum FitRegion {
 
 /// Places of the grid along each side of the image unless asked otherwise: their distance is a few percent of the side.
 const GRID: [usize; 2] = [25, 17];
+
+/// The camera that is meant.
+///
+/// # Errors
+/// [`Error::Unknown`] for one that is not there; [`Error::Invalid`] where several are and none is named.
+fn camera_of<'a>(project: &'a Project, id: Option<&str>) -> Result<&'a Camera> {
+    match (id, project.cameras.as_slice()) {
+        (None, [only]) => Ok(only),
+        (None, [_, ..]) => Err(Error::Invalid { reason: Reason::CameraOfSeveral, at: Place::field("camera") }),
+        _ => project.cameras.iter().find(|c| Some(c.id.as_str()) == id).ok_or_else(|| Error::Unknown {
+            kind: Thing::Camera,
+            name: id.unwrap_or_default().to_owned(),
+            at: Place::field("camera"),
+        }),
+    }
+}
+
+/// # Errors
+/// [`Error::Invalid`] for options by which a wrong model rejects or weakens the very observations that speak against it.
+fn plain_options(options: &AdjustOptions) -> Result<()> {
+    if options.snooping || options.robust.is_some() || options.variance_components.is_some() {
+        return Err(Error::Invalid { reason: Reason::ModelsJudgedPlainly, at: Place::field("adjust") });
+    }
+    Ok(())
+}

@@ -18,7 +18,7 @@ use wasm_bindgen::prelude::*;
 
 use fault::thrown;
 use sightline::adjustment::{AdjustOptions, Iteration};
-use sightline::calibration::{DifferenceOptions, UncertaintyOptions};
+use sightline::calibration::{CrossOptions, DifferenceOptions, ModelsOptions, UncertaintyOptions};
 use sightline::detection::{Channel, ColoursApart, DetectOptions};
 use sightline::exchange::foreign::CameraOptions;
 use sightline::experiments::ExperimentOptions;
@@ -418,6 +418,46 @@ pub fn compare_cameras(
         calibration::compare_cameras(&a, &b, &asked)
     };
     found().map(|found| value::write(&found)).map_err(|error: Error| thrown(&error))
+}
+
+/// Splits the photos, calibrates the camera from each part, and compares the parts with what their standard errors allow.
+#[wasm_bindgen(js_name = crossValidate, unchecked_return_type = "CrossValidation")]
+pub fn cross_validate(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "CrossOptions")] options: JsValue,
+) -> Thrown {
+    let found = || {
+        let asked: CrossOptions = value::options(&options, &[])?;
+        calibration::cross_validate(&value::project(&project)?, &asked)
+    };
+    found().map(|found| value::write(&found)).map_err(|error: Error| thrown(&error))
+}
+
+/// Adjusts the project with every camera model and compares them.
+#[wasm_bindgen(js_name = compareModels, unchecked_return_type = "ComparedModel[]")]
+pub fn compare_models(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "ModelsOptions")] options: JsValue,
+) -> Thrown {
+    let found = || {
+        let asked: ModelsOptions = value::options(&options, &[])?;
+        calibration::compare_models(&value::project(&project)?, &asked)
+    };
+    found().map(|found| value::write(&found)).map_err(|error: Error| thrown(&error))
+}
+
+/// The project with a camera in another model, its values fitted over the picture.
+#[wasm_bindgen(js_name = convertCamera, unchecked_return_type = "ConvertedCamera")]
+pub fn convert_camera(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "string")] camera: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "CameraModelName")] model: JsValue,
+) -> Thrown {
+    let converted = || {
+        let (camera, model): (String, String) = (value::read(&camera, "camera")?, value::read(&model, "model")?);
+        calibration::convert_camera(&value::project(&project)?, &camera, &model)
+    };
+    converted().map(|(project, left)| value::converted_object(project, &left)).map_err(|error: Error| thrown(&error))
 }
 
 /// Compares epochs of one object: what has moved, by how much, and with which tests.

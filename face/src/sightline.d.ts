@@ -642,6 +642,17 @@ export interface ResidualPattern {
   named: boolean;
 }
 
+/** The parameters of a camera that are hardly told apart, or those of a photo from its camera's. */
+export interface CorrelationGroup {
+  camera: string;
+  /** Where one parameter of each pair is the photo's, or the interior orientation is. */
+  photo: string | null;
+  /** The largest correlation first. */
+  pairs: { first: string; second: string; correlation: number }[];
+  /** The parameter that is held at the least cost; null where neither of the first pair is a camera's. */
+  hold: Parameter | null;
+}
+
 /** What a solvable network is weak in. */
 export type Advice =
   | { kind: "high_correlation"; camera: string; photo: string | null; first: string; second: string; correlation: number }
@@ -881,6 +892,8 @@ export interface Adjustment {
   /** Tests of the image residuals for patterns; missing without full statistics, and where the iteration did not converge. */
   patterns?: ResidualPattern[];
   advice: Advice[];
+  /** Its `high_correlation` entries in groups; missing without any. */
+  correlation_groups?: CorrelationGroup[];
   /** Every item of the input that took no part; empty when all took part. */
   left_out: LeftOut[];
   /** Of the points asked for, three rows each in their order. */
@@ -1887,6 +1900,105 @@ export interface CameraDifference {
   distance: number | null;
   rms_px: number | null;
   max_px: number | null;
+}
+
+/** What `crossValidate` takes. `reference` is not `photos`. */
+export interface CrossOptions extends DifferenceOptions {
+  /** In how many parts the photos are split, balanced by position and roll: 2, at most 8. */
+  parts?: number;
+  /** May be left out where the project has one camera. */
+  camera?: string | null;
+  /** How each part is adjusted; not with `snooping`, `robust` or `variance_components`, which take a wrong model for noise. */
+  adjust?: AdjustOptions;
+}
+
+/** A part of the photos, calibrated by itself. */
+export interface CrossPart {
+  photos: string[];
+  sigma0: number | null;
+  /** What its residuals significantly depend on (p < 0.001). */
+  patterns: PatternKind[];
+  camera: AdjustedCameraResult;
+}
+
+/** What `crossValidate` gives. Maps are rows of `v` of columns `u`; null where a part gives no ray. */
+export interface CrossValidation {
+  camera: string;
+  parts: CrossPart[];
+  u: number[];
+  v: number[];
+  /** Standard error of the difference of two parts by the a priori standard errors (not scaled with sigma0, which a wrong model makes large), pixels: the root of the sum of both covariances in the worst direction. */
+  predicted: (number | null)[][];
+  /** Length of the difference after the best rotation, pixels. */
+  observed: (number | null)[][];
+  /** Observed over predicted; of several pairs of parts the largest. */
+  ratio_map: (number | null)[][];
+  /** Whether every part has a measurement within one step of the grid. Only there the parts are judged. */
+  covered: boolean[][];
+  /** The covered place with the largest ratio; `sigma` is what was predicted there. */
+  worst: { u: number; v: number; sigma: number } | null;
+  ratio: number | null;
+  /** The largest ratio to standard errors that include sigma0. */
+  ratio_with_sigma0: number | null;
+  /** The ratio that a right model exceeds anywhere once in a thousand, by draws from the covariances, at least 2; 2 where the residuals of every part have a pattern. */
+  limit: number;
+  /** `larger_noise`: beyond the limit, but not with sigma0, and no part has a pattern: the a priori standard errors are too small. */
+  verdict: "agrees" | "larger_noise" | "wrong_model";
+}
+
+/** Name of a camera model. */
+export type CameraModelName = "brown" | "opencv" | "opencv_rational" | "opencv_fisheye";
+
+/** What a camera in another model has left. */
+export interface ModelConversion {
+  camera: string;
+  from: CameraModelName;
+  to: CameraModelName;
+  /** Largest difference of the pixels of one direction over the picture; null while the principal distance is not known. */
+  max_px: number | null;
+  rms_px: number | null;
+  /** Share of the picture that it holds for: a perspective model has no image of rays far off the axis (75 degrees). */
+  share: number;
+  /** Parameters whose a priori values have no place in the other model. */
+  dropped: Parameter[];
+}
+
+/** What `convertCamera` gives: the camera, the interior orientations of its photos and its colours in the other model. */
+export interface ConvertedCamera {
+  project: Project;
+  conversion: ModelConversion;
+}
+
+/** What `compareModels` takes. */
+export interface ModelsOptions {
+  /** May be left out where the project has one camera. */
+  camera?: string | null;
+  /** Of the choice of image points that are held out: 1. */
+  seed?: number;
+  /** How each model is adjusted; not with `snooping`, `robust` or `variance_components`, by which every model would choose its own observations. */
+  adjust?: AdjustOptions;
+}
+
+/** A camera model on the network; `compareModels` gives one each. */
+export interface ComparedModel {
+  model: CameraModelName;
+  /** What its start values left of the present camera; null where it could not be converted. */
+  conversion: ModelConversion | null;
+  /** With its adjusted values, and what is estimated of it; null where it failed. */
+  camera: Camera | null;
+  sigma0: number | null;
+  /** Estimated. */
+  parameters: Parameter[];
+  /** Parameters of distortion that are not told from 0. */
+  insignificant: Parameter[];
+  /** Of coordinates of a fifth of the image points, predicted without them, pixels; null where none could be held out. */
+  held_out_rms: number | null;
+  /** Schwarz's criterion less that of the best. */
+  bic: number | null;
+  /** `too_stiff`: it cannot follow the lens; `overfits`: no better than the best, with more parameters. */
+  verdict: "best" | "as_good_with_fewer" | "as_good" | "too_stiff" | "overfits" | "failed";
+  /** Why it failed: an error as in `data` of one that is thrown. */
+  failure: Record<string, unknown> | null;
 }
 
 /** What `compareEpochs` takes. */

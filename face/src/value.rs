@@ -9,6 +9,7 @@ use wasm_bindgen::prelude::*;
 
 use super::{plain, table};
 use sightline::adjustment::Adjustment;
+use sightline::calibration::ModelConversion;
 use sightline::detection::Detection;
 use sightline::error::{Error, Expected, Names, Place, Reason, Result, shortened};
 use sightline::exchange::{self, Files, Imported};
@@ -128,6 +129,14 @@ pub fn project_object(mut project: Project) -> JsValue {
     let object: Object = write(&project).unchecked_into();
     set(&object, "observations", &table::observation_rows(&observations));
     set(&object, "points", &table::point_rows(&points));
+    object.into()
+}
+
+/// A document with a camera in another model, and what that has left.
+pub fn converted_object(project: Project, conversion: &ModelConversion) -> JsValue {
+    let object = Object::new();
+    set(&object, "project", &project_object(project));
+    set(&object, "conversion", &write(conversion));
     object.into()
 }
 

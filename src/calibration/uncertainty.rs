@@ -230,7 +230,20 @@ impl Spread {
         c.iter().all(|x| x.is_finite()).then_some(c)
     }
 
-    fn derivatives(&self, place: &ImagePlace) -> DMatrix<f64> {
+    /// A root S of the covariance, S Sᵀ: parameters of every size, so it is taken of the correlations.
+    pub fn root(&self) -> DMatrix<f64> {
+        let n = self.covariance.nrows();
+        let sigmas: Vec<f64> = self.covariance.diagonal().iter().map(|d| d.max(0.0).sqrt()).collect();
+        let over = |s: f64| if s > 0.0 { 1.0 / s } else { 0.0 };
+        let alike = DMatrix::from_fn(n, n, |i, j| {
+            (self.covariance[(i, j)] + self.covariance[(j, i)]) / 2.0 * over(sigmas[i]) * over(sigmas[j])
+        });
+        let eigen = alike.symmetric_eigen();
+        DMatrix::from_fn(n, n, |i, k| sigmas[i] * eigen.eigenvectors[(i, k)] * eigen.eigenvalues[k].max(0.0).sqrt())
+    }
+
+    /// Derivatives of the pixel by parameters and motion, two rows.
+    pub fn derivatives(&self, place: &ImagePlace) -> DMatrix<f64> {
         let n = self.parameters.len();
         let mut j = DMatrix::zeros(2, n + 6);
         j.columns_mut(0, n).copy_from(&place.by_parameter);

@@ -86,6 +86,17 @@ reasons! {
     CameraOfSeveral => "there are several cameras: name one";
     PhotoOfCamera => "this camera has an interior orientation per photo: name a photo";
 
+    CrossParts { given: usize, most: usize } => "parts is {given}; photos are split into 2 to {most} parts";
+    CrossPhotos { given: usize, needed: usize } => "photos of this camera that take part: {given}, needed: {needed}, so that each part can be calibrated by itself; take more photos";
+    CrossPerPhoto => "this camera has an interior orientation per photo: there is no camera that parts of the photos could agree on";
+    PartFails { part: usize, photos: usize, cause: Box<super::Error> } => "part {part} of the photos ({photos} of them) cannot be adjusted by itself: {cause}; take more photos that share points, or a datum that each part determines (free, or control points in all photos)";
+    PartNotConverged { part: usize, photos: usize } => "the adjustment of part {part} of the photos ({photos} of them) does not converge: take more photos, or estimate fewer parameters";
+    ModelsJudgedPlainly => "data snooping, robust weights and variance components take what a wrong model leaves for gross errors or noise: disable gross errors first, then ask without them";
+
+    ModelWithoutImages { missing: usize } => "image points that this model has no image for: {missing}; a lens of so wide an angle needs opencv_fisheye";
+    ModelNotConverged => "the adjustment with this model does not converge: the lens is too unlike it, or the network does not determine its parameters";
+    ModelNotFitted { model: String } => "no values of camera model {model} image the rays of this camera";
+
     // Epochs compared
     EpochsCount { given: usize, limit: usize } => "epochs given: {given}; from 2 to {limit} are compared";
     EpochSource { name: String } => "epoch \"{name}\" needs either a project or a list of points, and not both";
@@ -347,6 +358,7 @@ words! {
         Epoch = "epoch" => "epoch";
         Group = "group" => "group";
         ScaleBar = "scale bar" => "scale bar";
+        CameraModel = "camera model" => "camera model";
     }
 }
 

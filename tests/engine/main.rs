@@ -26,6 +26,8 @@ mod adjust {
 
 /// Whether a calibration is good.
 mod calibration {
+    mod cross;
+    mod models;
     mod patterns;
     mod uncertainty;
 }

@@ -133,9 +133,14 @@ test('every field that the engine returns is declared, and every declared field 
   const refusal = thrown(() => sightline.compareEpochs({ ...request, epochs: [lists[0], { ...lists[1], unit: 'm' }] }));
   assert.deepEqual([refusal.code, refusal.where.field, refusal.data.reason.kind], ['invalid', 'epochs[1].unit', 'epoch_unit']);
   assert.equal(thrown(() => sightline.compareEpochs({ ...request, referencs: [] })).data.reason.kind, 'no_such_option');
+  // Exact observations leave nothing to compare: noise of a tenth of a pixel.
+  const noisy = { ...project, observations: project.observations.map((o, k) => ({ ...o, u: o.u + 0.1 * Math.sin(7.3 * k), v: o.v + 0.1 * Math.cos(11.1 * k) })) };
   const literals = [
     literal('request', 'S.CompareOptions', request),
     literal('monitoring', 'S.Monitoring', monitoring),
+    literal('cross', 'S.CrossValidation', sightline.crossValidate(noisy, { grid: [3, 3], camera: 'c' })),
+    literal('models', 'S.ComparedModel[]', sightline.compareModels(noisy)),
+    literal('converted', 'S.ConvertedCamera', sightline.convertCamera(project, 'c', 'opencv')),
     literal('list', 'S.PointList', sightline.readList('id,X,Y,Z,sigma,diameter\na,1.5,2.5,3.5,0.1,12.5\nb,4,x,6,0.1,5\n', { sigma: { constant: 2, unit: 'mm', ppm: 2 } })),
     literal('coordinates', 'S.CoordinateList', sightline.readCoordinates('a,1,2,3,0.1,0.1,0.1\nb,4,5,6,0.1,0.1,0.1\n')),
     literal('matrix', 'S.ListedCovariance', sightline.readCovariance('1\n0 1\n0 0 1\n', ['a'])),

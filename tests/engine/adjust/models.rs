@@ -6,7 +6,7 @@ use sightline::network::{Network, NetworkPoint, Station, simulate};
 use sightline::orient::orient;
 use sightline::project::{Camera, CameraModel, DatumKind, Interior, Parameter, Project, Sigma};
 
-fn interior(model: &str) -> Interior {
+pub fn interior(model: &str) -> Interior {
     let (fx, fy, cx, cy) = (Some(640.0), Some(643.0), 645.0, 352.0);
     match model {
         "brown" => Interior::Brown {
@@ -54,7 +54,13 @@ fn estimated(model: &CameraModel) -> Vec<Parameter> {
 /// A hall of points seen from a ring inside it: pictures that are filled. That of a wide camera lies in the middle of the hall, with
 /// points beside and behind every station.
 pub fn project(model: &CameraModel, seed: u64) -> Project {
-    let mut camera = Camera::new("c", 1280, 720, interior(model.name));
+    network(interior(model.name), 10, seed)
+}
+
+/// The same of any lens, seen from so many stations.
+pub fn network(interior: Interior, stations: u32, seed: u64) -> Project {
+    let model = interior.model();
+    let mut camera = Camera::new("c", 1280, 720, interior);
     camera.free = estimated(model);
     let point = |k: u32| {
         let share = |step: f64| (f64::from(k) * step).fract() - 0.5;
@@ -64,7 +70,7 @@ pub fn project(model: &CameraModel, seed: u64) -> Project {
             ..NetworkPoint::default()
         }
     };
-    let ring = if model.is_wide { 150.0 } else { 420.0 };
+    let ring = if camera.principal_distance_px().is_some_and(|f| f < 400.0) { 150.0 } else { 420.0 };
     let station = |k: u32| {
         let turn = f64::from(k) * 0.7;
         let position = [ring * turn.cos(), ring * turn.sin(), 60.0 * (f64::from(k) * 1.3).sin()];
@@ -72,7 +78,7 @@ pub fn project(model: &CameraModel, seed: u64) -> Project {
     };
     let mut project = simulate(&Network {
         cameras: vec![camera],
-        stations: (0..10).map(station).collect(),
+        stations: (0..stations).map(station).collect(),
         points: (0..120).map(point).collect(),
         sigma: Sigma::One(0.1),
         seed,

@@ -10,6 +10,7 @@ use std::io::{Read, Seek};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sightline::adjustment::{AdjustOptions, AdjustedPhoto, Adjustment, Iteration, Measured};
+use sightline::calibration::{ComparedModel, ModelConversion, ModelsOptions};
 use sightline::comparison::Comparison;
 use sightline::detection::{ColoursApart, DetectOptions, Detection, Target};
 use sightline::exchange::foreign::{CameraOptions, ImportedCamera};
@@ -257,6 +258,14 @@ tasks! {
         /// Orient what is not oriented and adjust; progress per iteration. The project's text is given as files, in pieces; those of what is oriented and
         /// of the adjustment come along in pieces.
         Adjust { /** The project, a file each. */ pub project: Vec<Piece>, /** How. */ pub options: AdjustOptions } => Adjusting, Adjusted;
+        /// Give a camera another model.
+        ConvertCamera {
+            /** The camera, and its photos as far as they have interior orientations of their own. */ pub project: Project,
+            /** Which. */ pub camera: String,
+            /** Name of the model. */ pub model: String,
+        } => Nothing, (Project, ModelConversion);
+        /// Adjust a network with every camera model, oriented first where it is not.
+        CompareModels { /** The network. */ pub project: Project, /** Whose, and how. */ pub options: ModelsOptions } => Nothing, Vec<ComparedModel>;
         /// Measure the features of a project at the values that an adjustment with these options gave it.
         MeasureFeatures { /** With the adjusted values. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Measured;
         /// Name uncoded targets by the geometry of the photos, which are oriented and adjusted first where they are not.

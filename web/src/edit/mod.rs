@@ -10,6 +10,7 @@ pub mod equipment;
 pub mod exchange;
 pub mod features;
 pub mod many;
+pub mod models;
 pub mod naming;
 pub mod pairs;
 pub mod plan;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use sightline::calibration::convert_camera;
 use sightline::detection::{Detection, Polarity, Target};
 use sightline::equipment::{Calibration, ScaleBar, Use};
 use sightline::exif::PhotoInfo;
@@ -15,7 +16,7 @@ use sightline_protocol::to_text;
 
 use super::cells::{Cell, Editor};
 use super::sheet::{Col, Table};
-use super::{cameras, control, equipment, many, points, questions, targets};
+use super::{cameras, control, equipment, many, models, points, questions, targets};
 use crate::store::document::{Change, Document, History};
 use crate::store::selection::observation_key;
 
@@ -130,7 +131,7 @@ fn rename(d: &mut Document, names: BTreeMap<String, String>) {
 }
 
 /// The kinds of action.
-const ACTIONS: [(&str, Action); 54] = [
+const ACTIONS: [(&str, Action); 55] = [
     ("photos added", |d| {
         cameras::add_photo(d.project_mut(), "new.jpg", &PhotoInfo::default(), [100, 80], None, &|_| false);
     }),
@@ -253,6 +254,13 @@ const ACTIONS: [(&str, Action); 54] = [
             origin: None,
         };
         equipment::use_calibration(d, "l", &calibration, Use::Observed);
+    }),
+    ("camera model", |d| {
+        let camera = d.project.cameras.iter().find(|c| c.id == "l").cloned();
+        let alone = camera.map(|camera| models::alone(&d.project, camera));
+        if let Some((converted, _)) = alone.and_then(|p| convert_camera(&p, "l", "opencv_rational").ok()) {
+            models::take(d.project_mut(), &converted, None);
+        }
     }),
     ("colours taken", |d| cameras::set_colours(d.project_mut(), "l", red())),
     ("colours forgotten", |d| cameras::set_colours(d.project_mut(), "m", BTreeMap::new())),

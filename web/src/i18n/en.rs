@@ -14,6 +14,7 @@ mod beside;
 mod exchange;
 mod laid_open;
 mod listed;
+mod modelled;
 mod monitored;
 mod patterned;
 pub use before::{planning, printing};
@@ -22,6 +23,7 @@ pub use beside::{comparing, equipment, lasting};
 pub use exchange::interchange;
 pub use laid_open::inside;
 pub use listed::lists;
+pub use modelled::modelling;
 pub use monitored::monitoring;
 pub use patterned::systematic;
 

@@ -15,6 +15,7 @@ mod beside;
 mod exchange;
 mod laid_open;
 mod listed;
+mod modelled;
 mod monitored;
 mod patterned;
 

@@ -162,6 +162,42 @@ pub fn reason(reason: &Reason) -> String {
         }
         R::CameraOfSeveral => "카메라가 여러 개입니다. 하나를 지정하십시오",
         R::PhotoOfCamera => "이 카메라는 사진마다 내부표정이 따로 있습니다. 사진을 지정하십시오",
+        R::CrossParts { given, most } => {
+            return format!("나눌 묶음 수가 {given}입니다. 사진은 2–{most}개 묶음으로 나눕니다");
+        }
+        R::CrossPhotos { given, needed } => {
+            return format!(
+                "조정에 참여하는 이 카메라의 사진이 {given}장인데, 묶음마다 따로 캘리브레이션하려면 {needed}장이 필요합니다. 사진을 더 찍으십시오"
+            );
+        }
+        R::CrossPerPhoto => {
+            "이 카메라는 사진마다 내부표정이 따로 있습니다. 사진 묶음끼리 비교할 하나의 카메라가 없습니다"
+        }
+        R::PartFails { part, photos, cause } => {
+            return format!(
+                "사진 묶음 {part}(사진 {photos}장)만으로는 조정할 수 없습니다. {} 점을 공유하는 사진을 더 찍거나, 각 묶음이 결정할 수 있는 기준계(자유망 또는 모든 사진에 있는 기준점)를 사용하십시오",
+                super::errors::sentence(cause)
+            );
+        }
+        R::PartNotConverged { part, photos } => {
+            return format!(
+                "사진 묶음 {part}(사진 {photos}장)의 조정이 수렴하지 않습니다. 사진을 더 찍거나 추정할 변수를 줄이십시오"
+            );
+        }
+        R::ModelsJudgedPlainly => {
+            "데이터 스누핑, 로버스트 가중, 분산성분은 잘못된 모형의 잔차를 과대오차나 잡음으로 봅니다. 먼저 과대오차를 끄고, 이 옵션들 없이 계산하십시오"
+        }
+        R::ModelWithoutImages { missing } => {
+            return format!(
+                "이 모형로는 영상점 {missing}개의 상이 생기지 않습니다. 이렇게 넓은 화각의 렌즈에는 opencv_fisheye가 필요합니다"
+            );
+        }
+        R::ModelNotConverged => {
+            "이 모형의 조정이 수렴하지 않습니다. 렌즈가 모형과 너무 다르거나 망이 모형의 변수를 결정하지 못합니다"
+        }
+        R::ModelNotFitted { model } => {
+            return format!("카메라 모형 {model}의 어떤 값으로도 이 카메라의 광선을 나타낼 수 없습니다");
+        }
         R::DatumPoints => "기준계에는 한 직선 위에 있지 않은 점이 셋 이상 필요합니다",
         R::NoImage => "점의 상이 생기지 않는 곳에서 반복이 끝났습니다. 초기값을 개선하십시오",
         R::StandardErrorsApart { value, usual } => {
@@ -514,6 +550,7 @@ pub fn thing(thing: Thing) -> &'static str {
         Thing::Layer => "레이어",
         Thing::Epoch => "시기",
         Thing::Group => "그룹",
+        Thing::CameraModel => "카메라 모형",
     }
 }
 

@@ -148,6 +148,7 @@ pub enum Change {
     BarsTaken(usize),
     ColoursTaken { camera: String },
     ColoursForgotten { camera: String },
+    ModelChosen { camera: String, model: String },
 }
 
 /// A change and the state on its other side.

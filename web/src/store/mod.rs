@@ -21,6 +21,7 @@ pub mod keeping;
 pub mod kept;
 mod lasting;
 pub mod marking;
+pub mod models;
 pub mod monitoring;
 pub mod parts;
 pub mod pictures;
@@ -447,6 +448,7 @@ pub struct Desk {
     pub equipment: Equipped,
     pub planning: Planning,
     pub monitoring: Monitored,
+    pub models: models::Models,
 }
 
 impl Desk {
@@ -524,6 +526,7 @@ impl Desk {
             equipment: Equipped::default(),
             planning: Planning::default(),
             monitoring: Monitored::default(),
+            models: models::Models::new(),
         }
     }
 

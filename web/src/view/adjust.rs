@@ -15,6 +15,7 @@ use super::field::Field;
 use super::gross_errors::{GrossErrorRecord, GrossErrors};
 use super::icon::{Glyph, Icon};
 use super::left_out::NotUsedList;
+use super::models::{ModelComparison, ModelMenu};
 use super::origin::ProjectOrigin;
 use super::plots::Convergence;
 use super::results::parameter_cells;
@@ -160,6 +161,7 @@ fn CameraWords(id: String) -> impl IntoView {
             <td class="left">
                 <details>
                     <summary><b>{move || text::camera_named(id.get_value())}</b><small>{words}</small></summary>
+                    <div class="fields"><ModelMenu camera=id.get_value()/></div>
                     <table class="table parameters">
                         <thead><tr><th class="left">{text::estimated}</th><th>{text::initial_value}</th><th title=text::observed_with>"σ"</th><td class="left wide"></td></tr></thead>
                         <tbody>
@@ -171,6 +173,7 @@ fn CameraWords(id: String) -> impl IntoView {
             </td>
             <td class="large">{move || format::count(count())}</td>
         </tr>
+        <ModelComparison camera=id.get_value()/>
     }
 }
 

@@ -1,7 +1,8 @@
 //! What a change did, in words.
 
+use super::models::name_of as model_words;
 use super::tables::table_words;
-use crate::i18n::{equipment, object as words, planning, text};
+use crate::i18n::{equipment, modelling, object as words, planning, text};
 use crate::store::document::Change;
 
 pub fn change_words(change: &Change) -> String {
@@ -33,6 +34,7 @@ pub fn change_words(change: &Change) -> String {
         Change::DatumChosen => text::change_datum().to_owned(),
         Change::AxesExchanged => text::change_axes().to_owned(),
         Change::ParametersChosen(camera) => text::change_parameters(camera),
+        Change::ModelChosen { camera, model } => modelling::change_model(camera, model_words(model)),
         Change::OptionsChosen => text::change_options().to_owned(),
         Change::Adjusted => text::change_adjusted().to_owned(),
         Change::UnitSet => text::change_unit().to_owned(),

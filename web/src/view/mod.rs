@@ -25,6 +25,7 @@ pub mod loupe;
 pub mod marking;
 mod measured;
 mod menu;
+pub mod models;
 pub mod monitoring;
 pub mod object;
 pub mod origin;

@@ -8,6 +8,7 @@ use sightline::project::Camera;
 use super::equipment::KnownCameraOffer;
 use super::field::Field;
 use super::icon::{Glyph, Icon};
+use super::models::ModelMenu;
 use super::origin::ProjectOrigin;
 use super::shell::{TitleBar, choose_photos, problem_sentence};
 use super::strip::{NoThumbnail, Thumbnail};
@@ -282,6 +283,7 @@ fn CameraPanel(id: String) -> impl IntoView {
                 <span>{text::name}</span>
                 <Field value=Signal::stored(id.get_value()) commit=move |typed: String| desk.rename_camera(&id.get_value(), &typed) attr:data-field="name"/>
             </label>
+            <ModelMenu camera=id.get_value()/>
             <label class="field">
                 <span>{text::pixel_pitch} " " <u>"µm"</u></span>
                 <Field value=Signal::derive(move || with(|c| c.pixel_pitch.map(pitch_text).unwrap_or_default()))

@@ -5,6 +5,7 @@ use std::io::{Cursor, Read, Seek};
 
 use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
+use sightline::calibration::{ComparedModel, ModelConversion, compare_models, convert_camera};
 use sightline::camera::colour_differences;
 use sightline::comparison::{Comparison, compare};
 use sightline::decode::Packed;
@@ -26,12 +27,13 @@ use sightline::sheets::{self, Kind};
 use sightline::tiles::{self, Pyramid};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
-    Adjust, Adjusted, Adjusting, BeginPlan, CompareEpochs, CompareResults, Content, Detect, DifferColours, DrawSheets,
-    Drawn, Export, ExportExperiment, ExportMonitoring, Foreign, Given, Glance, Glanced, MakePlan, MakePlots,
-    MakeReport, Match, Measure, MeasureColours, MeasureFeatures, Nothing, Open, Opened, Pack, PlanOf, Predict,
-    PredictPlan, Progress, ReadForeign, ReportEpochs, ReportMade, RunExperiment, Sample, SampleEpochs, SamplePhoto,
-    SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto,
-    Unpack, Unpacked, Values, WriteCamera, WriteNetwork, WriteSheets, Written, from_pieces, to_pieces,
+    Adjust, Adjusted, Adjusting, BeginPlan, CompareEpochs, CompareModels, CompareResults, Content, ConvertCamera,
+    Detect, DifferColours, DrawSheets, Drawn, Export, ExportExperiment, ExportMonitoring, Foreign, Given, Glance,
+    Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, Nothing, Open, Opened,
+    Pack, PlanOf, Predict, PredictPlan, Progress, ReadForeign, ReportEpochs, ReportMade, RunExperiment, Sample,
+    SampleEpochs, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate,
+    Situated, Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteCamera, WriteNetwork, WriteSheets, Written,
+    from_pieces, to_pieces,
 };
 
 use crate::codecs::{shot_of, unpack};
@@ -127,6 +129,19 @@ impl Service<Adjust> for Engine {
         let (adjustment, more) = to_pieces(&adjustment);
         texts.extend(more);
         Ok((Adjusted { oriented, adjustment }, texts))
+    }
+}
+
+impl Service<ConvertCamera> for Engine {
+    fn serve(&self, task: ConvertCamera, _: Files, _: Progress<Nothing>) -> Served<(Project, ModelConversion)> {
+        Ok((convert_camera(&task.project, &task.camera, &task.model)?, Vec::new()))
+    }
+}
+
+impl Service<CompareModels> for Engine {
+    fn serve(&self, task: CompareModels, _: Files, _: Progress<Nothing>) -> Served<Vec<ComparedModel>> {
+        let oriented = with_what_is_oriented(&task.project, &mut |_| {})?;
+        Ok((compare_models(&oriented, &task.options)?, Vec::new()))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::mem::{Discriminant, discriminant};
 
-use sightline::adjustment::{Advice, Criteria};
+use sightline::adjustment::{Advice, CorrelatedPair, CorrelationGroup, Criteria, correlation_groups};
 use sightline::orient::{Note, PhotoReason, PointReason};
 use sightline::project::Parameter;
 
@@ -89,42 +89,30 @@ pub fn is_one_of_several(advice: &Advice, all: &[Advice]) -> bool {
     all.iter().any(another)
 }
 
-/// Two parameters and their correlation.
-type Pair<'a> = (&'a str, &'a str, f64);
-
 /// Correlations among the parameters of each camera, as one item a camera.
 pub fn correlations(advice: &[Advice], criteria: &Criteria) -> Vec<Item> {
-    let mut cameras: Vec<(&str, Vec<Pair>)> = Vec::new();
-    for one in advice {
-        let Advice::HighCorrelation { camera, photo: None, first, second, correlation } = one else { continue };
-        match cameras.iter_mut().find(|(of, _)| of == camera) {
-            Some((_, all)) => all.push((first, second, *correlation)),
-            None => cameras.push((camera, vec![(first, second, *correlation)])),
-        }
-    }
-    let item = |(camera, mut all): (&str, Vec<Pair>)| {
-        all.sort_by(|a, b| b.2.abs().total_cmp(&a.2.abs()));
-        let (a, b, r) = *all.first()?;
+    let item = |CorrelationGroup { camera, pairs: all, hold, .. }: CorrelationGroup| {
+        let CorrelatedPair { first: a, second: b, correlation: r } = all.first()?.clone();
         if all.len() < 2 {
             let one = advice
                 .iter()
-                .find(|one| matches!(one, Advice::HighCorrelation { camera: of, photo: None, .. } if of == camera));
+                .find(|one| matches!(one, Advice::HighCorrelation { camera: of, photo: None, .. } if *of == camera));
             return one.map(|one| super::network_item(one, criteria, ""));
         }
-        let pairs =
-            all.iter().map(|(a, b, _)| format!("{} – {}", correlated_name(a), correlated_name(b))).collect::<Vec<_>>();
-        // The later of the two is the finer one, and held at less cost.
-        let parameter = b.parse::<Parameter>().or_else(|_| a.parse::<Parameter>());
-        let hold = |parameter| Target::Hold { camera: camera.to_owned(), parameter };
+        let pairs = all
+            .iter()
+            .map(|p| format!("{} – {}", correlated_name(&p.first), correlated_name(&p.second)))
+            .collect::<Vec<_>>();
+        let target = hold.map_or(Target::None, |parameter| Target::Hold { camera: camera.clone(), parameter });
         Some(Item {
             warning: true,
-            title: first::correlations(all.len(), camera),
+            title: first::correlations(all.len(), &camera),
             body: first::correlations_body(listed(pairs.iter().map(String::as_str))),
-            evidence: format!("{} – {} {}", correlated_name(a), correlated_name(b), format::fixed(r, 2)),
-            target: parameter.map_or(Target::None, hold),
+            evidence: format!("{} – {} {}", correlated_name(&a), correlated_name(&b), format::fixed(r, 2)),
+            target,
         })
     };
-    cameras.into_iter().filter_map(item).collect()
+    correlation_groups(advice).into_iter().filter(|group| group.photo.is_none()).filter_map(item).collect()
 }
 
 #[cfg(test)]

@@ -38,7 +38,7 @@ pub fn told(
             words::estimate(names(parameters)),
             Target::Estimate { camera: camera.to_owned(), parameters: parameters.clone() },
         ),
-        Remedy::Model { models } => (words::other_model(models.join(", ")), Target::Step(Step::Photos)),
+        Remedy::Model { models } => (words::other_model(models.join(", ")), Target::Step(Step::Adjust)),
         Remedy::HoldStill => (words::hold_still().to_owned(), Target::Step(Step::Photos)),
         Remedy::OwnCamera { photos } => {
             let target = photos.first().map_or(Target::Step(Step::Photos), |photo| Target::Photo(photo.clone()));
