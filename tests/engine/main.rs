@@ -130,4 +130,5 @@ mod support {
     pub mod seed_document;
     pub mod tree;
     pub mod trials;
+    pub mod wavy;
 }
