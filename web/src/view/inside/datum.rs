@@ -34,6 +34,15 @@ pub fn Datum() -> impl IntoView {
             desk.inquire(Inquiry::Datums(None));
         }
     });
+    // The movement that a lesson speaks of.
+    Effect::new(move || {
+        if let Some(wanted) = inside.wanted.get().motion {
+            let place = inside.datums.with(|found| {
+                found.as_ref().and_then(|found| found.motions.iter().position(|motion| motion.name == wanted))
+            });
+            motion.set(place);
+        }
+    });
     let hold = move |id: String| {
         held.update(|held| match held.iter().position(|one| *one == id) {
             Some(at) => {

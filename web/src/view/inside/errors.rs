@@ -1,7 +1,7 @@
 //! A planted error: what the tests see of it, and what four estimators make of it.
 
 use leptos::prelude::*;
-use sightline::teaching::{Estimate, Planted, Planting, Tested};
+use sightline::teaching::{Estimate, Planted, Planting, Show, Tested};
 use sightline_protocol::Inquiry;
 
 use super::number;
@@ -46,6 +46,26 @@ pub fn Errors() -> impl IntoView {
         });
         if none && middle.is_some() {
             chosen.set(middle);
+            plant();
+        }
+    });
+    // The error that a lesson speaks of.
+    let followed = RwSignal::new(Show::default());
+    Effect::new(move || {
+        let wanted = inside.wanted.get();
+        let place = inside.planted.with(|found| {
+            let (found, row) = (found.as_ref()?, wanted.observation.as_ref()?);
+            let of = |one: &Tested| {
+                let [photo, point] = &found.names[one.observation];
+                format!("{photo} {point} {}", ["x", "y"][one.axis.min(1)]) == *row
+            };
+            found.tested.iter().find(|one| of(one)).map(|one| (one.observation, one.axis))
+        });
+        if place.is_some() && followed.get_untracked() != wanted {
+            chosen.set(place);
+            second.set(None);
+            size.set(wanted.size.unwrap_or(size.get_untracked()));
+            followed.set(wanted);
             plant();
         }
     });

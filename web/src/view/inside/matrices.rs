@@ -15,6 +15,17 @@ use crate::store::Desk;
 pub fn Matrices() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let inside = desk.inside;
+    // The observation that a lesson speaks of.
+    Effect::new(move || {
+        let wanted = inside.wanted.get().observation;
+        let first = inside.steps.with(|steps| steps.first().cloned());
+        let row = first
+            .zip(wanted)
+            .and_then(|(looked, name)| looked.system.observations.iter().position(|row| row.name == name));
+        if row.is_some() && inside.row.get_untracked() != row {
+            desk.choose_equation(row);
+        }
+    });
     let any = Memo::new(move |_| inside.steps.with(|steps| !steps.is_empty()));
     let elimination = move || {
         let looked = inside.looked()?;

@@ -21,6 +21,17 @@ pub fn Weights() -> impl IntoView {
     let largest = RwSignal::new(40.0_f64);
     let weigh = move || desk.inquire(Inquiry::Weigh(image.get_untracked(), control.get_untracked()));
     let size = move || desk.inquire(Inquiry::Biases(SHARES.map(|share| share * largest.get_untracked()).to_vec()));
+    // What a lesson speaks of.
+    Effect::new(move || {
+        let wanted = inside.wanted.get();
+        if wanted.image.is_some() || wanted.control.is_some() {
+            image.set(wanted.image.unwrap_or(1.0));
+            control.set(wanted.control.unwrap_or(1.0));
+            if inside.weighted.with_untracked(Option::is_some) {
+                weigh();
+            }
+        }
+    });
     Effect::new(move || {
         if inside.steps.with(|steps| !steps.is_empty()) {
             if inside.weighted.with_untracked(Option::is_none) {
