@@ -38,7 +38,7 @@ const read = {
   'weights 1': async (page) => { const [n, u] = numbers(await page.textContent('.bar > p')); return n - u; },
   'weights 2': () => 4,
   'weights 3': (page) => first(page, '[data-weighted=sigma0]'),
-  'collinearity 1': (page) => first(page, '.figures tr:nth-child(3) b'),
+  'collinearity 1': (page) => first(page, '.observed tr:nth-child(3) b'),
   'collinearity 2': (page) => page.locator('.derivatives tbody tr').count(),
   'collinearity 3': async (page) => (await derivative(page, '7 X')) + (await derivative(page, '2 X')),
   'collinearity 4': (page) => derivative(page, 'lab camera c'),

@@ -1,5 +1,7 @@
 //! The adjustment laid open: of which network, after which step, and what was asked of it.
 
+use std::collections::HashMap;
+use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
 use leptos::prelude::*;
@@ -68,6 +70,8 @@ pub struct Inside {
     pub waiting: RwSignal<bool>,
     /// Counts networks: an answer of an earlier one is not taken.
     serial: RwSignal<usize>,
+    /// Counts questions by kind: workers may answer an earlier one later.
+    asked: RwSignal<HashMap<Discriminant<Inquiry>, usize>>,
 }
 
 impl Default for Inside {
@@ -90,6 +94,7 @@ impl Default for Inside {
             wanted: RwSignal::default(),
             waiting: RwSignal::default(),
             serial: RwSignal::default(),
+            asked: RwSignal::default(),
         }
     }
 }
@@ -154,6 +159,7 @@ impl Desk {
         inside.weighted.set(None);
         inside.biases.set(Vec::new());
         self.look_inside(0);
+        self.value_lesson();
     }
 
     fn of_inside(self) -> InsideOf {
@@ -247,9 +253,19 @@ impl Desk {
         let inside = self.inside;
         let serial = inside.serial.get_untracked();
         let step = inside.step.get_untracked();
+        let kind = discriminant(&inquiry);
+        let number = inside.asked.try_update(|asked| {
+            let number = asked.entry(kind).or_default();
+            *number += 1;
+            *number
+        });
+        let latest = move || inside.asked.with_untracked(|asked| asked.get(&kind).copied()) == number;
         let texts = if let Inquiry::Evaluate(texts) = &inquiry { texts.clone() } else { Vec::new() };
         let on_outcome = move |outcome: Outcome<Inquire>| match outcome {
-            Outcome::Done(found, _) if serial == inside.serial.get_untracked() => match found {
+            // Of no network.
+            Outcome::Done(Found::Lessons(all), _) => self.lessons_came(all),
+            Outcome::Done(Found::ReadLesson(read), _) => self.lesson_read(read),
+            Outcome::Done(found, _) if serial == inside.serial.get_untracked() && latest() => match found {
                 // Another may have been chosen meanwhile.
                 Found::Row(explained) if inside.row.get_untracked() == Some(explained.row) => {
                     inside.explained.set(Some((step, explained)));
@@ -260,8 +276,7 @@ impl Desk {
                 Found::Weigh(found) => inside.weighted.set(Some(found)),
                 Found::Biases(found) => inside.biases.set(found),
                 Found::Evaluate(found) => self.lesson_valued(texts.clone(), found),
-                Found::Lessons(all) => self.lessons_came(all),
-                Found::ReadLesson(read) => self.lesson_read(read),
+                Found::Lessons(_) | Found::ReadLesson(_) => {}
             },
             Outcome::Done(..) => {}
             Outcome::Failed(failure) => self.tell_failure(failure),

@@ -174,7 +174,16 @@ impl Desk {
             self.run_inside_to(step);
         }
         inside.wanted.set(show.clone());
-        self.inquire(Inquiry::Evaluate(now.expressions()));
+        self.value_lesson();
+    }
+
+    /// Asks for the values of this step's expressions, of the network that is laid open.
+    pub(super) fn value_lesson(self) {
+        let lessons = self.lessons;
+        if let Some(now) = untrack(|| lessons.current()) {
+            lessons.values.set(BTreeMap::new());
+            self.inquire(Inquiry::Evaluate(now.expressions()));
+        }
     }
 
     /// Takes the values of the step's expressions.

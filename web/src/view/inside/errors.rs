@@ -22,6 +22,8 @@ pub fn Errors() -> impl IntoView {
     let chosen = RwSignal::new(None::<(usize, usize)>);
     let second = RwSignal::new(None::<(usize, usize)>);
     let size = RwSignal::new(8.0_f64);
+    // What of a lesson is shown already.
+    let followed = RwSignal::new(Show::default());
     let plant = move || {
         let one = |(observation, axis): (usize, usize)| Planting { observation, axis, size: size.get_untracked() };
         let errors: Vec<Planting> =
@@ -33,6 +35,7 @@ pub fn Errors() -> impl IntoView {
         if ready && inside.planted.with_untracked(Option::is_none) {
             chosen.set(None);
             second.set(None);
+            followed.set(Show::default());
             plant();
         }
     });
@@ -50,7 +53,6 @@ pub fn Errors() -> impl IntoView {
         }
     });
     // The error that a lesson speaks of.
-    let followed = RwSignal::new(Show::default());
     Effect::new(move || {
         let wanted = inside.wanted.get();
         let place = inside.planted.with(|found| {

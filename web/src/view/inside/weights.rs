@@ -96,7 +96,7 @@ pub fn Weights() -> impl IntoView {
         let none = all.iter().all(|bias| bias.largest == 0.0);
         let rows = all.iter().map(|bias| {
             view! {
-                <tr><td>{number(bias.diameter)}</td><td>{number(bias.rms)}</td><td>{number(bias.largest)}</td><td><b>{format::fixed(bias.in_sigma, 2)}</b></td>
+                <tr><td>{format::fixed(bias.diameter, 1)}</td><td>{number(bias.rms)}</td><td>{number(bias.largest)}</td><td><b>{format::fixed(bias.in_sigma, 2)}</b></td>
                 <td class="left wide"><i class="bar-cell" style:width=format!("{:.0}px", 90.0 * bias.in_sigma / most)></i></td></tr>
             }
         });
