@@ -49,6 +49,7 @@ impl Lessons {
         let value = |(expression, decimals): (&str, Option<usize>)| {
             self.values.with(|values| match (values.get(expression), decimals) {
                 (Some(Ok(value)), Some(decimals)) => format::fixed(*value, decimals),
+                (Some(Ok(value)), None) if value.fract() == 0.0 && value.abs() < 1e6 => format::fixed(*value, 0),
                 (Some(Ok(value)), None) => format::compact(*value),
                 (Some(Err(error)), _) => format!("[{error}]"),
                 (None, _) => "…".to_owned(),

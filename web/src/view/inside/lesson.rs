@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use leptos::html::Aside;
 use leptos::prelude::*;
 use sightline::teaching::{Lesson, Question};
 
@@ -39,8 +40,16 @@ pub fn Lessons() -> impl IntoView {
             .into_any()
         }
     };
+    let pane = NodeRef::<Aside>::new();
+    Effect::new(move || {
+        lessons.now.track();
+        lessons.step.track();
+        if let Some(pane) = pane.get() {
+            pane.set_scroll_top(0);
+        }
+    });
     view! {
-        <aside class="lesson scroll" aria-label=words::lessons>
+        <aside class="lesson scroll" node_ref=pane aria-label=words::lessons>
             {body}
         </aside>
     }

@@ -97,7 +97,7 @@ pub fn Weights() -> impl IntoView {
         let rows = all.iter().map(|bias| {
             view! {
                 <tr><td>{format::fixed(bias.diameter, 1)}</td><td>{number(bias.rms)}</td><td>{number(bias.largest)}</td><td><b>{format::fixed(bias.in_sigma, 2)}</b></td>
-                <td class="left wide"><i class="bar-cell" style:width=format!("{:.0}px", 90.0 * bias.in_sigma / most)></i></td></tr>
+                <td class="left wide"><i class="bar-cell" style:width=format!("{:.0}px", 50.0 * bias.in_sigma / most)></i></td></tr>
             }
         });
         let rows = rows.collect_view();
