@@ -84,6 +84,7 @@ async function played(page, lesson) {
       }
       assert.deepEqual(seen.filter((answer) => answer === 'right'), ['right'], `${name}: ${seen}`);
     }
+    assert.doesNotMatch(await page.textContent('.lesson'), /NaN|\[|undefined/, `${name}, answered`);
     await page.click('[data-action=lesson-next]');
   }
   await page.waitForSelector('.lesson-summary');
