@@ -18,7 +18,7 @@ pub use eccentric::{Bias, biases};
 pub use explained::{Collinearity, Derivative, Explained, explain};
 pub use files::files;
 pub use lab::{lab, moved};
-pub use lesson::{Choice, LESSON_FORMAT, Lesson, LessonStep, Question, Screen, Show, Words, lessons, pieces};
+pub use lesson::{Choice, LESSON_FORMAT, Lesson, LessonStep, Piece, Question, Screen, Show, Words, lessons, pieces};
 pub use planted::{Estimate, Planted, Planting, Tested, plant};
 pub use values::{NAMES, evaluate};
 pub use weights::{Weighted, weighted};

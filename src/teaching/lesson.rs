@@ -175,7 +175,7 @@ impl LessonStep {
 
     /// All expressions of the step: in its texts, its value, its choices.
     pub fn expressions(&self) -> Vec<String> {
-        let mut all: Vec<String> = self.words().flat_map(|words| expressions(words)).collect();
+        let mut all: Vec<String> = self.words().flat_map(expressions).collect();
         if let Some(ask) = &self.ask {
             all.extend(ask.value.iter().cloned().chain(ask.choices.iter().map(|choice| choice.when.clone())));
         }
@@ -190,8 +190,11 @@ pub fn expressions(words: &Words) -> impl Iterator<Item = String> {
     words.values().flat_map(|text| pieces(text)).filter_map(|(_, inside)| Some(inside?.0.to_owned()))
 }
 
-/// A text cut at its braces: what stands before each, and the expression inside with its decimals.
-pub fn pieces(text: &str) -> Vec<(&str, Option<(&str, Option<usize>)>)> {
+/// Text before a brace, and the expression inside it with its decimals; the last piece of a text has none.
+pub type Piece<'a> = (&'a str, Option<(&'a str, Option<usize>)>);
+
+/// A text cut at its braces.
+pub fn pieces(text: &str) -> Vec<Piece<'_>> {
     let mut all = Vec::new();
     let mut rest = text;
     while let Some((before, (inside, after))) =
