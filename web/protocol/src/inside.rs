@@ -65,7 +65,7 @@ pub enum Found {
     Biases(Vec<Bias>),
     Evaluate(Vec<Result<f64, String>>),
     Lessons(Vec<Lesson>),
-    ReadLesson(Result<Lesson, String>),
+    ReadLesson(Box<Result<Lesson, String>>),
 }
 
 /// Takes A, N and S out as bytes: as text they would be many times as long.

@@ -264,7 +264,7 @@ impl Desk {
         let on_outcome = move |outcome: Outcome<Inquire>| match outcome {
             // Of no network.
             Outcome::Done(Found::Lessons(all), _) => self.lessons_came(all),
-            Outcome::Done(Found::ReadLesson(read), _) => self.lesson_read(read),
+            Outcome::Done(Found::ReadLesson(read), _) => self.lesson_read(*read),
             Outcome::Done(found, _) if serial == inside.serial.get_untracked() && latest() => match found {
                 // Another may have been chosen meanwhile.
                 Found::Row(explained) if inside.row.get_untracked() == Some(explained.row) => {

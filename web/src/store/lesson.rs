@@ -144,7 +144,7 @@ impl Desk {
         self.inside.network.set(network);
         self.inside
             .moved
-            .set(lesson.steps.iter().take(step + 1).filter_map(|one| one.show.moved).last().unwrap_or(0.0));
+            .set(lesson.steps.iter().take(step + 1).filter_map(|one| one.show.moved).next_back().unwrap_or(0.0));
         self.begin_inside();
         // A lesson that is through begins anew, with its answers.
         self.go_to_lesson_step(if step < lesson.steps.len() { step } else { 0 });
@@ -167,7 +167,7 @@ impl Desk {
             Screen::Weights => Tab::Weights,
         });
         // Going back to a step, what earlier ones set holds.
-        let moved = lesson.steps[..=step].iter().filter_map(|one| one.show.moved).last();
+        let moved = lesson.steps[..=step].iter().filter_map(|one| one.show.moved).next_back();
         if moved.is_some_and(|moved| moved != inside.moved.get_untracked()) {
             inside.moved.set(moved.unwrap_or_default());
             self.begin_inside();

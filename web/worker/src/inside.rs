@@ -70,7 +70,7 @@ impl Service<Inquire> for Engine {
             }
             Inquiry::Biases(diameters) => Found::Biases(teaching::biases(&project(&of)?, options, &diameters)?),
             Inquiry::Lessons => Found::Lessons(teaching::lessons()),
-            Inquiry::ReadLesson(text) => Found::ReadLesson(teaching::Lesson::read(&text)),
+            Inquiry::ReadLesson(text) => Found::ReadLesson(Box::new(teaching::Lesson::read(&text))),
             Inquiry::Evaluate(texts) => Found::Evaluate(teaching::evaluate(&project(&of)?, options, &texts)?),
         };
         Ok((found, Vec::new()))
