@@ -40,6 +40,9 @@ test('the lab net is stepped to its end, an observation is explained, and the ma
     assert.ok(rows.length >= 9);
     for (const [analytic, numerical] of rows) assert.ok(Math.abs(number(analytic) - number(numerical)) <= 2e-3 * Math.abs(number(analytic)) + 1e-6, `${analytic} ${numerical}`);
 
+    const heights = await page.$$eval('.observed tr', (all) => all.map((row) => row.offsetHeight));
+    assert.ok(Math.max(...heights) < 50, `figures are broken into letters: ${heights}`);
+
     const given = await downloads(page, 1, () => page.click('[data-action=export-inside]'));
     const files = unzipped(given['equations.zip']);
     assert.ok(['A.mtx', 'N.mtx', 'S.mtx', 'Qxx.npy', 'rows.csv', 'columns.csv'].every((name) => name in files), Object.keys(files).join());

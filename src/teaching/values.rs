@@ -18,6 +18,7 @@ use super::datums::{Datums, datums};
 use super::dense::{carried, cofactors, redundancy};
 use super::eccentric::biases;
 use super::planted::tail;
+use super::weights::scaled;
 use crate::adjust::{
     Adjuster, LinearSystem, NormalEquations, adjust, apply, at_end, linearise, normal_equations, start_adjustment,
 };
@@ -79,7 +80,8 @@ pub const NAMES: [&str; 47] = [
 
 /// Evaluates expressions at the adjusted values; `l`, `computed`, `a` and `start_…` at the values of the document. Also known:
 /// `without(photo, expression)`, the expression's value for the network without that photo. An expression that cannot be evaluated is
-/// answered with what is wrong with it.
+/// answered with what is wrong with it. `scaled(image, control, expression)`: with the standard errors of image and control coordinates
+/// times these factors. `planted(row, size, expression)`: with an error of so many standard errors in that image coordinate.
 ///
 /// # Errors
 /// As [`adjust`].
@@ -171,7 +173,7 @@ impl<'a> Reader<'a> {
         let (word, after) = rest.split_at(end);
         self.rest = after;
         if word.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
-            return word.parse().map_err(|_| format!("\"{word}\" is no number"));
+            return numeral(word);
         }
         if word.is_empty() {
             return Err(format!("a value is missing before \"{rest}\""));
@@ -190,14 +192,29 @@ impl<'a> Reader<'a> {
                 let mut project = self.network.project.clone();
                 let photo = project.photos.iter_mut().find(|one| one.id == photo.trim());
                 photo.ok_or_else(|| format!("{inside}: no such photo"))?.enabled = false;
-                let fewer = Network::new(&project, self.network.options).map_err(|error| error.to_string())?;
-                value(&fewer, expression.trim())
+                self.of_another(&project, expression)
+            }
+            "scaled" => {
+                let (image, control, expression) = three(inside).ok_or("scaled(image, control, expression)")?;
+                let project = scaled(self.network.project, numeral(image)?, numeral(control)?);
+                self.of_another(&project, expression)
+            }
+            "planted" => {
+                let (row, size, expression) = three(inside).ok_or("planted(row, size, expression)")?;
+                let mut project = self.network.project.clone();
+                self.network.plant(&mut project, row, numeral(size)?)?;
+                self.of_another(&project, expression)
             }
             _ => {
                 let words: Vec<&str> = inside.split(',').map(str::trim).collect();
                 self.network.quantity(word, &words)
             }
         }
+    }
+
+    fn of_another(&self, project: &Project, expression: &str) -> Found {
+        let other = Network::new(project, self.network.options).map_err(|error| error.to_string())?;
+        value(&other, expression.trim())
     }
 
     /// What stands between a bracket and its partner.
@@ -213,6 +230,17 @@ impl<'a> Reader<'a> {
         }
         Err("\")\" is missing".to_owned())
     }
+}
+
+/// Two words and an expression, which may have commas of its own.
+fn three(inside: &str) -> Option<(&str, &str, &str)> {
+    let (one, rest) = inside.split_once(',')?;
+    let (two, expression) = rest.split_once(',')?;
+    Some((one.trim(), two.trim(), expression))
+}
+
+fn numeral(word: &str) -> Found {
+    word.parse().map_err(|_| format!("\"{word}\" is no number"))
 }
 
 /// A network with what is computed of it on demand.
@@ -248,6 +276,24 @@ impl<'a> Network<'a> {
     fn row(&self, name: &str) -> Found<usize> {
         let found = self.system.observations.iter().position(|row| row.name == name);
         found.ok_or_else(|| format!("no observation \"{name}\""))
+    }
+
+    /// Puts an error into an image coordinate; its sign is that of photo coordinates, whose y points up where pixels' points down.
+    fn plant(&self, project: &mut Project, row: &str, size: f64) -> Found<()> {
+        let equation = &self.system.observations[self.row(row)?];
+        let found = project
+            .observations
+            .iter_mut()
+            .find(|one| Some(&one.photo) == equation.photo.as_ref() && Some(&one.point) == equation.point.as_ref());
+        let observation =
+            found.filter(|_| equation.given.is_none()).ok_or_else(|| format!("{row}: no image coordinate"))?;
+        let [u, v] = observation.sigma.both();
+        if equation.axis.as_deref() == Some("x") {
+            observation.u += size * u
+        } else {
+            observation.v -= size * v
+        }
+        Ok(())
     }
 
     fn q(&self) -> Found<&DMatrix<f64>> {
@@ -344,8 +390,7 @@ impl<'a> Network<'a> {
             }
             ("mdb", [row]) => Ok(noncentrality() / self.redundancy(self.row(row)?)?.sqrt()),
             ("power", [row, size]) => {
-                let size: f64 = size.parse().map_err(|_| format!("\"{size}\" is no number"))?;
-                let shift = size * self.redundancy(self.row(row)?)?.sqrt();
+                let shift = numeral(size)? * self.redundancy(self.row(row)?)?.sqrt();
                 Ok(tail(critical_w() - shift) + tail(critical_w() + shift))
             }
             ("sigma", [point, on]) => {
@@ -379,7 +424,7 @@ impl<'a> Network<'a> {
             ("trace", [datum]) => Ok(self.datum(datum)?.trace),
             ("datum_vtpv", [datum]) => Ok(self.datum(datum)?.weighted_squares),
             ("eccentricity", [diameter]) => {
-                let diameter = diameter.parse().map_err(|_| format!("\"{diameter}\" is no number"))?;
+                let diameter = numeral(diameter)?;
                 let adjusted = apply(self.project, a);
                 let found = biases(&adjusted, self.options, &[diameter]).map_err(|error| error.to_string())?;
                 Ok(found[0].in_sigma)

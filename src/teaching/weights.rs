@@ -29,19 +29,7 @@ pub struct Weighted {
 /// # Errors
 /// As [`adjust`].
 pub fn weighted(project: &Project, options: &AdjustOptions, image: f64, control: f64) -> Result<Weighted> {
-    let mut project = project.clone();
-    for observation in &mut project.observations {
-        observation.sigma = match observation.sigma {
-            Sigma::One(sigma) => Sigma::One(image * sigma),
-            both => {
-                let [u, v] = both.both();
-                Sigma::Two([image * u, image * v])
-            }
-        };
-    }
-    for point in &mut project.points {
-        point.sigma = point.sigma.map(|sigma| sigma.map(|sigma| sigma.map(|sigma| control * sigma)));
-    }
+    let project = scaled(project, image, control);
     let plain = AdjustOptions { snooping: false, robust: None, variance_components: None, ..options.clone() };
     let found = adjust(&project, &plain, &mut |_| true)?;
     let estimated = AdjustOptions { variance_components: Some(VarianceComponents::default()), ..plain };
@@ -62,4 +50,22 @@ pub fn weighted(project: &Project, options: &AdjustOptions, image: f64, control:
         given,
         components,
     })
+}
+
+/// The project with the standard errors of image coordinates times `image` and those of control coordinates times `control`.
+pub(super) fn scaled(project: &Project, image: f64, control: f64) -> Project {
+    let mut project = project.clone();
+    for observation in &mut project.observations {
+        observation.sigma = match observation.sigma {
+            Sigma::One(sigma) => Sigma::One(image * sigma),
+            both => {
+                let [u, v] = both.both();
+                Sigma::Two([image * u, image * v])
+            }
+        };
+    }
+    for point in &mut project.points {
+        point.sigma = point.sigma.map(|sigma| sigma.map(|sigma| sigma.map(|sigma| control * sigma)));
+    }
+    project
 }

@@ -4,7 +4,9 @@ use nalgebra::{DMatrix, DVector};
 use sightline::adjust::{Adjuster, adjust, linearise, start_adjustment};
 use sightline::adjustment::AdjustOptions;
 use sightline::project::DatumKind;
-use sightline::teaching::{Planting, biases, cofactors, datums, evaluate, explain, files, lab, moved, plant};
+use sightline::teaching::{
+    Lesson, Planting, biases, cofactors, datums, evaluate, explain, files, lab, lessons, moved, plant,
+};
 
 fn options() -> AdjustOptions {
     AdjustOptions::default()
@@ -128,4 +130,52 @@ fn files_hold_the_same_solution() {
     let far = (0..a.ncols()).flat_map(|i| (0..a.ncols()).map(move |j| (i, j)));
     let far = far.map(|(i, j)| (product[(i, j)] - f64::from(u8::from(i == j))).abs() * scale(j) / scale(i));
     assert!(far.fold(0.0, f64::max) < 1e-8);
+}
+
+#[test]
+fn every_question_of_the_lessons_has_one_answer() {
+    let lessons = lessons();
+    assert_eq!(lessons.len(), 8);
+    for lesson in lessons {
+        let network = lesson.project.clone().unwrap_or_else(|| lab().expect("the lab net"));
+        let mut off = 0.0;
+        for words in lesson.all_words() {
+            assert!(words.contains_key("en") && words.contains_key("ko"), "{}: {words:?}", lesson.id);
+        }
+        for (k, step) in lesson.steps.iter().enumerate() {
+            off = step.show.moved.unwrap_or(off);
+            let project = moved(&network, off);
+            let texts = step.expressions();
+            let values = evaluate(&project, &options(), &texts).expect("a network");
+            let value = |text: &str| {
+                let at = texts.iter().position(|one| one == text).expect("an expression of the step");
+                values[at].clone().unwrap_or_else(|error| panic!("{} {}: {error}", lesson.id, k + 1))
+            };
+            for text in &texts {
+                println!("{} {}: {text} = {}", lesson.id, k + 1, value(text));
+            }
+            let Some(ask) = &step.ask else { continue };
+            match &ask.value {
+                Some(text) => assert!(value(text).is_finite()),
+                None => {
+                    let right = ask.choices.iter().filter(|choice| value(&choice.when) != 0.0).count();
+                    assert_eq!(right, 1, "{} {}: {right} choices are right", lesson.id, k + 1);
+                }
+            }
+            let rows = linearise(&project, &options()).expect("a system").observations;
+            assert!(step.show.observation.iter().all(|name| rows.iter().any(|row| row.name == *name)));
+        }
+    }
+}
+
+#[test]
+fn damaged_lessons_are_refused_with_a_reason() {
+    let text = serde_json::to_string(&lessons()[0]).expect("JSON");
+    assert_eq!(Lesson::read(&text).as_ref(), Ok(&lessons()[0]));
+    let changed = |from: &str, to: &str| Lesson::read(&text.replacen(from, to, 1)).expect_err("damaged");
+    assert!(changed("sightline-lesson", "other").contains("format"));
+    assert!(changed("\"weights\"", "\"a b\"").contains("id"));
+    assert!(changed("\"tolerance\"", "\"tolerence\"").contains("tolerence"));
+    assert!(changed(",\"tolerance\":0.0", "").contains("step 1"));
+    assert!(Lesson::read("").is_err());
 }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use sightline::adjust::{LinearSystem, NormalEquations, SparseMatrix, StepState};
 use sightline::adjustment::AdjustOptions;
 use sightline::project::Project;
-use sightline::teaching::{Bias, Datums, Explained, Planted, Planting, Weighted};
+use sightline::teaching::{Bias, Datums, Explained, Lesson, Planted, Planting, Weighted};
 
 /// What is laid open.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -48,6 +48,10 @@ pub enum Inquiry {
     Biases(Vec<f64>),
     /// Values of expressions.
     Evaluate(Vec<String>),
+    /// The lessons that come with the program.
+    Lessons,
+    /// A lesson from the text of its file.
+    ReadLesson(String),
 }
 
 /// The answer to an [`Inquiry`], of the same name.
@@ -60,6 +64,8 @@ pub enum Found {
     Weigh(Weighted),
     Biases(Vec<Bias>),
     Evaluate(Vec<Result<f64, String>>),
+    Lessons(Vec<Lesson>),
+    ReadLesson(Box<Result<Lesson, String>>),
 }
 
 /// Takes A, N and S out as bytes: as text they would be many times as long.

@@ -1,11 +1,13 @@
 //! The adjustment laid open: of which network, after which step, and what was asked of it.
 
+use std::collections::HashMap;
+use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::adjustment::AdjustOptions;
 use sightline::project::Project;
-use sightline::teaching::{Bias, Datums, Explained, Planted, Weighted};
+use sightline::teaching::{Bias, Datums, Explained, Planted, Show, Weighted};
 use sightline_protocol::{ExportInside, Found, Inquire, Inquiry, InsideOf, LookInside, Looked, matrices_from};
 
 use super::document::Document;
@@ -26,6 +28,8 @@ pub enum Network {
     Document,
     /// What an experiment gave.
     Experiment(Arc<Ran>),
+    /// That of a lesson's file.
+    Lesson(Arc<Project>),
 }
 
 /// What of it is shown.
@@ -59,11 +63,15 @@ pub struct Inside {
     pub planted: RwSignal<Option<Planted>>,
     pub weighted: RwSignal<Option<Weighted>>,
     pub biases: RwSignal<Vec<Bias>>,
-    /// Steps are taken until the end.
-    running: RwSignal<bool>,
+    /// Steps are taken up to this one.
+    until: RwSignal<usize>,
+    /// What the step of a lesson wants shown; the parts of the view follow it when it changes.
+    pub wanted: RwSignal<Show>,
     pub waiting: RwSignal<bool>,
     /// Counts networks: an answer of an earlier one is not taken.
     serial: RwSignal<usize>,
+    /// Counts questions by kind: workers may answer an earlier one later.
+    asked: RwSignal<HashMap<Discriminant<Inquiry>, usize>>,
 }
 
 impl Default for Inside {
@@ -82,9 +90,11 @@ impl Default for Inside {
             planted: RwSignal::default(),
             weighted: RwSignal::default(),
             biases: RwSignal::default(),
-            running: RwSignal::default(),
+            until: RwSignal::default(),
+            wanted: RwSignal::default(),
             waiting: RwSignal::default(),
             serial: RwSignal::default(),
+            asked: RwSignal::default(),
         }
     }
 }
@@ -138,7 +148,7 @@ impl Desk {
         let inside = self.inside;
         inside.serial.update(|serial| *serial += 1);
         inside.taken.set(Some(self.document.with_untracked(|d| (d.project.clone(), d.options.clone()))));
-        inside.running.set(false);
+        inside.until.set(0);
         inside.steps.set(Vec::new());
         inside.step.set(0);
         inside.row.set(None);
@@ -149,6 +159,7 @@ impl Desk {
         inside.weighted.set(None);
         inside.biases.set(Vec::new());
         self.look_inside(0);
+        self.value_lesson();
     }
 
     fn of_inside(self) -> InsideOf {
@@ -159,6 +170,7 @@ impl Desk {
                 None => (None, AdjustOptions::default()),
             }),
             Network::Experiment(ran) => (Some(ran.experiment.project.clone()), AdjustOptions::default()),
+            Network::Lesson(project) => (Some((**project).clone()), AdjustOptions::default()),
         });
         // These follow after the iteration and are no part of it; the laboratory of errors has them side by side.
         let options = AdjustOptions { robust: None, snooping: false, variance_components: None, ..options };
@@ -194,32 +206,33 @@ impl Desk {
                 });
                 inside.step.set(at.unwrap_or_default());
                 self.explain_row();
-                if inside.running.get_untracked() && !ended {
+                if step < inside.until.get_untracked() && !ended {
                     self.look_inside(step + 1);
-                } else {
-                    inside.running.set(false);
                 }
             }
             Outcome::Failed(failure) => {
                 inside.waiting.set(false);
-                inside.running.set(false);
+                inside.until.set(0);
                 self.tell_failure(failure);
             }
             Outcome::Progress(nothing) => match nothing {},
         };
         let stopped = move || {
             inside.waiting.set(false);
-            inside.running.set(false);
+            inside.until.set(0);
         };
         let task = LookInside { of: self.of_inside(), step };
         self.ask(Stop(words::computing, stopped), task, Vec::new(), on_outcome);
     }
 
-    /// Takes steps until the end.
-    pub fn run_inside(self) {
-        self.inside.running.set(true);
-        let last = self.inside.steps.with_untracked(Vec::len);
-        self.look_inside(last);
+    /// Takes steps up to this one, or until the end.
+    pub fn run_inside_to(self, step: usize) {
+        self.inside.until.set(step);
+        let known = self.inside.steps.with_untracked(Vec::len);
+        // The start values are on their way where nothing is known yet.
+        if known > 0 {
+            self.look_inside(step.min(known));
+        }
     }
 
     /// Chooses an observation.
@@ -240,17 +253,30 @@ impl Desk {
         let inside = self.inside;
         let serial = inside.serial.get_untracked();
         let step = inside.step.get_untracked();
+        let kind = discriminant(&inquiry);
+        let number = inside.asked.try_update(|asked| {
+            let number = asked.entry(kind).or_default();
+            *number += 1;
+            *number
+        });
+        let latest = move || inside.asked.with_untracked(|asked| asked.get(&kind).copied()) == number;
+        let texts = if let Inquiry::Evaluate(texts) = &inquiry { texts.clone() } else { Vec::new() };
         let on_outcome = move |outcome: Outcome<Inquire>| match outcome {
-            Outcome::Done(found, _) if serial == inside.serial.get_untracked() => match found {
+            // Of no network.
+            Outcome::Done(Found::Lessons(all), _) => self.lessons_came(all),
+            Outcome::Done(Found::ReadLesson(read), _) => self.lesson_read(*read),
+            Outcome::Done(found, _) if serial == inside.serial.get_untracked() && latest() => match found {
                 // Another may have been chosen meanwhile.
                 Found::Row(explained) if inside.row.get_untracked() == Some(explained.row) => {
                     inside.explained.set(Some((step, explained)));
                 }
-                Found::Row(_) | Found::Evaluate(_) => {}
+                Found::Row(_) => {}
                 Found::Datums(found) => inside.datums.set(Some(found)),
                 Found::Plant(found) => inside.planted.set(Some(found)),
                 Found::Weigh(found) => inside.weighted.set(Some(found)),
                 Found::Biases(found) => inside.biases.set(found),
+                Found::Evaluate(found) => self.lesson_valued(texts.clone(), found),
+                Found::Lessons(_) | Found::ReadLesson(_) => {}
             },
             Outcome::Done(..) => {}
             Outcome::Failed(failure) => self.tell_failure(failure),

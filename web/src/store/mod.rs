@@ -20,6 +20,7 @@ pub mod intake;
 pub mod keeping;
 pub mod kept;
 mod lasting;
+pub mod lesson;
 pub mod marking;
 pub mod models;
 pub mod monitoring;
@@ -67,6 +68,7 @@ use experiments::Experiments;
 use identity::Marks;
 use inside::Inside;
 use keeping::{Keeper, Kept};
+use lesson::Lessons;
 use marking::Series;
 use monitoring::Monitored;
 use planning::Planning;
@@ -140,6 +142,8 @@ impl Step {
     }
 
     fn from_name(name: &str) -> Self {
+        // A lesson and its state may follow.
+        let name = if name.starts_with("inside/") { Self::Inside.name() } else { name };
         let beside =
             [Self::Tables, Self::Object, Self::Monitoring, Self::Files, Self::Inside].into_iter().chain(Self::BEFORE);
         Self::ROW.into_iter().chain(beside).find(|s| s.name() == name).unwrap_or_default()
@@ -443,6 +447,7 @@ pub struct Desk {
     pub pool: StoredValue<Pool, LocalStorage>,
     pub experiments: Experiments,
     pub inside: Inside,
+    pub lessons: Lessons,
     pub reports: report::Reports,
     pub printing: Printing,
     pub equipment: Equipped,
@@ -521,6 +526,7 @@ impl Desk {
             pool: StoredValue::new_local(Pool::default()),
             experiments: Experiments::default(),
             inside: Inside::default(),
+            lessons: Lessons::default(),
             reports: report::Reports::default(),
             printing: Printing::default(),
             equipment: Equipped::default(),
@@ -628,6 +634,7 @@ impl Desk {
         if let Some(name) = experiments::from_hash(&page::hash()) {
             return self.show_experiment(name);
         }
+        self.follow_lesson_in_address();
         let step = Step::from_name(&page::hash());
         let coming = self.coming.with_untracked(|coming| !coming.is_empty());
         let empty = self.document.with_untracked(Document::is_empty) && !coming;

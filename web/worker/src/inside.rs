@@ -69,6 +69,8 @@ impl Service<Inquire> for Engine {
                 Found::Weigh(teaching::weighted(&project(&of)?, options, image, control)?)
             }
             Inquiry::Biases(diameters) => Found::Biases(teaching::biases(&project(&of)?, options, &diameters)?),
+            Inquiry::Lessons => Found::Lessons(teaching::lessons()),
+            Inquiry::ReadLesson(text) => Found::ReadLesson(Box::new(teaching::Lesson::read(&text))),
             Inquiry::Evaluate(texts) => Found::Evaluate(teaching::evaluate(&project(&of)?, options, &texts)?),
         };
         Ok((found, Vec::new()))

@@ -138,4 +138,23 @@ declare! { inside {
     rms_bias: "bias, rms";
     largest_bias: "largest";
     in_sigma: "largest / σ";
+    lessons: "Lessons";
+    lessons_hint: "Each takes about ten minutes, acts on the screens beside it and asks for numbers that stand there. Progress is kept in this browser.";
+    minutes(n): "{n} min";
+    answered_of(n, all): "{n} of {all} questions answered";
+    open_lesson: "Open a lesson file…";
+    no_lesson(why): "This file is not a lesson: {why}";
+    no_answer(why): "The answer cannot be computed: {why}";
+    step_number(n, all): "step {n} of {all}";
+    summary: "summary";
+    previous: "Previous";
+    next: "Next";
+    answer: "Your answer";
+    check: "Check";
+    right: "Right.";
+    not_right: "Not yet.";
+    not_a_number: "Type a number, as 0.85.";
+    print_summary: "Print the summary";
+    state_link: "Link to this state of the lesson";
+    of_the_lesson: "Network of the lesson";
 }}

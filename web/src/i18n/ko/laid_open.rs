@@ -131,4 +131,23 @@ translate! { Korean inside {
     rms_bias: "편심, RMS";
     largest_bias: "최대";
     in_sigma: "최대 / σ";
+    lessons: "학습 과정";
+    lessons_hint: "과정마다 약 10분이 걸립니다. 옆 화면을 직접 움직이며, 화면에 있는 숫자를 묻습니다. 진도는 이 브라우저에 저장됩니다.";
+    minutes(n): "{n}분";
+    answered_of(n, all): "질문 {all}개 중 {n}개 정답";
+    open_lesson: "과정 파일 열기…";
+    no_lesson(why): "과정 파일이 아닙니다: {why}";
+    no_answer(why): "답을 계산할 수 없습니다: {why}";
+    step_number(n, all): "{all}단계 중 {n}단계";
+    summary: "요약";
+    previous: "이전";
+    next: "다음";
+    answer: "답";
+    check: "확인";
+    right: "맞습니다.";
+    not_right: "아직 아닙니다.";
+    not_a_number: "0.85와 같은 숫자를 입력하십시오.";
+    print_summary: "요약 인쇄";
+    state_link: "과정의 현재 상태 링크";
+    of_the_lesson: "과정의 망";
 } }

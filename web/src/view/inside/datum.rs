@@ -34,6 +34,15 @@ pub fn Datum() -> impl IntoView {
             desk.inquire(Inquiry::Datums(None));
         }
     });
+    // The movement that a lesson speaks of.
+    Effect::new(move || {
+        if let Some(wanted) = inside.wanted.get().motion {
+            let place = inside.datums.with(|found| {
+                found.as_ref().and_then(|found| found.motions.iter().position(|motion| motion.name == wanted))
+            });
+            motion.set(place);
+        }
+    });
     let hold = move |id: String| {
         held.update(|held| match held.iter().position(|one| *one == id) {
             Some(at) => {
@@ -54,7 +63,7 @@ pub fn Datum() -> impl IntoView {
         let columns = found.cases.iter().map(|case| {
             let moved = motion.filter(|_| case.kind == DatumKind::Free).and_then(|k| found.motions.get(k));
             let moved = moved.map(|motion| motion.points.clone());
-            column(case, &frame, moved, move |id| hold(id), held)
+            column(case, &frame, moved, hold, held)
         });
         let columns = columns.collect_view();
         Some(view! { <div class="datums">{columns}</div>{equality(&found)} })
@@ -178,7 +187,7 @@ fn column(
     } else {
         let named = case.points.len() <= NAMED;
         let reach = moved.as_ref().map_or(1.0, |all| {
-            let fastest = all.iter().map(|g| frame.axes.map(|k| g[k].abs())).flatten().fold(0.0, f64::max);
+            let fastest = all.iter().flat_map(|g| frame.axes.map(|k| g[k].abs())).fold(0.0, f64::max);
             if fastest > 0.0 { 30.0 / fastest } else { 0.0 }
         });
         let marks = case.points.iter().enumerate().map(|(k, point)| {

@@ -86,11 +86,11 @@ fn figures(observation: &Observation, l: f64, p: f64, found: Option<&Explained>)
     let unit = observation.unit.clone();
     let axis = observation.axis.clone().unwrap_or_default();
     let line = |name: String, value: String, unit: String| {
-        view! { <tr><td class="left">{name}</td><td><b>{value}</b></td><td class="left wide">{unit}</td></tr> }
+        view! { <tr><td class="left">{name}</td><td><b>{value}</b></td><td class="left">{unit}</td></tr> }
     };
     let redundancy = found.and_then(|found| found.redundancy);
     view! {
-        <table class="table words figures"><tbody>
+        <table class="table words observed"><tbody>
             {line(words::observed(&axis), format::fixed(observation.value, 5), unit.clone())}
             {line(words::computed(&axis), format::fixed(observation.value - l, 5), unit.clone())}
             {line(words::misclosure().to_owned(), number(l), unit.clone())}

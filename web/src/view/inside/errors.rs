@@ -1,7 +1,7 @@
 //! A planted error: what the tests see of it, and what four estimators make of it.
 
 use leptos::prelude::*;
-use sightline::teaching::{Estimate, Planted, Planting, Tested};
+use sightline::teaching::{Estimate, Planted, Planting, Show, Tested};
 use sightline_protocol::Inquiry;
 
 use super::number;
@@ -22,6 +22,8 @@ pub fn Errors() -> impl IntoView {
     let chosen = RwSignal::new(None::<(usize, usize)>);
     let second = RwSignal::new(None::<(usize, usize)>);
     let size = RwSignal::new(8.0_f64);
+    // What of a lesson is shown already.
+    let followed = RwSignal::new(Show::default());
     let plant = move || {
         let one = |(observation, axis): (usize, usize)| Planting { observation, axis, size: size.get_untracked() };
         let errors: Vec<Planting> =
@@ -33,6 +35,7 @@ pub fn Errors() -> impl IntoView {
         if ready && inside.planted.with_untracked(Option::is_none) {
             chosen.set(None);
             second.set(None);
+            followed.set(Show::default());
             plant();
         }
     });
@@ -46,6 +49,25 @@ pub fn Errors() -> impl IntoView {
         });
         if none && middle.is_some() {
             chosen.set(middle);
+            plant();
+        }
+    });
+    // The error that a lesson speaks of.
+    Effect::new(move || {
+        let wanted = inside.wanted.get();
+        let place = inside.planted.with(|found| {
+            let (found, row) = (found.as_ref()?, wanted.observation.as_ref()?);
+            let of = |one: &Tested| {
+                let [photo, point] = &found.names[one.observation];
+                format!("{photo} {point} {}", ["x", "y"][one.axis.min(1)]) == *row
+            };
+            found.tested.iter().find(|one| of(one)).map(|one| (one.observation, one.axis))
+        });
+        if place.is_some() && followed.get_untracked() != wanted {
+            chosen.set(place);
+            second.set(None);
+            size.set(wanted.size.unwrap_or(size.get_untracked()));
+            followed.set(wanted);
             plant();
         }
     });

@@ -59,7 +59,7 @@ pub fn Iterations() -> impl IntoView {
                 <button class="button" data-action="step-back" disabled=first on:click=move |_| desk.look_inside(inside.step.get_untracked().saturating_sub(1))>"← " {words::back}</button>
                 <button class="button primary" data-action="step" disabled=move || ended.get().is_some() || inside.waiting.get()
                     on:click=move |_| desk.look_inside(inside.step.get_untracked() + 1)>{words::step} " →"</button>
-                <button class="button" data-action="run" disabled=move || ended.get().is_some() || inside.waiting.get() on:click=move |_| desk.run_inside()>{words::run_all}</button>
+                <button class="button" data-action="run" disabled=move || ended.get().is_some() || inside.waiting.get() on:click=move |_| desk.run_inside_to(usize::MAX)>{words::run_all}</button>
                 <label class="option"><span>{words::start_moved}</span>
                     <select name="moved" on:change=move |e| {
                         inside.moved.set(event::value(&e).parse().unwrap_or(0.0));

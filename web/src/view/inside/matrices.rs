@@ -16,6 +16,17 @@ pub fn Matrices() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let inside = desk.inside;
     let any = Memo::new(move |_| inside.steps.with(|steps| !steps.is_empty()));
+    // The observation that a lesson speaks of; further steps leave the one that is chosen.
+    Effect::new(move || {
+        let wanted = inside.wanted.get().observation.filter(|_| any.get());
+        let first = inside.steps.with_untracked(|steps| steps.first().cloned());
+        let row = first
+            .zip(wanted)
+            .and_then(|(looked, name)| looked.system.observations.iter().position(|row| row.name == name));
+        if row.is_some() && inside.row.get_untracked() != row {
+            desk.choose_equation(row);
+        }
+    });
     let elimination = move || {
         let looked = inside.looked()?;
         let normal = &looked.normal;

@@ -4,6 +4,7 @@ mod datum;
 mod equation;
 mod errors;
 mod iterations;
+mod lesson;
 mod matrices;
 mod picture;
 mod unknowns;
@@ -21,6 +22,7 @@ use crate::store::inside::{Network, Tab};
 
 use datum::Datum;
 use errors::Errors;
+use lesson::Lessons;
 use matrices::Matrices;
 use weights::Weights;
 
@@ -36,6 +38,7 @@ pub fn Inside() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let inside = desk.inside;
     desk.ready_inside();
+    desk.follow_lesson_in_address();
     let sentence = move || match inside.looked() {
         Some(looked) => {
             let LinearSystem { observations, unknowns, redundancy, .. } = &looked.system;
@@ -54,13 +57,18 @@ pub fn Inside() -> impl IntoView {
                 <button data-inside=name aria-current=move || (inside.tab.get() == tab).then_some("page")
                     on:click=move |_| inside.tab.set(tab)>{title}</button>
             }).collect_view()}
+            <button class="lessons" data-inside="lessons" aria-pressed=move || desk.lessons.shown.get().to_string()
+                on:click=move |_| desk.show_lessons(!desk.lessons.shown.get_untracked())>{words::lessons}</button>
         </nav>
-        {move || match inside.tab.get() {
-            Tab::Matrices => view! { <Matrices/> }.into_any(),
-            Tab::Datum => view! { <Datum/> }.into_any(),
-            Tab::Errors => view! { <Errors/> }.into_any(),
-            Tab::Weights => view! { <Weights/> }.into_any(),
-        }}
+        <div class="with-lesson">
+            <Show when=move || desk.lessons.shown.get()><Lessons/></Show>
+            {move || match inside.tab.get() {
+                Tab::Matrices => view! { <Matrices/> }.into_any(),
+                Tab::Datum => view! { <Datum/> }.into_any(),
+                Tab::Errors => view! { <Errors/> }.into_any(),
+                Tab::Weights => view! { <Weights/> }.into_any(),
+            }}
+        </div>
     }
 }
 
@@ -80,6 +88,7 @@ fn Networks() -> impl IntoView {
         Network::Lab => "lab",
         Network::Document => "document",
         Network::Experiment(_) => "experiment",
+        Network::Lesson(_) => "lesson",
     };
     view! {
         <label class="inside-network">
@@ -89,6 +98,7 @@ fn Networks() -> impl IntoView {
                 "lab" => desk.open_inside(Network::Lab),
                 _ => {}
             }>
+                <Show when=move || now() == "lesson"><option value="lesson" prop:selected=true>{words::of_the_lesson}</option></Show>
                 <option value="lab" prop:selected=move || now() == "lab">{words::lab}</option>
                 <Show when=move || project.get()><option value="document" prop:selected=move || now() == "document">{words::this_project}</option></Show>
                 <Show when=move || ran.with(Option::is_some)>

@@ -15,7 +15,7 @@ const MOST: usize = 400;
 pub fn Unknowns() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let inside = desk.inside;
-    let list = move || {
+    move || {
         let looked = inside.looked()?;
         let (system, state) = (&looked.system, &looked.state);
         let all = system.unknowns.len();
@@ -55,6 +55,5 @@ pub fn Unknowns() -> impl IntoView {
             </table>
             <p class="hint">{words::rotations_are}</p>
         })
-    };
-    list
+    }
 }

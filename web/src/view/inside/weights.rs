@@ -21,6 +21,17 @@ pub fn Weights() -> impl IntoView {
     let largest = RwSignal::new(40.0_f64);
     let weigh = move || desk.inquire(Inquiry::Weigh(image.get_untracked(), control.get_untracked()));
     let size = move || desk.inquire(Inquiry::Biases(SHARES.map(|share| share * largest.get_untracked()).to_vec()));
+    // What a lesson speaks of.
+    Effect::new(move || {
+        let wanted = inside.wanted.get();
+        if wanted.image.is_some() || wanted.control.is_some() {
+            image.set(wanted.image.unwrap_or(1.0));
+            control.set(wanted.control.unwrap_or(1.0));
+            if inside.weighted.with_untracked(Option::is_some) {
+                weigh();
+            }
+        }
+    });
     Effect::new(move || {
         if inside.steps.with(|steps| !steps.is_empty()) {
             if inside.weighted.with_untracked(Option::is_none) {
@@ -85,8 +96,8 @@ pub fn Weights() -> impl IntoView {
         let none = all.iter().all(|bias| bias.largest == 0.0);
         let rows = all.iter().map(|bias| {
             view! {
-                <tr><td>{number(bias.diameter)}</td><td>{number(bias.rms)}</td><td>{number(bias.largest)}</td><td><b>{format::fixed(bias.in_sigma, 2)}</b></td>
-                <td class="left wide"><i class="bar-cell" style:width=format!("{:.0}px", 90.0 * bias.in_sigma / most)></i></td></tr>
+                <tr><td>{format::fixed(bias.diameter, 1)}</td><td>{number(bias.rms)}</td><td>{number(bias.largest)}</td><td><b>{format::fixed(bias.in_sigma, 2)}</b></td>
+                <td class="left wide"><i class="bar-cell" style:width=format!("{:.0}px", 50.0 * bias.in_sigma / most)></i></td></tr>
             }
         });
         let rows = rows.collect_view();
