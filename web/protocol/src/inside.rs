@@ -118,7 +118,7 @@ mod tests {
         let bytes = matrices(&mut sent);
         assert_eq!(sent.system.a, SparseMatrix::default());
         assert!(matrices_from(&mut sent, &bytes));
-        assert_eq!((sent.system.a, sent.normal.n), (looked.system.a, looked.normal.n));
+        assert_eq!((&sent.system.a, &sent.normal.n), (&looked.system.a, &looked.normal.n));
         assert_eq!(sent.normal.reduced, looked.normal.reduced);
         let mut cut = bytes.clone();
         cut[1].pop();
