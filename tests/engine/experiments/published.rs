@@ -1,6 +1,6 @@
 //! The papers' figures.
 
-use sightline::experiments::{Experiment, ExperimentOptions, NAMES, run};
+use sightline::experiments::{Cell, Experiment, ExperimentOptions, NAMES, run};
 
 fn result(name: &str) -> Experiment {
     run(name, &ExperimentOptions::default(), &mut |_, _| true).expect(name)
@@ -46,6 +46,18 @@ fn kang_and_yeu() {
     assert_eq!(with_independent, 8);
     let rows = |id: &str| kang.tables.iter().find(|t| t.id == id).map(|t| t.rows.len());
     assert_eq!((rows("single"), rows("mixed"), rows("pairwise")), (Some(60), Some(16), Some(15)));
+    // Draws of their own: S0 of the networks of two photos scatters about 1 by its standard error, and their mean is that of no single draw.
+    let single = kang.tables.iter().find(|t| t.id == "single").expect("a table");
+    let column = |id: &str| single.columns.iter().position(|c| c.id == id).expect("a column");
+    let number = |row: &[Cell], id: &str| match row[column(id)] {
+        Cell::Number(value) => value,
+        ref other => panic!("{id}: {other:?}"),
+    };
+    let two = single.rows.iter().filter(|row| number(row, "m") == 60.0);
+    let all: Vec<[f64; 2]> = two.map(|row| [number(row, "s0"), number(row, "s0_sigma")]).collect();
+    let mean = all.iter().map(|[s0, _]| s0).sum::<f64>() / all.len() as f64;
+    let chi = (all.iter().map(|[s0, sigma]| ((s0 - 1.0) / sigma).powi(2)).sum::<f64>() / all.len() as f64).sqrt();
+    assert!(all.len() == 15 && (mean - 1.0).abs() < 0.1 && (0.5..1.6).contains(&chi), "{mean} {chi} {all:?}");
 }
 
 #[test]
@@ -96,6 +108,11 @@ fn film_as_files() {
 fn lee_structure() {
     let lee = result("lee-structure");
     well_formed(&lee);
+    // Table 5 prints 17.2 %, which tables 3 and 4 contradict.
+    let gain = lee.figures.iter().find(|f| f.id == "gain_z/I").and_then(|f| f.paper).expect("a figure");
+    assert!((gain - 26.9).abs() < 0.06, "{gain}");
+    let misprint = lee.assumptions.iter().find(|a| a.id == "gain_misprint").expect("an assumption");
+    assert_eq!((misprint.ours, misprint.paper), (Some(gain), Some(17.2)));
     for datum in ["control", "free"] {
         let depth = |network: &str| figure(&lee, &format!("sy/{network}-{datum}"));
         assert!(depth("III") < depth("I") && depth("I") < depth("II"), "{datum}");
@@ -164,7 +181,7 @@ fn sensor() {
     let number = |row: usize, id: &str| {
         let column = table.columns.iter().position(|c| c.id == id).unwrap_or_else(|| panic!("no column {id}"));
         match table.rows[row][column] {
-            sightline::experiments::Cell::Number(value) => value,
+            Cell::Number(value) => value,
             ref other => panic!("{id}: {other:?}"),
         }
     };

@@ -1278,6 +1278,8 @@ declare! { experiments {
         "\"About 15, 35 and up to 50 %\" is read over the distances of the paper's figures 4-6 to 4-9, 1.4 to 4.0 m: the means of 3 and 4 photos, the greatest fall with 5. At 7.0 m more photos gain more.";
     a_pairwise:
         "The paper's models formed pair by pair had random errors that did not follow the distance. With random image errors alone ours grow with the distance like the bundle's: the method by itself is not irregular. It becomes so where the second orientation of a shallow object is taken for the first.";
+    a_sigma0_draws(n): "S₀ is the root mean square of {n} draws of the noise, each network's own, with its σ; the paper has one set of readings.";
+    a_gain_misprint(ours, paper): "The paper's table 5 prints {paper} % for Z in network I, its tables 3 and 4 give {ours} %: taken for a misprint, and compared with {ours} %.";
     a_readings: "The readings are made up: plates of the usual kind, read to the σ above. The paper prints none.";
     a_distortion: "The distortion table is made up, of the usual size: the paper shows it as a drawing only.";
     a_film_along(v): "The film shrank to {v} along its run.";
