@@ -127,16 +127,22 @@ pub(super) fn pass<T: Sample>(
     }
     let shapeless = blobs.iter().flat_map(|blobs| blobs.unlike.iter().chain(&blobs.shapeless));
     doubtful.extend(shapeless.filter_map(|no| disc(no, options)));
-    let rim_noise = alike::rim_noise(uneven, &measure.levels);
+    // a processed picture is looked at softened, too, where such rims hide nothing
+    let rim_noise = if measure.work.coloured { 1.0 } else { alike::rim_noise(uneven, &measure.levels) };
     let [shared, hiding] = NOISY_RIMS;
-    if rim_noise > shared && !measure.work.coloured {
+    if rim_noise > shared {
         measure.work.coloured = true;
         colours = measured_again(&mut measure, &mut census.targets);
     }
-    if let Some(alike) = alike::of(&mut measure, known, &census.targets)
-        && (soft.is_some() || rim_noise > hiding || alike.swallows())
-    {
-        take_alike(&mut measure, &mut census, &mut colours, &doubtful, &alike, Wanted::Disc);
+    if let Some(alike) = alike::of(&mut measure, known, &census.targets) {
+        if soft.is_some() || alike.swallows() {
+            take_alike(&mut measure, &mut census, &mut colours, &doubtful, &alike, Wanted::Disc);
+        } else if rim_noise > hiding {
+            // what noise has hidden is a disc to the eye: texture that is like one is smaller or flatter than what is asked for
+            let large = |outline: &&Outline| 2.0 * outline.semi_axes().1 >= options.min_diameter;
+            let large: Vec<Outline> = doubtful.iter().filter(large).copied().collect();
+            take_alike(&mut measure, &mut census, &mut colours, &large, &alike, Wanted::Disc);
+        }
     }
     let grounds = std::mem::take(&mut census.grounds);
     Pass { detection: census.finish(), grounds, colours, doubtful }
