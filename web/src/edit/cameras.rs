@@ -290,7 +290,7 @@ pub fn remove_photos(document: &mut Document, photos: &BTreeSet<String>) {
 pub fn set_free(document: &mut Document, id: &str, parameter: Parameter, free: bool) {
     let key = (id.to_owned(), parameter);
     let kept = document.sigmas_of_held.get(&key).copied();
-    let Some(camera) = camera_mut(document.project_mut(), id) else { return };
+    let Some(camera) = camera_mut(document.project_mut(), id).filter(|c| has(c, parameter)) else { return };
     camera.free.retain(|p| *p != parameter);
     let observed = camera.sigma.remove(&parameter);
     if free {
@@ -308,7 +308,7 @@ pub fn set_free(document: &mut Document, id: &str, parameter: Parameter, free: b
 /// Observes a parameter with a standard error, which estimates it, or estimates it without.
 pub fn observe_parameter(document: &mut Document, id: &str, parameter: Parameter, sigma: Option<f64>) {
     document.sigmas_of_held.remove(&(id.to_owned(), parameter));
-    let Some(camera) = camera_mut(document.project_mut(), id) else { return };
+    let Some(camera) = camera_mut(document.project_mut(), id).filter(|c| has(c, parameter)) else { return };
     match sigma {
         Some(sigma) => {
             camera.sigma.insert(parameter, sigma);
@@ -321,6 +321,11 @@ pub fn observe_parameter(document: &mut Document, id: &str, parameter: Parameter
         camera.free.push(parameter);
         sort_free(camera);
     }
+}
+
+/// Whether the camera's model has a parameter: a model that was chosen meanwhile may have others.
+fn has(camera: &Camera, parameter: Parameter) -> bool {
+    camera.interior.parameters().contains(&parameter)
 }
 
 fn sort_free(camera: &mut Camera) {

@@ -259,7 +259,7 @@ const ACTIONS: [(&str, Action); 55] = [
         let camera = d.project.cameras.iter().find(|c| c.id == "l").cloned();
         let alone = camera.map(|camera| models::alone(&d.project, camera));
         if let Some((converted, _)) = alone.and_then(|p| convert_camera(&p, "l", "opencv_rational").ok()) {
-            models::take(d.project_mut(), &converted, None);
+            models::take(d, &converted, None);
         }
     }),
     ("colours taken", |d| cameras::set_colours(d.project_mut(), "l", red())),

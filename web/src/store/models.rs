@@ -88,7 +88,7 @@ impl Desk {
                     all.push(left);
                 });
                 self.change(change.clone(), |document| {
-                    models::take(document.project_mut(), &converted, adjusted.as_ref());
+                    models::take(document, &converted, adjusted.as_ref());
                 });
             }
         };
