@@ -15,10 +15,19 @@ type Stance = SVector<f64, 6>;
 
 /// The part of each photo, counted from 0. Photos without position or rotation count as standing in the middle.
 pub fn balanced(photos: &[&Photo], parts: usize) -> Vec<usize> {
+    // Everything is computed in the order of the names: in another one sums differ by rounding, which decides between two that are alike.
+    let mut order: Vec<usize> = (0..photos.len()).collect();
+    order.sort_by(|a, b| photos[*a].id.cmp(&photos[*b].id));
+    let named: Vec<&Photo> = order.iter().map(|k| photos[*k]).collect();
+    let mut part = vec![0; photos.len()];
+    order.into_iter().zip(dealt(&named, parts)).for_each(|(k, to)| part[k] = to);
+    part
+}
+
+/// The part of each photo, in this order.
+fn dealt(photos: &[&Photo], parts: usize) -> Vec<usize> {
     let stances = stances(photos);
     let mut open: Vec<usize> = (0..photos.len()).collect();
-    // of two that are alike the one with the smaller name comes first, whatever their order in the document
-    open.sort_by(|a, b| photos[*a].id.cmp(&photos[*b].id));
     let mut part = vec![0; photos.len()];
     let mut sums = vec![Stance::zeros(); parts];
     let mut counts = vec![0_usize; parts];
@@ -139,7 +148,8 @@ mod tests {
     #[test]
     fn photos_without_orientation_are_dealt_too() {
         let bare = Photo { id: "a".into(), ..Photo::default() };
-        assert_eq!(balanced(&[&bare, &bare, &bare], 2).iter().filter(|p| **p == 0).count() % 2 + 1, 2);
+        let of_first = balanced(&[&bare, &bare, &bare], 2).iter().filter(|p| **p == 0).count();
+        assert!(of_first == 1 || of_first == 2, "{of_first}");
         assert!(balanced(&[], 2).is_empty());
     }
 }
