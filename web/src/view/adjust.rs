@@ -67,10 +67,10 @@ pub fn Adjust() -> impl IntoView {
     let done = Memo::new(move |_| desk.document.with(|d| d.current().is_some()));
     view! {
         <TitleBar title=text::bundle_adjustment sentence=Signal::derive(sentence)>
-            <button class="button" data-action="inside" on:click=move |_| desk.open_inside(Network::Document)>{inside::inside}</button>
             <button class="button" class:primary=move || !done.get() on:click=move |_| desk.adjust()>
                 {move || if done.get() { text::adjust_again() } else { text::adjust_now() }}
             </button>
+            <button class="button" data-action="inside" on:click=move |_| desk.open_inside(Network::Document)>{inside::inside}</button>
             <Show when=move || done.get()>
                 <button class="button primary" on:click=move |_| desk.go(Step::Results)>{text::results} <Glyph icon=Icon::Arrow/></button>
             </Show>
