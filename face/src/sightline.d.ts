@@ -1918,7 +1918,7 @@ export interface CrossPart {
   sigma0: number | null;
   /** What its residuals significantly depend on (p < 0.001). */
   patterns: PatternKind[];
-  camera: AdjustedCameraResult;
+  camera: AdjustedCamera;
 }
 
 /** What `crossValidate` gives. Maps are rows of `v` of columns `u`; null where a part gives no ray. */

@@ -32,6 +32,19 @@ const network = () => ({
   distances: [{ from: 'p0', to: 'p5', sigma: 0.001 }],
 });
 
+/** A calibration of twelve photos of thirty points with depth, which its halves determine too. */
+const calibration = () =>
+  sightline.simulate({
+    seed: 3,
+    cameras: [{ id: 'c', width: 4000, height: 3000, pixel_pitch: null, model: 'brown', c: 3500, free: ['c', 'x0', 'y0', 'k1'] }],
+    stations: Array.from({ length: 12 }, (_, k) => ({
+      id: `s${k}`, camera: 'c', position: [2.4 * Math.cos(k), 2.4 * Math.sin(k), 2.5 + 0.1 * (k % 3)], look_at: [0, 0, 0], roll: 1.57 * k,
+    })),
+    points: Array.from({ length: 30 }, (_, k) => ({ id: `p${k}`, xyz: [0.4 * (k % 6) - 1, 0.45 * Math.floor(k / 6) - 0.9, 0.3 * Math.sin(5 * k)], diameter: null })),
+    datum: { kind: 'free', points: null },
+    sigma: 0.1,
+  });
+
 /** The same without what orientation finds. */
 const bare = (project) => ({
   ...project,
@@ -133,8 +146,7 @@ test('every field that the engine returns is declared, and every declared field 
   const refusal = thrown(() => sightline.compareEpochs({ ...request, epochs: [lists[0], { ...lists[1], unit: 'm' }] }));
   assert.deepEqual([refusal.code, refusal.where.field, refusal.data.reason.kind], ['invalid', 'epochs[1].unit', 'epoch_unit']);
   assert.equal(thrown(() => sightline.compareEpochs({ ...request, referencs: [] })).data.reason.kind, 'no_such_option');
-  // Exact observations leave nothing to compare: noise of a tenth of a pixel.
-  const noisy = { ...project, observations: project.observations.map((o, k) => ({ ...o, u: o.u + 0.1 * Math.sin(7.3 * k), v: o.v + 0.1 * Math.cos(11.1 * k) })) };
+  const noisy = calibration();
   const literals = [
     literal('request', 'S.CompareOptions', request),
     literal('monitoring', 'S.Monitoring', monitoring),
