@@ -33,7 +33,7 @@ test('the model of a camera is chosen, its conversion is stated, and it is undon
     assert.equal(await chosen(page), 'opencv_rational');
     assert.match(await page.textContent('[data-result=conversion]'), /^Converted from Brown: image points differ by at most 0\.\d+ px \(rms 0\.\d+ px\)\.$/);
     await shot(page, 'converted-1366');
-    // The parameters are those of the other model, and what is estimated keeps its meaning.
+    // The table lists the parameters of the other model; those that correspond to estimated ones are estimated.
     assert.ok(await page.isChecked('.adjust input[data-parameter=k4]'));
     await page.click('.action .button.primary');
     await idle(page);

@@ -1,4 +1,4 @@
-//! Targets on cards in a photo full of what is no target: shaded and textured ground, lines, boxes and letters, under a lens that
+//! Targets on cards in a photo with many other shapes: shaded and textured ground, lines, boxes and letters, under a lens that
 //! darkens the corners.
 
 use std::f64::consts::{PI, SQRT_2};

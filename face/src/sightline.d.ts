@@ -1959,7 +1959,7 @@ export interface ModelConversion {
   rms_px: number | null;
   /** Share of the picture that it holds for: a perspective model has no image of rays far off the axis (75 degrees). */
   share: number;
-  /** Parameters whose a priori values have no place in the other model. */
+  /** Parameters with an a priori standard error that the other model cannot use: those that it has are estimated without it. */
   dropped: Parameter[];
 }
 

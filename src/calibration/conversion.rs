@@ -1,4 +1,5 @@
-//! A camera in another model: values that image the directions of all pixels as the present ones do, and what is left.
+//! Conversion of a camera to another model: parameters that project the directions of all pixels to where the present ones do, and the
+//! residual of that fit in pixels.
 //!
 //! Over a grid of pixels q with their rays d(q) of the present model, the parameters x of the other one minimise
 //!
@@ -46,7 +47,7 @@ pub struct ModelConversion {
     pub rms_px: Option<f64>,
     /// Share of the picture that it holds for; the other model has no image of the rest.
     pub share: f64,
-    /// Parameters whose a priori values have no place in the other model: they are estimated freely or are no more.
+    /// Parameters with an a priori standard error that the other model cannot use: those that it has are estimated without it, the others do not exist.
     pub dropped: Vec<Parameter>,
 }
 
@@ -296,7 +297,7 @@ struct Fit<'a> {
 }
 
 impl Fit<'_> {
-    /// Differences in pixels, two rows a ray, and their derivatives; none where a ray has no image.
+    /// Differences in pixels, two rows for each ray, and their derivatives; none where the model does not project a ray.
     fn linear(&self, interior: &Interior) -> Option<(DVector<f64>, DMatrix<f64>)> {
         let model = Model::new(interior)?;
         let camera = Camera { interior: *interior, ..self.camera.clone() };
