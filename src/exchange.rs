@@ -301,7 +301,7 @@ fn control_tables(files: &Files, choices: &control_csv::Choices) -> Result<Impor
         let unit = table.unit;
         tables.push((
             unit,
-            Project { points: table.into_points().map_err(|error| error.in_file(name))?, ..Project::default() },
+            Project { points: table.into_points().map_err(|error| error.in_file(name))?.into(), ..Project::default() },
         ));
     }
     let unit = tables.iter().find_map(|(unit, _)| *unit);
@@ -504,7 +504,7 @@ fn one_text<T>(files: &Files, parse: impl FnOnce(&str) -> Result<T>) -> Result<T
 }
 
 fn control_project(points: Vec<Point>) -> Project {
-    let mut project = Project { points, ..Project::default() };
+    let mut project = Project { points: points.into(), ..Project::default() };
     project.datum.kind = DatumKind::Control;
     project
 }

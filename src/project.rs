@@ -10,6 +10,7 @@ mod origin;
 mod parameter;
 mod plan;
 mod report;
+mod rows;
 mod scaling;
 mod validation;
 
@@ -25,6 +26,7 @@ pub use origin::{Assumed, Conversion, Ignored, Origin};
 pub use parameter::{CameraModel, Interior, Parameter};
 pub use plan::{Form, Lens, Plan, PlanDistance, PlanFace, PlanStation, Region, Variant, Wanted};
 pub use report::{ColourShift, LengthLimit, Paper, PhotoColours, ReportLanguage, ReportSettings, Section};
+pub use rows::Rows;
 pub use scaling::scaled;
 pub use validation::LARGEST;
 
@@ -46,13 +48,13 @@ pub struct Project {
     pub cameras: Vec<Camera>,
     /// Photos.
     #[serde(default)]
-    pub photos: Vec<Photo>,
+    pub photos: Rows<Photo>,
     /// Object points.
     #[serde(default)]
-    pub points: Vec<Point>,
+    pub points: Rows<Point>,
     /// Image observations.
     #[serde(default)]
-    pub observations: Vec<Observation>,
+    pub observations: Rows<Observation>,
     /// Measured distances.
     #[serde(default)]
     pub distances: Vec<Distance>,
@@ -101,9 +103,9 @@ impl Default for Project {
             name: String::new(),
             unit: default_unit(),
             cameras: Vec::new(),
-            photos: Vec::new(),
-            points: Vec::new(),
-            observations: Vec::new(),
+            photos: Rows::new(),
+            points: Rows::new(),
+            observations: Rows::new(),
             distances: Vec::new(),
             datum: Datum::default(),
             set_aside: Vec::new(),

@@ -118,8 +118,8 @@ pub fn project(value: &JsValue) -> Result<Project> {
     let Head { format, version } = of_json(&text, "")?;
     exchange::check_head(format.as_ref(), version.as_ref())?;
     let mut project: Project = of_json(&text, "")?;
-    project.observations = table::observations(&plain::field(value, "observations")?)?;
-    project.points = table::points(&plain::field(value, "points")?)?;
+    project.observations = table::observations(&plain::field(value, "observations")?)?.into();
+    project.points = table::points(&plain::field(value, "points")?)?.into();
     Ok(project)
 }
 

@@ -456,7 +456,8 @@ mod tests {
             interior: Some(opencv([-0.21, 0.05, 0.0], [0.0; 2])),
             enabled: true,
             ..Default::default()
-        }];
+        }]
+        .into();
         let (changed, left) = convert_camera(&given, "k", "opencv_rational").unwrap();
         changed.validate().unwrap();
         assert!(left.max_px.unwrap() < 1e-6);

@@ -276,7 +276,7 @@ fn photographed(project: &Project, sha256: &str) -> Project {
         enabled: true,
         target: None,
     };
-    Project { photos: vec![photo], observations: vec![observation], ..project.clone() }
+    Project { photos: vec![photo].into(), observations: vec![observation].into(), ..project.clone() }
 }
 
 #[test]

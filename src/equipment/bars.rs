@@ -57,7 +57,7 @@ impl ScaleBar {
         let distance = self.distance(&self.unit);
         let point = |id: &String| Point { id: id.clone(), ..Point::default() };
         let project = Project {
-            points: vec![point(&self.from), point(&self.to)],
+            points: vec![point(&self.from), point(&self.to)].into(),
             distances: distance.into_iter().collect(),
             ..Project::default()
         };

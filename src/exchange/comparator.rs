@@ -134,8 +134,8 @@ pub fn reduce(description: &Description, readings: &[Reading]) -> Result<Reduced
     let camera = camera(description, distortion.as_ref().map(|d| &d.polynomial));
     let observed = observations(&camera, &description.setup, readings)?;
     let mut project = Project {
-        points: description.control.clone(),
-        observations: observed.observations,
+        points: description.control.clone().into(),
+        observations: observed.observations.into(),
         cameras: vec![camera],
         ..Project::default()
     };

@@ -87,9 +87,9 @@ impl ForeignNetwork {
         let mut project = Project {
             name: self.name,
             cameras,
-            photos: self.photos,
-            points: self.points,
-            observations: self.observations,
+            photos: self.photos.into(),
+            points: self.points.into(),
+            observations: self.observations.into(),
             distances: self.distances,
             ..Project::default()
         };

@@ -82,7 +82,7 @@ pub fn parse(text: &str) -> Result<Project> {
     let marks = lines.block();
     project.datum.kind = if control.is_empty() { DatumKind::Free } else { DatumKind::Control };
     let known: std::collections::HashSet<String> = control.iter().map(|point| point.id.clone()).collect();
-    project.points = control;
+    project.points = control.into();
     project.points.extend(all.into_iter().filter(|point| !known.contains(&point.id)));
     for row in &marks {
         project.observations.push(Observation {

@@ -312,8 +312,9 @@ mod tests {
                 file: "a,b.jpg".into(),
                 enabled: true,
                 ..Photo::default()
-            }],
-            points: vec![Point { id: "7".into(), xyz: Some([1.0, 2.0, 3.0]), ..Point::default() }],
+            }]
+            .into(),
+            points: vec![Point { id: "7".into(), xyz: Some([1.0, 2.0, 3.0]), ..Point::default() }].into(),
             observations: vec![Observation {
                 photo: "1".into(),
                 point: "7".into(),
@@ -322,7 +323,8 @@ mod tests {
                 sigma: Sigma::One(0.1),
                 enabled: true,
                 target: None,
-            }],
+            }]
+            .into(),
             ..Project::default()
         };
         let adjustment = Adjustment {

@@ -187,7 +187,7 @@ fn readings(exact: &Project, table: &OddPolynomial, options: &ExperimentOptions)
 /// The project with the reduced observations, its camera corrected by the table's polynomial or not.
 fn reduced(network: &Network, observed: &Observed, table: Option<&OddPolynomial>) -> Result<Project> {
     let mut project = simulate(network)?;
-    project.observations = observed.observations.clone();
+    project.observations = observed.observations.clone().into();
     let coefficients = table.map_or([0.0; 3], OddPolynomial::brown);
     for camera in &mut project.cameras {
         for (parameter, value) in [Parameter::K1, Parameter::K2, Parameter::K3].into_iter().zip(coefficients) {

@@ -232,7 +232,7 @@ fn measure(network: &Network, exact: &Project, station: &Station) -> Result<Vec<
 fn project(network: &Network, exact: &Project, measured: &[Vec<Measured>], options: &ExperimentOptions) -> Project {
     let chosen = options.method.unwrap_or(Method::Intensity);
     let method = METHODS.iter().position(|(m, _)| *m == chosen).unwrap_or(0);
-    let mut project = Project { observations: Vec::new(), ..exact.clone() };
+    let mut project = Project { observations: Default::default(), ..exact.clone() };
     for m in measured.iter().flatten() {
         let Some(target) = &m.targets[method] else { continue };
         project.observations.push(Observation {

@@ -162,7 +162,7 @@ pub fn drawings(options: &ExperimentOptions) -> Vec<Drawing> {
 
 /// The true project without observations, its camera to be calibrated.
 fn bare(exact: &Project, network: &Network) -> Project {
-    let mut project = Project { observations: Vec::new(), ..exact.clone() };
+    let mut project = Project { observations: Default::default(), ..exact.clone() };
     for (point, of) in project.points.iter_mut().zip(&network.points) {
         point.diameter = of.diameter;
     }

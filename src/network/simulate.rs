@@ -35,7 +35,7 @@ pub fn simulate(network: &Network) -> Result<Project> {
         name: network.name.clone(),
         unit: network.unit.clone(),
         cameras: network.cameras.clone(),
-        points: points(network),
+        points: points(network).into(),
         distances: network.distances.iter().map(|bar| distance(network, bar)).collect::<Result<_>>()?,
         datum: network.datum.clone(),
         ..Project::default()

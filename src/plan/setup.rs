@@ -248,7 +248,7 @@ fn check(plan: &Plan) -> Result<()> {
     });
     let project = Project {
         cameras: plan.cameras.clone(),
-        points: plan.points.clone(),
+        points: plan.points.clone().into(),
         distances: distances.collect(),
         datum: plan.datum.clone(),
         ..Project::default()

@@ -99,7 +99,7 @@ mod tests {
 
     fn project(camera: Camera) -> Project {
         let photo = Photo { id: "p".into(), camera: camera.id.clone(), enabled: true, ..Photo::default() };
-        Project { cameras: vec![camera], photos: vec![photo], ..Project::default() }
+        Project { cameras: vec![camera], photos: vec![photo].into(), ..Project::default() }
     }
 
     #[test]
@@ -147,7 +147,7 @@ mod tests {
             enabled: true,
             target: None,
         };
-        project.observations = vec![at(3990.0, 2990.0), at(4003.0, 5.0)];
+        project.observations = vec![at(3990.0, 2990.0), at(4003.0, 5.0)].into();
         assert_eq!(implausible(&project), []);
         project.observations.push(at(5800.0, 100.0));
         let doubt = CameraDoubt::ImageSize { photos: vec!["p".into()], size: [4000, 3000], measured: [5800.0, 2990.0] };

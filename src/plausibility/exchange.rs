@@ -90,9 +90,9 @@ mod tests {
         let point =
             |id: &str, role| Point { id: id.into(), role, xyz: Some([1.0, 2.0, 3.0]), sigma, ..Point::default() };
         let points = vec![point("c", Role::Control), point("k", Role::Check), point("t", Role::Tie)];
-        let mut project = Project { points, ..Project::default() };
+        let mut project = Project { points: points.into(), ..Project::default() };
         let photo = Photo { position: Some([1.0, 2.0, 3.0]), rotation: Some([0.1; 3]), ..Photo::default() };
-        project.photos = vec![photo.clone(), Photo { sigma_position: sigma, ..photo }];
+        project.photos = vec![photo.clone(), Photo { sigma_position: sigma, ..photo }].into();
         let exchanged = exchange_axes(&project, Exchange::Xy);
         for point in &exchanged.points[..2] {
             assert_eq!((point.xyz, point.sigma), (Some([2.0, 1.0, 3.0]), Some([None, Some(1.0), Some(3.0)])));

@@ -27,12 +27,12 @@ mod tests {
     #[test]
     fn initial_values_are_no_scale() {
         let point = |role, xyz| Point { role, xyz, ..Point::default() };
-        let mut project = Project { points: vec![point(Role::Tie, Some([1.0; 3])); 5], ..Project::default() };
+        let mut project = Project { points: vec![point(Role::Tie, Some([1.0; 3])); 5].into(), ..Project::default() };
         assert!(!is_given(&project, 0) && is_given(&project, 1));
         project.points.push(point(Role::Control, Some([0.0; 3])));
         assert!(!is_given(&project, 0));
         let photo = Photo { enabled: true, position: Some([0.0; 3]), ..Photo::default() };
-        project.photos = vec![photo.clone(), Photo { sigma_position: Some([Some(0.1); 3]), ..photo }];
+        project.photos = vec![photo.clone(), Photo { sigma_position: Some([Some(0.1); 3]), ..photo }].into();
         assert!(!is_given(&project, 0));
         project.datum.kind = DatumKind::Control;
         assert!(is_given(&project, 0));

@@ -146,8 +146,11 @@ mod tests {
 
     #[test]
     fn a_document_keeps_its_colours_and_one_without_them_its_text() {
-        let mut project =
-            Project { cameras: vec![camera()], photos: vec![photo(Some(LensColour::Red))], ..Project::default() };
+        let mut project = Project {
+            cameras: vec![camera()],
+            photos: vec![photo(Some(LensColour::Red))].into(),
+            ..Project::default()
+        };
         project.validate().expect("sound");
         let text = serde_json::to_string(&project).expect("a document");
         assert!(text.contains(r#""colours":{"red":{"parameters":{"c":0.25},"sigma":{"c":0.5}},"blue":"#), "{text}");

@@ -199,8 +199,8 @@ mod tests {
         let point = |id: &str| Point { id: id.into(), ..Point::default() };
         Project {
             cameras: vec![camera],
-            photos: vec![Photo { id: "a".into(), camera: "k".into(), enabled: true, ..Photo::default() }],
-            points: vec![point("1"), point("2")],
+            photos: vec![Photo { id: "a".into(), camera: "k".into(), enabled: true, ..Photo::default() }].into(),
+            points: vec![point("1"), point("2")].into(),
             observations: vec![Observation {
                 photo: "a".into(),
                 point: "1".into(),
@@ -209,7 +209,8 @@ mod tests {
                 sigma: Sigma::One(0.1),
                 enabled: true,
                 target: None,
-            }],
+            }]
+            .into(),
             distances: vec![Distance { from: "1".into(), to: "2".into(), length: 3.0, sigma: 0.1, check: false }],
             ..Project::default()
         }
@@ -224,7 +225,7 @@ mod tests {
             (|p| p.points[1].id = "1".into(), "duplicate", "1"),
             (|p| p.photos[0].camera = "none".into(), "unknown", "a"),
             (|p| p.observations[0].point = "9".into(), "unknown", "9"),
-            (|p| p.observations.push(p.observations[0].clone()), "duplicate", "1"),
+            (|p| p.observations.extend_from_within(..1), "duplicate", "1"),
             (|p| p.observations[0].u = f64::NAN, "invalid", "u, v"),
             (|p| p.observations[0].sigma = Sigma::Two([0.1, 0.0]), "invalid", "sigma"),
             (|p| p.cameras[0].width = 0, "invalid", "width"),

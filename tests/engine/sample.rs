@@ -25,7 +25,7 @@ fn the_sample_passes_the_global_test() {
     let photos: Vec<PhotoTargets> = sample::files().into_iter().map(photo).collect();
     let mut project = sample::project().unwrap();
     let coded = name_coded(&photos, None);
-    project.observations = coded.observations;
+    project.observations = coded.observations.into();
     add(&mut project, coded.points);
     let ready = orient(&project).unwrap().project;
     let first = adjust(&ready, &AdjustOptions::default(), &mut |_| true).unwrap();

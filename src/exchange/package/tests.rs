@@ -12,7 +12,8 @@ fn package() -> Package {
             position: Some([0.1, 1.0 / 3.0, 1e-300]),
             enabled: true,
             ..Photo::default()
-        }],
+        }]
+        .into(),
         ..Project::default()
     };
     let targets =
@@ -72,7 +73,7 @@ fn targets_without_numbers_get_them_and_their_observations_too() {
         enabled: true,
         target,
     };
-    old.project.observations = vec![at("a", 7.5, None), at("by hand", 7.500001, None), at("lost", 1.0, Some(9))];
+    old.project.observations = vec![at("a", 7.5, None), at("by hand", 7.500001, None), at("lost", 1.0, Some(9))].into();
     let new = read(&write(&old).unwrap()).unwrap();
     assert_eq!(new.targets["1"].targets.iter().map(|t| t.id).collect::<Vec<_>>(), [1, 2, 3]);
     let numbers: Vec<_> = new.project.observations.iter().map(|o| o.target).collect();

@@ -63,7 +63,7 @@ fn project(targets: &[PhotoTargets], reference: &BTreeMap<u32, Vector3<f64>>) ->
     for id in PHOTOS {
         project.photos.push(Photo { id: id.into(), camera: id[..3].into(), enabled: true, ..Photo::default() });
     }
-    (project.points, project.observations) = (coded.points, coded.observations);
+    (project.points, project.observations) = (coded.points.into(), coded.observations.into());
     project.distances.push(Distance {
         from: "2".into(),
         to: "74".into(),

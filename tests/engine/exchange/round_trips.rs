@@ -50,8 +50,8 @@ fn project(random: &mut Uniform) -> Project {
     Project {
         observations: observations.collect(),
         cameras: vec![Camera::new("c", 100, 80, Interior::brown(12.5))],
-        photos: vec![photo],
-        points,
+        photos: vec![photo].into(),
+        points: points.into(),
         ..Project::default()
     }
 }

@@ -113,7 +113,8 @@ fn two_photos_of_one_place_among_others_are_told_once() {
     // The same photo once more; and once rolled by a quarter, which adds to the calibration: every measurement turned about the middle.
     for (id, rolled) in [("again", false), ("rolled", true)] {
         let copies: Vec<_> = project.observations.iter().filter(|o| o.photo == "photo2").cloned().collect();
-        project.photos.push(Photo { id: id.into(), ..project.photos[2].clone() });
+        let twin = Photo { id: id.into(), ..project.photos[2].clone() };
+        project.photos.push(twin);
         project.observations.extend(copies.into_iter().map(|o| {
             let (u, v) =
                 if rolled { (1500.0 + (o.v - 1000.0), 1000.0 - (o.u - 1500.0)) } else { (o.u + 0.03, o.v - 0.02) };

@@ -45,7 +45,7 @@ fn project(seed: u64) -> Project {
     let station = PlanStation { position: [0.0, -3000.0, 500.0], look_at: Some([0.0; 3]), ..PlanStation::default() };
     project.plan = Some(Box::new(Plan {
         form: Some(form),
-        points: project.points.clone(),
+        points: project.points.clone().into(),
         stations: vec![station],
         ..Plan::default()
     }));

@@ -489,8 +489,8 @@ impl Situated {
     /// Of a project with its adjusted values: what predictions are made from, and no more.
     pub fn of(oriented: Project, adjustment: Option<&Adjustment>) -> Self {
         let project = Project {
-            points: Vec::new(),
-            observations: Vec::new(),
+            points: Default::default(),
+            observations: Default::default(),
             distances: Vec::new(),
             datum: Datum::default(),
             set_aside: Vec::new(),

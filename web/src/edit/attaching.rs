@@ -121,8 +121,9 @@ mod tests {
             photo("2", "day 2/DSC_0001.JPG", "bb"),
             photo("3", "old.tif", ""),
             photo("4", "fresh.png", ""),
-        ];
-        project.observations = vec![observation("1"), observation("3")];
+        ]
+        .into();
+        project.observations = vec![observation("1"), observation("3")].into();
         d
     }
 

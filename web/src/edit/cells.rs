@@ -329,9 +329,9 @@ mod tests {
                 Camera::new("a", 10, 10, Interior::brown(5.0)),
                 Camera::new("b", 10, 10, Interior::brown(5.0)),
             ],
-            photos: vec![Photo { id: "1".into(), camera: "a".into(), enabled: true, ..Photo::default() }],
+            photos: vec![Photo { id: "1".into(), camera: "a".into(), enabled: true, ..Photo::default() }].into(),
             points: ["p", "q", "r"].map(|id| Point { id: id.into(), ..Point::default() }).into(),
-            observations: vec![seen("1", "p"), seen("1", "q"), seen("2", "r")],
+            observations: vec![seen("1", "p"), seen("1", "q"), seen("2", "r")].into(),
             distances: vec![Distance { from: "p".into(), to: "q".into(), length: 1.0, sigma: 0.1, check: false }],
             ..Project::default()
         };

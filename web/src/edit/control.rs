@@ -14,7 +14,7 @@ use sightline::units::factor;
 pub fn take_points(project: &mut Project, points: Vec<Point>, unit: &str) -> Result<usize, Error> {
     let fresh = !has_lengths(project);
     let factor = if fresh { 1.0 } else { factor(unit, &project.unit)? };
-    let points = Project { points, ..Project::default() }.scaled(factor)?.points;
+    let points = Project { points: points.into(), ..Project::default() }.scaled(factor)?.points;
     if fresh {
         project.unit = unit.to_owned();
     }
@@ -46,7 +46,7 @@ pub fn take_points(project: &mut Project, points: Vec<Point>, unit: &str) -> Res
 pub fn take_approximate(project: &mut Project, points: Vec<Point>, unit: &str) -> Result<usize, Error> {
     let fresh = !has_lengths(project);
     let factor = if fresh { 1.0 } else { factor(unit, &project.unit)? };
-    let points = Project { points, ..Project::default() }.scaled(factor)?.points;
+    let points = Project { points: points.into(), ..Project::default() }.scaled(factor)?.points;
     if fresh {
         project.unit = unit.to_owned();
     }
@@ -183,7 +183,7 @@ mod tests {
     fn approximate_coordinates_leave_given_ones_alone() {
         let at = |id: &str, role, x: f64| Point { id: id.into(), role, xyz: Some([x; 3]), ..Point::default() };
         let mut project = Project { unit: "mm".into(), ..Project::default() };
-        project.points = vec![at("given", Role::Control, 1.0), Point { id: "seen".into(), ..Point::default() }];
+        project.points = vec![at("given", Role::Control, 1.0), Point { id: "seen".into(), ..Point::default() }].into();
         let list = ["given", "seen", "new"].map(|id| at(id, Role::Tie, 2.0)).to_vec();
         assert_eq!(take_approximate(&mut project, list, "m"), Ok(2));
         let places: Vec<_> = project.points.iter().map(|p| (p.role, p.xyz.unwrap()[0])).collect();

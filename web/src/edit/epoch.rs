@@ -14,8 +14,8 @@ pub fn next(document: &Document, key: Option<String>) -> Document {
     let calibrated = document.current().map(|r| apply(&r.oriented, &r.adjustment));
     let mut project = Project {
         cameras: calibrated.map_or_else(|| of.cameras.clone(), |p| p.cameras),
-        photos: Vec::new(),
-        observations: Vec::new(),
+        photos: Default::default(),
+        observations: Default::default(),
         set_aside: Vec::new(),
         ..(**of).clone()
     };
@@ -110,14 +110,15 @@ mod tests {
         let project = Project {
             name: "Wall".into(),
             cameras: vec![Camera::new("c", 100, 100, Interior::brown(10.0))],
-            photos: vec![Photo { id: "1".into(), camera: "c".into(), enabled: true, ..Photo::default() }],
+            photos: vec![Photo { id: "1".into(), camera: "c".into(), enabled: true, ..Photo::default() }].into(),
             points: vec![
                 point("R1", Role::Control),
                 point("5", Role::Tie),
                 point("6", Role::Tie),
                 point("7", Role::Check),
-            ],
-            observations: vec![seen("R1", 11), seen("5", 5)],
+            ]
+            .into(),
+            observations: vec![seen("R1", 11), seen("5", 5)].into(),
             distances: vec![Distance { from: "5".into(), to: "R1".into(), length: 3.0, sigma: 0.1, check: false }],
             ..Project::default()
         };

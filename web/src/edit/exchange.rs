@@ -46,13 +46,14 @@ mod tests {
         };
         let photo = |id: &str, camera: &str| Photo { id: id.into(), camera: camera.into(), ..Photo::default() };
         let project = Project {
-            photos: vec![photo("1", "a"), photo("2", "b")],
+            photos: vec![photo("1", "a"), photo("2", "b")].into(),
             observations: vec![
                 seen("1", 10.0, 20.0, true),
                 seen("1", 30.0, 5.0, true),
                 seen("1", 99.0, 99.0, false),
                 seen("2", 500.0, 500.0, true),
-            ],
+            ]
+            .into(),
             ..Project::default()
         };
         let region = measured_region(&project, "a").expect("measured");

@@ -261,7 +261,7 @@ mod tests {
 
     fn project() -> Project {
         let mut project = Project {
-            observations: vec![seen("1", "a"), seen("2", "a"), seen("3", "b"), seen("1", "c")],
+            observations: vec![seen("1", "a"), seen("2", "a"), seen("3", "b"), seen("1", "c")].into(),
             distances: vec![Distance { from: "a".into(), to: "c".into(), length: 1.0, sigma: 0.1, check: false }],
             ..Project::default()
         };
@@ -299,7 +299,7 @@ mod tests {
         assert_eq!(delete(&mut d, Table::Distances, &keys(&["0", "7"])), 1);
         let mut p = project();
         p.cameras = ["x", "y"].map(|id| Camera::new(id, 10, 10, Interior::brown(1.0))).into();
-        p.photos = vec![Photo { id: "1".into(), camera: "x".into(), ..Photo::default() }];
+        p.photos = vec![Photo { id: "1".into(), camera: "x".into(), ..Photo::default() }].into();
         let mut d = document(p);
         assert_eq!(delete(&mut d, Table::Cameras, &keys(&["x", "y"])), 1);
         assert_eq!(delete(&mut d, Table::Photos, &keys(&["1"])), 1);
@@ -349,7 +349,7 @@ mod tests {
         let mut p = project();
         p.cameras =
             [("x", 10), ("y", 10), ("z", 20)].map(|(id, w)| Camera::new(id, w, 10, Interior::brown(1.0))).into();
-        p.photos = vec![Photo { id: "1".into(), camera: "y".into(), ..Photo::default() }];
+        p.photos = vec![Photo { id: "1".into(), camera: "y".into(), ..Photo::default() }].into();
         assert_eq!(join_cameras(&mut p, &keys(&["x", "z"])), None);
         assert_eq!(join_cameras(&mut p, &keys(&["x", "y"])).as_deref(), Some("x"));
         assert_eq!((p.cameras.len(), p.photos[0].camera.as_str()), (2, "x"));

@@ -50,7 +50,7 @@ mod tests {
         };
         let project = Project {
             cameras: vec![camera("a"), camera("b")],
-            photos: vec![photo("1", "a", Some(910.0)), photo("2", "b", Some(905.0)), photo("3", "a", None)],
+            photos: vec![photo("1", "a", Some(910.0)), photo("2", "b", Some(905.0)), photo("3", "a", None)].into(),
             ..Project::default()
         };
         let before = project.clone();

@@ -211,7 +211,7 @@ pub fn tidy(project: &mut Project) {
     let mut new = new.collect::<Vec<_>>();
     new.sort_by(|a, b| natural(&a.id, &b.id));
     points.extend(new);
-    project.points = points;
+    project.points = points.into();
 }
 
 #[cfg(test)]
@@ -241,7 +241,8 @@ mod tests {
                 seen("2", "11", 30.0),
                 seen("2", "12", 40.0),
                 seen("3", "13", 50.0),
-            ],
+            ]
+            .into(),
             ..Project::default()
         };
         tidy(&mut project);

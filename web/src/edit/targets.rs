@@ -163,7 +163,7 @@ fn take_one(document: &mut Document, photo: &str, mut detection: Detection, fami
     // Where no name comes or goes the project stays what it is, and is not stored again.
     if !now.is_empty() || others.len() != document.project.observations.len() {
         let project = document.project_mut();
-        project.observations = others;
+        project.observations = others.into();
         project.observations.append(&mut now);
         tidy(project);
     }

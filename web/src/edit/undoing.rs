@@ -62,7 +62,8 @@ fn document() -> Document {
         photos: ["1", "2", "3", "4"]
             .map(|id| Photo { id: id.into(), camera: "k".into(), enabled: id != "4", ..Photo::default() })
             .into(),
-        points: vec![Point { id: "c".into(), role: Role::Control, xyz: Some([1.0, 2.0, 3.0]), ..Point::default() }],
+        points: vec![Point { id: "c".into(), role: Role::Control, xyz: Some([1.0, 2.0, 3.0]), ..Point::default() }]
+            .into(),
         observations: vec![
             seen("1", "a", 1),
             seen("1", "b", 2),
@@ -70,7 +71,8 @@ fn document() -> Document {
             seen("2", "b", 3),
             seen("3", "d", 1),
             seen("3", "c", 2),
-        ],
+        ]
+        .into(),
         distances: vec![Distance { from: "a".into(), to: "b".into(), length: 5.0, sigma: 0.1, check: false }],
         ..Project::default()
     };

@@ -97,7 +97,7 @@ impl Pasted {
     pub fn points_in(&self, unit: &str) -> Result<Vec<Point>, Error> {
         let points = self.taken();
         let factor = self.unit.as_deref().map_or(Ok(1.0), |own| units::factor(own, unit))?;
-        Project { points, ..Project::default() }.scaled(factor).map(|project| project.points)
+        Project { points: points.into(), ..Project::default() }.scaled(factor).map(|project| project.points.into())
     }
 
     /// Whether something has to be answered before its points are taken.

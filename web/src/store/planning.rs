@@ -108,9 +108,9 @@ impl Desk {
         let table = control_csv::parse(content);
         // A heading's unit is converted to the plan's; without one the coordinates are in the plan's.
         let factor = table.unit.map_or(Ok(1.0), |own| units::factor(own.symbol(), &unit));
-        let read = table
-            .into_points()
-            .and_then(|points| Project { points, ..Project::default() }.scaled(factor?).map(|project| project.points));
+        let read = table.into_points().and_then(|points| {
+            Project { points: points.into(), ..Project::default() }.scaled(factor?).map(|project| project.points)
+        });
         let points = match read {
             Ok(points) => points,
             Err(error) => return self.warn_error(error),
@@ -120,7 +120,7 @@ impl Desk {
         self.change(Change::PlanEdited, |document| {
             let project = document.project_mut();
             project.unit = unit;
-            plan::take_points(project, points, mm);
+            plan::take_points(project, points.into(), mm);
         });
     }
 

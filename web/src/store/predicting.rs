@@ -160,8 +160,8 @@ impl Desk {
             of_point.filter(|o| oriented.contains(o.photo.as_str())).cloned().collect::<Vec<_>>()
         });
         let question = Project {
-            points: vec![Point { id: point.clone(), ..Point::default() }],
-            observations,
+            points: vec![Point { id: point.clone(), ..Point::default() }].into(),
+            observations: observations.into(),
             ..Project::default()
         };
         let same = self.predicting.asked.with_value(|asked| {

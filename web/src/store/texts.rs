@@ -218,7 +218,7 @@ mod tests {
 
     fn project() -> Project {
         let photo = |id: &str| Photo { id: id.into(), file: format!("P{id}.jpg"), ..Photo::default() };
-        Project { photos: vec![photo("1"), photo("2"), photo("3")], ..Project::default() }
+        Project { photos: vec![photo("1"), photo("2"), photo("3")].into(), ..Project::default() }
     }
 
     #[test]

@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn the_sentence_counts_each_kind_and_is_empty_when_all_took_part() {
         let control = |id: &str| Point { id: id.into(), role: Role::Control, xyz: Some([0.0; 3]), ..Point::default() };
-        let project = Project { points: vec![control("1"), control("2")], ..Project::default() };
+        let project = Project { points: vec![control("1"), control("2")].into(), ..Project::default() };
         assert_eq!(sentence(&[], &project), None);
         let items = [
             item(LeftOutKind::Observation, Some("a"), Some("7")),

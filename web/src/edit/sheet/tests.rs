@@ -16,8 +16,8 @@ fn document() -> Document {
     };
     let point = |id: &str, role: Role| Point { id: id.into(), role, xyz: Some([1.0; 3]), ..Point::default() };
     let project = Project {
-        points: vec![point("10", Role::Tie), point("9", Role::Control)],
-        observations: vec![seen("1", "10", 5.0, true), seen("1", "9", 7.0, false), seen("2", "10", 6.0, true)],
+        points: vec![point("10", Role::Tie), point("9", Role::Control)].into(),
+        observations: vec![seen("1", "10", 5.0, true), seen("1", "9", 7.0, false), seen("2", "10", 6.0, true)].into(),
         ..Project::default()
     };
     Document { project: std::sync::Arc::new(project), ..Document::default() }
@@ -66,7 +66,7 @@ fn columns_of_words_are_known_and_searched_whatever_the_case() {
     let mut d = document();
     let project = std::sync::Arc::make_mut(&mut d.project);
     project.cameras = vec![Camera::new("A", 10, 10, Interior::brown(5.0))];
-    project.photos = vec![Photo { id: "P1".into(), file: "Größe.JPG".into(), ..Photo::default() }];
+    project.photos = vec![Photo { id: "P1".into(), file: "Größe.JPG".into(), ..Photo::default() }].into();
     project.distances = vec![Distance { from: "10".into(), to: "9".into(), ..Distance::default() }];
     let all = [Table::Photos, Table::Cameras, Table::Points, Table::Control, Table::Observations, Table::Distances];
     for table in all {

@@ -217,7 +217,7 @@ mod tests {
     fn project(free: &[Parameter]) -> Project {
         let camera = Camera { free: free.to_vec(), ..Camera::new("k", 4000, 3000, Interior::brown(5000.0)) };
         let photo = Photo { id: "a".into(), camera: "k".into(), enabled: true, ..Photo::default() };
-        Project { cameras: vec![camera], photos: vec![photo], ..Project::default() }
+        Project { cameras: vec![camera], photos: vec![photo].into(), ..Project::default() }
     }
 
     fn failed(advice: Vec<Advice>) -> Adjustment {

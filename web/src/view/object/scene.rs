@@ -241,11 +241,12 @@ mod tests {
         };
         let project = Project {
             cameras: vec![Camera::new("c", 40, 30, Interior::brown(50.0))],
-            photos: vec![Photo { id: "p".into(), camera: "c".into(), enabled: true, ..Photo::default() }],
+            photos: vec![Photo { id: "p".into(), camera: "c".into(), enabled: true, ..Photo::default() }].into(),
             points: vec![
                 Point { id: "1".into(), role: Role::Control, xyz: Some([1e6, 5.0, 0.5]), ..Point::default() },
                 Point { id: "2".into(), ..Point::default() },
-            ],
+            ]
+            .into(),
             ..Project::default()
         };
         let input = Arc::new(project.clone());
