@@ -39,8 +39,8 @@ import { fault, pause } from './storage/common.js';
 const CHAIN = 64;
 /** What must stay free when a photo is copied: room for the journal. */
 const RESERVE = 32 << 20;
-/** Versions of the journal that are read here. */
-const VERSION = 1;
+/** The version of the journal that is written here; all up to it are read. Since 2 the tables of a project are parts of their own. */
+const VERSION = 2;
 /** Held by every worker that has had a file open, as long as it lives. */
 const OPEN_FILES = 'sightline files';
 /** How long the workers of other windows are waited for after storage was cleared, in milliseconds. */
@@ -202,7 +202,7 @@ async function close() {
 function gathered(items) {
   // A journal whose beginning is damaged does not say its version: what is not understood of it is not read.
   const version = items.find((item) => item.version !== undefined)?.version ?? VERSION;
-  if (version !== VERSION) throw fault('VersionError', String(version));
+  if (!(version >= 1 && version <= VERSION)) throw fault('VersionError', String(version));
   const parts = new Map();
   const last = new Map();
   const notes = [];

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::Project;
+
 /// A vector that is copied when it is changed, not when the project is: a copy of a project costs what it changes. It is used like the vector
 /// that it holds, and serialised like it.
 #[derive(Debug)]
@@ -140,6 +142,26 @@ impl<T: Serialize> Serialize for Rows<T> {
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Rows<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Vec::deserialize(deserializer).map(Self::from)
+    }
+}
+
+impl Project {
+    /// Takes the other's tables where they are equal, so that they are in memory once and compared no more.
+    pub fn share_tables(&mut self, other: &Self) {
+        fn share<T: PartialEq>(own: &mut Rows<T>, other: &Rows<T>) {
+            if !own.shares(other) && own == other {
+                *own = other.clone();
+            }
+        }
+        share(&mut self.photos, &other.photos);
+        share(&mut self.points, &other.points);
+        share(&mut self.observations, &other.observations);
+    }
+
+    /// A copy of everything but photos, points and observations.
+    #[must_use]
+    pub fn without_tables(&self) -> Self {
+        Self { photos: Rows::new(), points: Rows::new(), observations: Rows::new(), ..self.clone() }
     }
 }
 

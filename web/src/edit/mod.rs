@@ -21,7 +21,7 @@ pub mod sample;
 pub mod sheet;
 pub mod targets;
 #[cfg(test)]
-mod undoing;
+pub mod undoing;
 pub mod unit;
 
 use std::cmp::Ordering;

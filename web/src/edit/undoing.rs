@@ -17,10 +17,11 @@ use sightline_protocol::to_text;
 use super::cells::{Cell, Editor};
 use super::sheet::{Col, Table};
 use super::{cameras, control, equipment, many, models, points, questions, targets};
-use crate::store::document::{Change, Document, History};
+use crate::store::document::{Change, Document};
+use crate::store::history::History;
 use crate::store::selection::observation_key;
 
-type Action = fn(&mut Document);
+pub type Action = fn(&mut Document);
 
 pub fn target(id: u32, u: f64, v: f64) -> Target {
     Target {
@@ -55,7 +56,7 @@ fn seen(photo: &str, point: &str, number: u32) -> Observation {
 }
 
 /// Three cameras, four photos, points a to e, a distance, control, targets and doubts.
-fn document() -> Document {
+pub fn document() -> Document {
     let mut project = Project {
         name: "p".into(),
         cameras: ["k", "l", "m"].map(|id| Camera::new(id, 100, 80, Interior::brown(50.0))).into(),
@@ -101,7 +102,7 @@ fn document() -> Document {
     }
 }
 
-fn bytes(d: &Document) -> [String; 5] {
+pub fn bytes(d: &Document) -> [String; 5] {
     [
         to_text(&*d.project),
         to_text(&*d.detections),
@@ -133,7 +134,7 @@ fn rename(d: &mut Document, names: BTreeMap<String, String>) {
 }
 
 /// The kinds of action.
-const ACTIONS: [(&str, Action); 55] = [
+pub const ACTIONS: [(&str, Action); 55] = [
     ("photos added", |d| {
         cameras::add_photo(d.project_mut(), "new.jpg", &PhotoInfo::default(), [100, 80], None, &|_| false);
     }),

@@ -93,16 +93,17 @@ impl Desk {
     ) -> Result<bool, String> {
         let of_adjustment = texts.split_off(adjusted.oriented.len().min(texts.len()));
         let wanted = || self.is_at_work(batch);
-        let Some(oriented) = read::<Project>(&adjusted.oriented, &texts, wanted).await? else { return Ok(false) };
+        let Some(mut oriented) = read::<Project>(&adjusted.oriented, &texts, wanted).await? else { return Ok(false) };
         let Some(adjustment) = read::<Adjustment>(&adjusted.adjustment, &of_adjustment, wanted).await? else {
             return Ok(false);
         };
         self.end_job();
+        // What orientation left as it was is there once.
+        oriented.share_tables(&input);
         let outcome = Arc::new(document::Outcome { input, oriented: Arc::new(oriented), adjustment });
         self.iterations.set(outcome.adjustment.iterations.clone());
         if self.storage().is_some() {
-            self.keeper
-                .with_value(|keeper| keeper.book.borrow_mut().came(&outcome, [texts, of_adjustment].map(as_they_are)));
+            self.keeper.with_value(|keeper| keeper.book.borrow_mut().came(&outcome, as_they_are(of_adjustment)));
         }
         self.change(Change::Adjusted, |document| document.result = Some(outcome));
         Ok(true)

@@ -11,7 +11,7 @@ use sightline_protocol::to_text;
 
 use super::Desk;
 use super::calls::{Ids, Of};
-use super::kept::{DETECTIONS, Note, RESULT, Replayed, Stack, State, named_in, replay};
+use super::kept::{Note, Replayed, Stack, State, named_in, names_others, replay};
 use crate::browser::page;
 use crate::browser::storage::{Fault, Storage};
 
@@ -53,8 +53,7 @@ struct Size {
 
 /// The parts whose texts say which others they name.
 fn naming(parts: &[Written]) -> Vec<u64> {
-    let names = |(_, kind, _): &&Written| [DETECTIONS, RESULT].contains(&kind.as_str());
-    parts.iter().filter(names).map(|(number, ..)| *number).collect()
+    parts.iter().filter(|(_, kind, _)| names_others(kind)).map(|(number, ..)| *number).collect()
 }
 
 /// What is kept of a journal: `texts` are those of the parts that name others, `room` is for the history.
@@ -69,17 +68,26 @@ pub fn condensed(
 ) -> Result<Condensed, String> {
     let written = parts.iter().map(|(number, kind, size)| (*number, (kind.as_str(), *size))).collect::<HashMap<_, _>>();
     let mut ids = HashSet::new();
-    let of = |state: &State| -> Result<Vec<u64>, String> {
-        let mut of = vec![state.project, state.detections, state.doubtful];
-        of.extend(state.result);
-        for number in [Some(state.detections), state.result].into_iter().flatten() {
-            let (kind, _) = written.get(&number).ok_or_else(|| format!("part {number} is missing"))?;
-            of.extend(named_in(kind, texts.get(&number).ok_or_else(|| format!("part {number} is missing"))?)?);
+    // The parts of a state that are not among these, with all that they name.
+    let of = |state: &State, ids: &HashSet<u64>| -> Result<HashSet<u64>, String> {
+        let mut new = HashSet::new();
+        let mut open = vec![state.project, state.detections, state.doubtful];
+        open.extend(state.result);
+        while let Some(number) = open.pop() {
+            // What is kept has all that it names with it.
+            if ids.contains(&number) || !new.insert(number) {
+                continue;
+            }
+            let missing = || format!("part {number} is missing");
+            let (kind, _) = written.get(&number).ok_or_else(missing)?;
+            if names_others(kind) {
+                open.extend(named_in(kind, texts.get(&number).ok_or_else(missing)?)?);
+            }
         }
-        Ok(of)
+        Ok(new)
     };
     let present = all.present.ok_or("no state")?;
-    ids.extend(of(&present)?);
+    ids.extend(of(&present, &ids)?);
     ids.extend(all.files);
     // From what is undone or done again next to what is farthest.
     let mut kept = [0, 0];
@@ -92,7 +100,7 @@ pub fn condensed(
         }
         for (side, entry) in next.into_iter().enumerate() {
             let Some((_, state)) = entry else { continue };
-            let new = of(state)?.into_iter().filter(|number| !ids.contains(number)).collect::<HashSet<_>>();
+            let new = of(state, &ids)?;
             spent += new.iter().filter_map(|number| written.get(number)).map(|(_, size)| size).sum::<u64>();
             if spent > room {
                 break 'room;
@@ -188,7 +196,8 @@ async fn survey(storage: &Storage, id: &str) -> Result<(Surveyed, HashMap<u64, S
 mod tests {
     use std::collections::BTreeMap;
 
-    use super::super::document::{Change, Document, Entry, History};
+    use super::super::document::{Change, Document};
+    use super::super::history::{Entry, History, documents};
     use super::super::kept::Book;
     use super::super::kept::tests::{Journal, renamed};
     use super::*;
@@ -207,7 +216,7 @@ mod tests {
     }
 
     fn names(entries: &[Entry]) -> Vec<String> {
-        entries.iter().filter_map(|entry| entry.state.as_ref()).map(|state| state.project.name.clone()).collect()
+        documents(entries, 0).into_iter().flatten().map(|document| document.project.name.clone()).collect()
     }
 
     #[test]
@@ -273,6 +282,7 @@ mod tests {
         assert_eq!(before - journal.texts.len(), 19);
         condense(&mut journal, &mut book, 0);
         assert_eq!(journal.read().1.past.len(), 0);
-        assert!(journal.texts.len() <= 5);
+        // A state is a project, its three tables, two of targets, and the files.
+        assert!(journal.texts.len() <= 7);
     }
 }

@@ -10,7 +10,8 @@ use serde::de::IgnoredAny;
 use sightline_protocol::to_text;
 
 use super::calls::{Append, Appended, Damage, KeptCard, Of, Opened, Started, Starting, card};
-use super::document::{Document, Entry, History};
+use super::document::Document;
+use super::history::{Entry, History};
 use super::kept::{Book, KeptFile, Part, State};
 use super::reading::{Reading, read_document, rescued};
 use super::{Desk, PhotoFile, Selection, Step, Until};

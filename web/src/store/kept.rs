@@ -12,9 +12,15 @@ use sightline::matching::Doubtful;
 use sightline::project::{Parameter, Project};
 use sightline_protocol::{from_text, to_text};
 
-use super::document::{Change, Document, History, Outcome};
+use super::document::{Change, Document, Outcome};
+use super::history::{Entry, History, documents};
 use crate::browser::storage::Piece;
 use crate::edit::targets;
+
+mod tables;
+
+pub use tables::{Head, OF_PROJECTS};
+use tables::{Of, Projects, Writing};
 
 /// A document by the numbers of its parts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -93,7 +99,8 @@ fn whole<T: Serialize>(part: &T) -> Vec<Piece> {
     vec![Piece::Text(to_text(part))]
 }
 
-/// The parts that one part names: those of photos in a part of detections, the projects in that of a result.
+/// The parts that one part names: those of photos in a part of detections, the projects in that of a result, the tables of a project, those that
+/// a table is told from.
 pub fn named_in(kind: &str, text: &str) -> Result<Vec<u64>, String> {
     /// As [`KeptResult`], without reading what is computed.
     #[derive(Deserialize)]
@@ -108,13 +115,18 @@ pub fn named_in(kind: &str, text: &str) -> Result<Vec<u64>, String> {
             let Of { input, oriented } = head.map_or_else(|| from_text(text), Ok)?;
             vec![input, oriented]
         }
+        _ if tables::names_others(kind) => tables::named_in(kind, text)?,
         _ => Vec::new(),
     })
 }
 
-/// Kinds of parts that name others.
-pub const DETECTIONS: &str = "detections";
-pub const RESULT: &str = "result";
+/// Whether parts of this kind name others, and small ones whose texts are read to know which.
+pub fn names_others(kind: &str) -> bool {
+    [DETECTIONS, RESULT].contains(&kind) || tables::names_others(kind)
+}
+
+const DETECTIONS: &str = "detections";
+const RESULT: &str = "result";
 
 /// Which of the parts that were written the journal has still.
 #[derive(Default)]
@@ -177,13 +189,13 @@ pub struct Book {
     in_journal: InJournal,
     /// Entries at the bottom of both stacks that the journal had forgotten when it was read.
     forgotten: [usize; 2],
-    projects: Known<Project>,
+    projects: Projects,
     detections: Known<Detection>,
     maps: Known<BTreeMap<String, Arc<Detection>>>,
     doubtful: Known<Vec<Doubtful>>,
     results: Known<Outcome>,
-    /// The texts that a result came as, until it is written.
-    came: Option<(Weak<Outcome>, [Vec<Piece>; 2])>,
+    /// The text that a result's adjustment came as, until it is written.
+    came: Option<(Weak<Outcome>, Vec<Piece>)>,
     past: Vec<u64>,
     future: Vec<u64>,
     present: Option<State>,
@@ -207,22 +219,18 @@ impl Book {
         self.present.is_none()
     }
 
-    fn project(&mut self, part: &Arc<Project>, kind: &str, text: Option<Vec<Piece>>) -> u64 {
-        let (number, new) = number(&mut self.projects, &mut self.next, &self.in_journal, part);
-        if new {
-            let text = text.unwrap_or_else(|| whole(&**part));
-            self.new.push(Part { number, kind: kind.to_owned(), text });
-        }
-        number
+    fn project(&mut self, project: &Arc<Project>, of: Of) -> u64 {
+        let writing = Writing { next: &mut self.next, journal: &self.in_journal, new: &mut self.new };
+        self.projects.number(project, of, writing)
     }
 
-    /// A result came as these texts, that of its oriented project and that of its adjustment: the next note has it as they are.
-    pub fn came(&mut self, result: &Arc<Outcome>, texts: [Vec<Piece>; 2]) {
-        self.came = Some((Arc::downgrade(result), texts));
+    /// A result's adjustment came as this text: the next note has it as it is.
+    pub fn came(&mut self, result: &Arc<Outcome>, text: Vec<Piece>) {
+        self.came = Some((Arc::downgrade(result), text));
     }
 
     fn state(&mut self, document: &Document) -> State {
-        let project = self.project(&document.project, "project", None);
+        let project = self.project(&document.project, Of::Work);
         let (detections, new) = number(&mut self.maps, &mut self.next, &self.in_journal, &document.detections);
         if new {
             let mut numbers = BTreeMap::new();
@@ -250,17 +258,16 @@ impl Book {
         let (number, new) = number(&mut self.results, &mut self.next, &self.in_journal, result);
         if new {
             let came = self.came.take_if(|(of, _)| std::ptr::eq(of.as_ptr(), Arc::as_ptr(result)));
-            let (oriented, adjustment) = came.map(|(_, [oriented, adjustment])| (oriented, adjustment)).unzip();
-            let input = self.project(&result.input, "project", None);
-            let oriented = self.project(&result.oriented, "oriented", oriented);
-            let adjustment = adjustment.unwrap_or_else(|| whole(&result.adjustment));
+            let input = self.project(&result.input, Of::Work);
+            let oriented = self.project(&result.oriented, Of::Orientation);
+            let adjustment = came.map_or_else(|| whole(&result.adjustment), |(_, text)| text);
             let text = result_text(input, oriented, adjustment);
             self.new.push(Part { number, kind: RESULT.into(), text });
         }
         number
     }
 
-    fn stack(&mut self, past: bool, entries: &[super::document::Entry]) -> Option<Stack> {
+    fn stack(&mut self, past: bool, entries: &[Entry]) -> Option<Stack> {
         let before = if past { &self.past } else { &self.future };
         let keep = before.iter().zip(entries).take_while(|(serial, entry)| **serial == entry.serial).count();
         if keep == before.len() && keep == entries.len() {
@@ -268,8 +275,9 @@ impl Book {
         }
         // What was never read again is at the bottom, and only a journal that begins anew lacks it.
         let unread = entries[keep..].iter().take_while(|entry| entry.state.is_none()).count();
-        let add = entries[keep..].iter().filter_map(|entry| {
-            let state = self.state(entry.state.as_ref()?);
+        let documents = documents(entries, keep);
+        let add = entries[keep..].iter().zip(&documents).filter_map(|(entry, document)| {
+            let state = self.state(document.as_ref()?);
             Some((entry.change.clone(), state))
         });
         let add = add.collect();
@@ -353,7 +361,7 @@ pub fn replay(notes: &[String]) -> Result<Replayed, String> {
 impl Book {
     /// Of a project that was read: its history by the serials of its entries.
     pub fn of(replayed: &Replayed, history: &History, next: u64) -> Self {
-        let serials = |entries: &[super::document::Entry]| entries.iter().map(|entry| entry.serial).collect();
+        let serials = |entries: &[Entry]| entries.iter().map(|entry| entry.serial).collect();
         Self {
             next,
             past: serials(&history.past),
@@ -364,73 +372,77 @@ impl Book {
         }
     }
 
-    /// The parts that a state names and that are not here.
-    pub fn missing(&self, state: &State) -> Vec<u64> {
-        let mut missing = Vec::new();
-        let mut want = |number: u64, here: bool| {
-            if !here {
-                missing.push(number);
+    /// The parts that a state needs and that are neither here nor among the texts: asked again when these have been read, until there is none.
+    pub fn wanted(&self, state: &State, texts: &HashMap<u64, String>) -> Result<Vec<u64>, String> {
+        let mut wanted = self.wanted_of_result(state, texts)?;
+        let map = texts.get(&state.detections);
+        match map {
+            _ if self.maps.part(state.detections).is_some() => {}
+            None => wanted.push(state.detections),
+            Some(text) => wanted.extend(
+                from_text::<BTreeMap<String, u64>>(text)?
+                    .into_values()
+                    .filter(|number| self.detections.part(*number).is_none() && !texts.contains_key(number)),
+            ),
+        }
+        if self.doubtful.part(state.doubtful).is_none() && !texts.contains_key(&state.doubtful) {
+            wanted.push(state.doubtful);
+        }
+        wanted.sort_unstable();
+        wanted.dedup();
+        Ok(wanted)
+    }
+
+    /// The same for project and result alone, without targets: what is compared with other epochs.
+    pub fn wanted_of_result(&self, state: &State, texts: &HashMap<u64, String>) -> Result<Vec<u64>, String> {
+        let mut wanted = self.projects.wanted(state.project, texts)?;
+        if let Some(result) = state.result.filter(|result| self.results.part(*result).is_none()) {
+            match texts.get(&result) {
+                None => wanted.push(result),
+                Some(text) => {
+                    for project in named_in(RESULT, text)? {
+                        wanted.extend(self.projects.wanted(project, texts)?);
+                    }
+                }
             }
-        };
-        want(state.project, self.projects.part(state.project).is_some());
-        want(state.detections, self.maps.part(state.detections).is_some());
-        want(state.doubtful, self.doubtful.part(state.doubtful).is_some());
-        if let Some(result) = state.result {
-            want(result, self.results.part(result).is_some());
         }
-        missing
+        wanted.sort_unstable();
+        wanted.dedup();
+        Ok(wanted)
     }
 
-    /// The parts that these parts name and that are not here.
-    pub fn missing_of(&self, state: &State, texts: &HashMap<u64, String>) -> Result<Vec<u64>, String> {
-        let mut missing = Vec::new();
-        if let Some(text) = texts.get(&state.detections) {
-            let numbers = from_text::<BTreeMap<String, u64>>(text)?;
-            missing.extend(numbers.into_values().filter(|number| self.detections.part(*number).is_none()));
-        }
-        if let Some(text) = state.result.and_then(|result| texts.get(&result)) {
-            let KeptResult { input, oriented, .. } = from_text(text)?;
-            missing.extend([input, oriented].into_iter().filter(|number| self.projects.part(*number).is_none()));
-        }
-        missing.sort_unstable();
-        missing.dedup();
-        Ok(missing)
-    }
-
-    /// Project and result of a state from their texts, without targets: what is compared with other epochs.
+    /// Project and result of a state from their texts, without targets.
     pub fn result_of(state: &State, texts: &HashMap<u64, String>) -> Result<Document, String> {
         let mut book = Self::default();
-        let project = read(&mut book.projects, state.project, texts, from_text)?;
-        let projects = &mut book.projects;
-        let result = state.result.map(|number| {
-            read(&mut book.results, number, texts, |text| {
-                let KeptResult { input, oriented, adjustment } = from_text(text)?;
-                let input = read(projects, input, texts, from_text)?;
-                let oriented = read(projects, oriented, texts, from_text)?;
-                Ok(Outcome { input, oriented, adjustment })
-            })
-        });
-        Ok(Document { project, options: state.options.clone(), result: result.transpose()?, ..Document::default() })
+        let project = book.projects.read(state.project, texts)?;
+        let result = state.result.map(|number| book.read_result(number, texts)).transpose()?;
+        Ok(Document { project, options: state.options.clone(), result, ..Document::default() })
+    }
+
+    fn read_result(&mut self, number: u64, texts: &HashMap<u64, String>) -> Result<Arc<Outcome>, String> {
+        let projects = &mut self.projects;
+        read(&mut self.results, number, texts, |text| {
+            let KeptResult { input, oriented, adjustment } = from_text(text)?;
+            let (input, oriented) = (projects.read(input, texts)?, projects.read(oriented, texts)?);
+            Ok(Outcome { input, oriented, adjustment })
+        })
+    }
+
+    /// What is written next is told from this document, which was read; parts from now on are not read again.
+    pub fn go_on_from(&mut self, document: &Document) {
+        self.projects.go_on_from(&document.project, self.next);
     }
 
     /// A document from its parts.
     pub fn document(&mut self, state: &State, texts: &HashMap<u64, String>) -> Result<Document, String> {
-        let project = read(&mut self.projects, state.project, texts, from_text)?;
+        let project = self.projects.read(state.project, texts)?;
         let known = &mut self.detections;
         let detections = read(&mut self.maps, state.detections, texts, |text| {
             let numbers = from_text::<BTreeMap<String, u64>>(text)?;
             numbers.into_iter().map(|(photo, number)| Ok((photo, read(known, number, texts, from_text)?))).collect()
         })?;
         let doubtful = read(&mut self.doubtful, state.doubtful, texts, from_text)?;
-        let projects = &mut self.projects;
-        let result = state.result.map(|number| {
-            read(&mut self.results, number, texts, |text| {
-                let KeptResult { input, oriented, adjustment } = from_text(text)?;
-                let input = read(projects, input, texts, from_text)?;
-                let oriented = read(projects, oriented, texts, from_text)?;
-                Ok(Outcome { input, oriented, adjustment })
-            })
-        });
+        let result = state.result.map(|number| self.read_result(number, texts)).transpose()?;
         Ok(Document {
             project,
             rings: targets::rings(&detections),
@@ -438,7 +450,7 @@ impl Book {
             doubtful,
             sigmas_of_held: state.sigmas_of_held.iter().map(|(c, p, s)| ((c.clone(), *p), *s)).collect(),
             options: state.options.clone(),
-            result: result.transpose()?,
+            result,
         })
     }
 

@@ -8,7 +8,8 @@ use serde::de::IgnoredAny;
 use sightline_protocol::from_text;
 
 use super::calls::{Ids, Keys, Opened};
-use super::document::{Document, History};
+use super::document::Document;
+use super::history::History;
 use super::kept::{Book, KeptFile, Note, State, replay};
 use crate::browser::file::Blob;
 use crate::browser::picture::Picture;
@@ -21,9 +22,6 @@ pub(super) fn data_fault(detail: String) -> Fault {
 pub(super) type Texts = HashMap<u64, String>;
 
 pub(super) async fn read_parts(storage: &Storage, numbers: Vec<u64>, into: &mut Texts) -> Result<(), Fault> {
-    if numbers.is_empty() {
-        return Ok(());
-    }
     let (_, texts) = storage.call::<IgnoredAny>("parts", &Ids { ids: &numbers }, Vec::new()).await?;
     into.extend(numbers.into_iter().zip(texts).filter_map(|(number, text)| Some((number, text.text()?))));
     Ok(())
@@ -31,11 +29,13 @@ pub(super) async fn read_parts(storage: &Storage, numbers: Vec<u64>, into: &mut 
 
 pub(super) async fn read_document(storage: &Storage, book: &RefCell<Book>, state: &State) -> Result<Document, Fault> {
     let mut texts = Texts::new();
-    let missing = book.borrow().missing(state);
-    read_parts(storage, missing, &mut texts).await?;
-    let missing = book.borrow().missing_of(state, &texts).map_err(data_fault)?;
-    read_parts(storage, missing, &mut texts).await?;
-    book.borrow_mut().document(state, &texts).map_err(data_fault)
+    loop {
+        let wanted = book.borrow().wanted(state, &texts).map_err(data_fault)?;
+        if wanted.is_empty() {
+            return book.borrow_mut().document(state, &texts).map_err(data_fault);
+        }
+        read_parts(storage, wanted, &mut texts).await?;
+    }
 }
 
 pub(super) type ReadFile = (KeptFile, Option<Blob>, Option<Picture>);
@@ -61,6 +61,7 @@ impl Reading {
         let history = History::stored(changes(&replayed.past), changes(&replayed.future));
         let book = Rc::new(RefCell::new(Book::of(&replayed, &history, opened.next_part)));
         let mut document = read_document(storage, &book, &state).await?;
+        book.borrow_mut().go_on_from(&document);
         let files = read_files(storage, &book, replayed.files).await?;
         if let Some(name) = replayed.name.take() {
             super::saving::rename(&mut document, name);

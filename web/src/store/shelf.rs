@@ -10,6 +10,7 @@ use sightline::project::Project;
 use sightline_protocol::from_text;
 
 use super::calls::{Card, CardOutcome, Of, Plain};
+use super::kept::{Head, OF_PROJECTS};
 use super::{Asking, Desk, Step, Until};
 use crate::browser::file::download_kept_file;
 use crate::browser::page;
@@ -276,16 +277,23 @@ impl Desk {
 
 /// What the list shows of a project without a card that can be read: what its journal says; or the name of what is wrong with that.
 async fn card_of_journal(storage: &Storage, id: &str) -> Result<Card, String> {
-    let peeking = Peeking { id, kind: "project" };
-    let (peeked, texts) = storage.call::<Peeked>("peek", &peeking, Vec::new()).await.map_err(|fault| fault.name)?;
-    let words = texts.into_iter().next().and_then(|extra| extra.text());
-    let project = words.and_then(|words| from_text::<Project>(&words).ok()).ok_or("DataError")?;
-    Ok(Card {
-        name: peeked.name.unwrap_or(project.name),
-        photos: project.photos.len(),
-        points: project.points.len(),
-        ..no_card()
-    })
+    let peek = async |kind: &str| storage.call::<Peeked>("peek", &Peeking { id, kind }, Vec::new()).await;
+    let peeked = match peek(OF_PROJECTS).await {
+        // A journal of before tables were parts of their own.
+        Err(fault) if fault.name == "DamagedError" => peek("project").await,
+        peeked => peeked,
+    };
+    let (peeked, texts) = peeked.map_err(|fault| fault.name)?;
+    let words = texts.into_iter().next().and_then(|extra| extra.text()).ok_or("DataError")?;
+    let (project, [photos, points, _]) = match Head::read(&words) {
+        Some(head) => head.map(|head| (head.project, head.rows)),
+        None => from_text::<Project>(&words).map(|project| {
+            let rows = [project.photos.len(), project.points.len(), project.observations.len()];
+            (project, rows)
+        }),
+    }
+    .map_err(|_| "DataError")?;
+    Ok(Card { name: peeked.name.unwrap_or(project.name), photos, points, ..no_card() })
 }
 
 fn no_card() -> Card {

@@ -19,7 +19,7 @@ use crate::browser::storage::Fault;
 use crate::edit::epoch;
 use crate::i18n::{lasting, text};
 use crate::store::document::{Document, Outcome as Adjusted};
-use crate::store::kept::{Book, RESULT, named_in, replay};
+use crate::store::kept::{Book, replay};
 use crate::store::lasting::Stop;
 use crate::store::pool::{Failure, Outcome};
 use crate::store::saving::{is_project, rename};
@@ -78,16 +78,14 @@ impl Desk {
         let replayed = replay(&notes).map_err(fault)?;
         let state = replayed.present.ok_or_else(|| fault("no state".to_owned()))?;
         let mut texts = HashMap::new();
-        let mut wanted: Vec<u64> = std::iter::once(state.project).chain(state.result).collect();
-        while !wanted.is_empty() {
+        let book = Book::default();
+        loop {
+            let wanted = book.wanted_of_result(&state, &texts).map_err(fault)?;
+            if wanted.is_empty() {
+                break;
+            }
             let (_, parts) = storage.call::<Vec<String>>("look", &Looking { id, wanted: &wanted }, Vec::new()).await?;
             texts.extend(wanted.iter().copied().zip(parts.into_iter().map(|part| part.text().unwrap_or_default())));
-            let named = match state.result.filter(|result| wanted.contains(result)) {
-                Some(result) => named_in(RESULT, &texts[&result]).map_err(fault)?,
-                None => Vec::new(),
-            };
-            wanted = named.into_iter().filter(|number| !texts.contains_key(number)).collect();
-            wanted.dedup();
         }
         let mut document = Book::result_of(&state, &texts).map_err(fault)?;
         if let Some(name) = replayed.name {
