@@ -30,7 +30,7 @@ pub use sightline::tiles::Pyramid;
 use sightline::{Error, Result};
 
 pub use inside::{Found, Inquiry, InsideOf, Looked, matrices, matrices_from};
-pub use pieces::{Long, Piece, from_pieces, to_pieces, written};
+pub use pieces::{Long, Piece, from_pieces, written};
 
 /// Work for a worker. The files it needs come with it.
 pub trait Task: Serialize + DeserializeOwned + 'static {

@@ -1,5 +1,4 @@
-//! Long objects as text in pieces, each written and read by itself, so that the page does something else between two of them. Those that a worker cuts
-//! are the whole text one after the other, as it is kept.
+//! Long objects as text in pieces, each written and read by itself, so that the page does something else between two of them.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -8,17 +7,15 @@ use sightline::project::Project;
 
 use crate::{from_bytes, to_bytes};
 
-/// Bytes after which a piece ends.
-const LONG: usize = 1 << 17;
-/// Elements after which a piece ends that is written when it is asked for: some 100 kB.
+/// Elements of a piece: some 100 kB.
 const ROWS_AT_ONCE: usize = 1000;
 
 /// What a piece of an object's text has.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Piece {
-    /// Some of what is left of the object without long arrays.
+    /// What is left of the object without long arrays.
     Frame,
-    /// Elements of the object's array of this name; all but its first piece begin with the comma before them.
+    /// Elements of the object's array of this name, with commas between them.
     Rows(String),
 }
 
@@ -73,7 +70,6 @@ long!(Project: photos, points, observations);
 long!(Adjustment: photos, points, observations);
 
 fn extend<T: DeserializeOwned>(all: &mut Vec<T>, rows: &[u8]) -> Result<(), String> {
-    let rows = rows.strip_prefix(b",").unwrap_or(rows);
     all.append(&mut from_bytes(&[b"[", rows, b"]"].concat())?);
     Ok(())
 }
@@ -87,7 +83,7 @@ fn some<T: Serialize>(all: &[T], from: usize, most: usize) -> Option<Vec<u8>> {
     Some(text)
 }
 
-/// An object in pieces, each written when it is asked for: they are no text together, as those of [`to_pieces`] are, but are read alike.
+/// An object in pieces, each written when it is asked for.
 pub fn written<T: Long>(object: &T) -> impl Iterator<Item = (Piece, Vec<u8>)> {
     let frame = std::iter::once_with(|| (Piece::Frame, to_bytes(&object.frame())));
     let rows = T::ROWS.iter().flat_map(move |name| {
@@ -117,73 +113,12 @@ pub fn from_pieces<'a, T: Long>(pieces: &[Piece], texts: impl Iterator<Item = &'
     Ok(object)
 }
 
-/// An object's text in pieces.
-pub fn to_pieces<T: Long>(object: &T) -> (Vec<Piece>, Vec<Vec<u8>>) {
-    cut(&to_bytes(object), T::ROWS, LONG)
-}
-
-/// Cuts the text of an object, as it is written without spaces, between elements of these arrays.
-fn cut(text: &[u8], arrays: &[&str], long: usize) -> (Vec<Piece>, Vec<Vec<u8>>) {
-    let (mut pieces, mut parts) = (Vec::new(), Vec::new());
-    let mut begun = 0;
-    let mut end = |piece: Piece, at: usize| {
-        if at > begun {
-            pieces.push(piece);
-            parts.push(text[begun..at].to_vec());
-            begun = at;
-        }
-        at
-    };
-    let (mut depth, mut key, mut rows, mut since) = (0, "", None::<&str>, 0);
-    let mut at = 0;
-    while at < text.len() {
-        match text[at] {
-            b'"' => {
-                let start = at + 1;
-                at = start + text[start..].iter().scan(false, escaped).take_while(|ends| !ends).count();
-                if depth == 1 {
-                    key = arrays.iter().find(|name| name.as_bytes() == &text[start..at]).copied().unwrap_or_default();
-                }
-            }
-            b'{' | b'[' => {
-                depth += 1;
-                if depth == 2 && text[at] == b'[' && !key.is_empty() {
-                    rows = Some(key);
-                    since = end(Piece::Frame, at + 1);
-                }
-            }
-            b'}' | b']' => {
-                depth -= 1;
-                if let Some(name) = rows.take_if(|_| depth == 1) {
-                    end(Piece::Rows(name.to_owned()), at);
-                }
-            }
-            b',' if depth == 2 && at - since >= long => {
-                if let Some(name) = rows {
-                    since = end(Piece::Rows(name.to_owned()), at);
-                }
-            }
-            _ => {}
-        }
-        at += 1;
-    }
-    end(Piece::Frame, text.len());
-    (pieces, parts)
-}
-
-/// Whether a string ends with this byte; what is scanned says whether the byte before it was a backslash that counts.
-fn escaped(after_backslash: &mut bool, byte: &u8) -> Option<bool> {
-    let ends = *byte == b'"' && !*after_backslash;
-    *after_backslash = *byte == b'\\' && !*after_backslash;
-    Some(ends)
-}
-
 #[cfg(test)]
 mod tests {
     use sightline::adjustment::{AdjustedObservation, AdjustedPoint};
 
     use super::*;
-    use crate::to_text;
+
 
     /// An adjustment whose texts look like what is between them.
     fn adjustment(rows: usize) -> Adjustment {
@@ -218,25 +153,6 @@ mod tests {
             assert_eq!(pieces.len(), 1 + 2 * rows.div_ceil(ROWS_AT_ONCE));
             assert_eq!(read::<Adjustment>(&pieces, &parts).unwrap(), object, "{rows}");
             assert!(read::<Adjustment>(&pieces, &parts[1..]).is_err(), "{rows}");
-        }
-    }
-
-    #[test]
-    fn pieces_are_the_whole_text_and_give_the_object_back() {
-        for (rows, long) in [(0, 1), (1, 1), (2, 1), (7, 1), (40, 500), (40, 1 << 20)] {
-            let object = adjustment(rows);
-            let text = to_text(&object);
-            let (pieces, parts) = cut(text.as_bytes(), Adjustment::ROWS, long);
-            assert_eq!(String::from_utf8(parts.concat()).unwrap(), text);
-            assert!(parts.iter().all(|part| std::str::from_utf8(part).is_ok()));
-            assert_eq!(read::<Adjustment>(&pieces, &parts).unwrap(), object, "{rows} {long}");
-            let cuts = pieces.iter().filter(|piece| **piece == Piece::Rows("observations".into())).count();
-            let expected = match long {
-                1 => cuts == rows,
-                500 => (2..rows).contains(&cuts),
-                _ => cuts == 1,
-            };
-            assert!(expected, "{rows} rows of {long} bytes in {cuts} pieces");
         }
     }
 

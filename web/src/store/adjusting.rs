@@ -103,7 +103,9 @@ impl Desk {
         let outcome = Arc::new(document::Outcome { input, oriented: Arc::new(oriented), adjustment });
         self.iterations.set(outcome.adjustment.iterations.clone());
         if self.storage().is_some() {
-            self.keeper.with_value(|keeper| keeper.book.borrow_mut().came(&outcome, as_they_are(of_adjustment)));
+            let pieces =
+                adjusted.adjustment.into_iter().zip(of_adjustment.into_iter().map(storage::Piece::Bytes)).collect();
+            self.keeper.with_value(|keeper| keeper.book.borrow_mut().came(&outcome, pieces));
         }
         self.change(Change::Adjusted, |document| document.result = Some(outcome));
         Ok(true)
@@ -217,10 +219,6 @@ impl Desk {
             self.refuse(typed, text::no_diameter);
         }
     }
-}
-
-fn as_they_are(texts: Vec<Bytes>) -> Vec<storage::Piece> {
-    texts.into_iter().map(storage::Piece::Bytes).collect()
 }
 
 /// An object in pieces, each written in a task of the page of its own, as files; nothing where they are not wanted any more.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::{Arc, Weak};
 
 use serde::{Deserialize, Serialize};
-use sightline::adjustment::{AdjustOptions, Adjustment};
+use sightline::adjustment::{AdjustOptions, AdjustedObservation, AdjustedPhoto, AdjustedPoint, Adjustment};
 use sightline::detection::Detection;
 use sightline::exif::PhotoInfo;
 use sightline::matching::Doubtful;
@@ -83,15 +83,55 @@ struct KeptResult {
     input: u64,
     oriented: u64,
     adjustment: Adjustment,
+    /// Rows of its tables, where the adjustment has none itself.
+    #[serde(default)]
+    rows: Vec<KeptRows>,
+}
+
+/// Some rows of one of the tables.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct KeptRows {
+    photos: Vec<AdjustedPhoto>,
+    points: Vec<AdjustedPoint>,
+    observations: Vec<AdjustedObservation>,
+}
+
+impl KeptResult {
+    fn adjustment(self) -> Adjustment {
+        let mut adjustment = self.adjustment;
+        for rows in self.rows {
+            adjustment.photos.extend(rows.photos);
+            adjustment.points.extend(rows.points);
+            adjustment.observations.extend(rows.observations);
+        }
+        adjustment
+    }
 }
 
 /// What stands before the adjustment, which is long and comes last.
 const ADJUSTMENT: &str = r#","adjustment":"#;
 
-/// The part of a result around the text of its adjustment.
-fn result_text(input: u64, oriented: u64, adjustment: Vec<Piece>) -> Vec<Piece> {
-    let before = Piece::Text(format!(r#"{{"input":{input},"oriented":{oriented}{ADJUSTMENT}"#));
-    [vec![before], adjustment, vec![Piece::Text("}".into())]].concat()
+/// The text of an adjustment in pieces, as it comes from the engine: what is left of it without its tables, and rows of these.
+pub type Pieces = Vec<(sightline_protocol::Piece, Piece)>;
+
+/// The part of a result: its adjustment's pieces are not read for that.
+fn result_text(input: u64, oriented: u64, adjustment: Pieces) -> Vec<Piece> {
+    let mut text = vec![Piece::Text(format!(r#"{{"input":{input},"oriented":{oriented}{ADJUSTMENT}"#))];
+    let mut separator = r#","rows":["#;
+    for (piece, words) in adjustment {
+        match piece {
+            sightline_protocol::Piece::Frame => text.push(words),
+            sightline_protocol::Piece::Rows(name) => {
+                text.push(Piece::Text(format!(r#"{separator}{{"{name}":["#)));
+                text.extend([words, Piece::Text("]}".into())]);
+                separator = ",";
+            }
+        }
+    }
+    let rows = separator == ",";
+    text.push(Piece::Text(if rows { "]}" } else { "}" }.into()));
+    text
 }
 
 /// A text of one piece.
@@ -194,8 +234,8 @@ pub struct Book {
     maps: Known<BTreeMap<String, Arc<Detection>>>,
     doubtful: Known<Vec<Doubtful>>,
     results: Known<Outcome>,
-    /// The text that a result's adjustment came as, until it is written.
-    came: Option<(Weak<Outcome>, Vec<Piece>)>,
+    /// The pieces that a result's adjustment came in, until it is written.
+    came: Option<(Weak<Outcome>, Pieces)>,
     past: Vec<u64>,
     future: Vec<u64>,
     present: Option<State>,
@@ -224,9 +264,9 @@ impl Book {
         self.projects.number(project, of, writing)
     }
 
-    /// A result's adjustment came as this text: the next note has it as it is.
-    pub fn came(&mut self, result: &Arc<Outcome>, text: Vec<Piece>) {
-        self.came = Some((Arc::downgrade(result), text));
+    /// A result's adjustment came in these pieces: the next note has them as they are.
+    pub fn came(&mut self, result: &Arc<Outcome>, pieces: Pieces) {
+        self.came = Some((Arc::downgrade(result), pieces));
     }
 
     fn state(&mut self, document: &Document) -> State {
@@ -260,7 +300,8 @@ impl Book {
             let came = self.came.take_if(|(of, _)| std::ptr::eq(of.as_ptr(), Arc::as_ptr(result)));
             let input = self.project(&result.input, Of::Work);
             let oriented = self.project(&result.oriented, Of::Orientation);
-            let adjustment = came.map_or_else(|| whole(&result.adjustment), |(_, text)| text);
+            let in_one = || vec![(sightline_protocol::Piece::Frame, Piece::Text(to_text(&result.adjustment)))];
+            let adjustment = came.map_or_else(in_one, |(_, pieces)| pieces);
             let text = result_text(input, oriented, adjustment);
             self.new.push(Part { number, kind: RESULT.into(), text });
         }
@@ -422,9 +463,9 @@ impl Book {
     fn read_result(&mut self, number: u64, texts: &HashMap<u64, String>) -> Result<Arc<Outcome>, String> {
         let projects = &mut self.projects;
         read(&mut self.results, number, texts, |text| {
-            let KeptResult { input, oriented, adjustment } = from_text(text)?;
-            let (input, oriented) = (projects.read(input, texts)?, projects.read(oriented, texts)?);
-            Ok(Outcome { input, oriented, adjustment })
+            let kept = from_text::<KeptResult>(text)?;
+            let (input, oriented) = (projects.read(kept.input, texts)?, projects.read(kept.oriented, texts)?);
+            Ok(Outcome { input, oriented, adjustment: kept.adjustment() })
         })
     }
 

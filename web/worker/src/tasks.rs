@@ -33,7 +33,7 @@ use sightline_protocol::{
     Pack, PlanOf, Predict, PredictPlan, Progress, ReadForeign, ReportEpochs, ReportMade, RunExperiment, Sample,
     SampleEpochs, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate,
     Situated, Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteCamera, WriteNetwork, WriteSheets, Written,
-    from_pieces, to_pieces,
+    from_pieces, written,
 };
 
 use crate::codecs::{shot_of, unpack};
@@ -125,8 +125,8 @@ impl Service<Adjust> for Engine {
             progress(Adjusting::Iteration(iteration.clone()));
             true
         })?;
-        let (oriented, mut texts) = to_pieces(&oriented);
-        let (adjustment, more) = to_pieces(&adjustment);
+        let (oriented, mut texts) = written(&oriented).unzip::<_, _, Vec<_>, Vec<_>>();
+        let (adjustment, more) = written(&adjustment).unzip::<_, _, Vec<_>, Vec<_>>();
         texts.extend(more);
         Ok((Adjusted { oriented, adjustment }, texts))
     }

@@ -120,21 +120,23 @@ fn a_result_is_written_as_it_came() {
     let (mut book, mut journal) = (Book::default(), Journal::default());
     let outcome = |sigma0| {
         let input = Arc::new(Project::default());
-        let adjustment = Adjustment { sigma0: Some(sigma0), ..Adjustment::default() };
+        let row = |k| AdjustedPoint { id: format!("{k}"), xyz: [0.1, k as f64 / 3.0, -0.0], ..Default::default() };
+        let points = (0..2500).map(row).collect();
+        let adjustment = Adjustment { sigma0: Some(sigma0), points, ..Adjustment::default() };
         Arc::new(Outcome { oriented: Arc::new(Project::clone(&input)), input, adjustment })
     };
     let text = |text: &str| Piece::Text(text.into());
     let (first, second) = (outcome(0.5), outcome(1.5));
     let mut document = renamed(&Document::default(), "a");
     document.result = Some(first.clone());
-    let adjustment = to_text(&first.adjustment);
-    let (start, end) = adjustment.split_at(1);
-    book.came(&first, vec![text(start), text(" "), text(end)]);
+    let pieces = sightline_protocol::written(&first.adjustment);
+    let pieces = pieces.map(|(piece, bytes)| (piece, text(&(String::from_utf8(bytes).unwrap() + " "))));
+    book.came(&first, pieces.collect());
     journal.add(book.note(&document, &History::default(), &BTreeMap::new()));
-    assert_eq!(journal.texts.values().filter(|text| text.contains("{ ")).count(), 1);
+    assert_eq!(journal.texts.values().filter(|text| text.contains("} ,")).count(), 1);
     assert_eq!(journal.read().0.result, Some(first));
     // The texts of one result are not those of another.
-    book.came(&outcome(2.5), vec![text("")]);
+    book.came(&outcome(2.5), Vec::new());
     document.result = Some(second.clone());
     journal.add(book.note(&document, &History::default(), &BTreeMap::new()));
     assert_eq!(journal.read().0.result, Some(second));
