@@ -119,7 +119,6 @@ mod tests {
 
     use super::*;
 
-
     /// An adjustment whose texts look like what is between them.
     fn adjustment(rows: usize) -> Adjustment {
         let point = |k| AdjustedPoint {

@@ -231,3 +231,42 @@ fn an_edit_of_a_large_network_writes_little() {
     let (_, parts) = book.note(&document, &history, &files).unwrap_or_default();
     assert!(parts.iter().all(|part| part.kind == "head"));
 }
+
+/// Before tables were parts of their own a project's part was its whole text, and a result's had its whole adjustment.
+#[test]
+fn a_journal_of_before_is_read_and_goes_on() {
+    let document = undoing::document();
+    let state = |project| {
+        format!(
+            r#"{{"project":{project},"detections":1,"doubtful":2,"result":5,"options":{},"sigmas_of_held":[]}}"#,
+            to_text(&document.options)
+        )
+    };
+    let note = format!(
+        r#"{{"past":{{"keep":0,"add":[["UnitSet",{}]]}},"future":{{"keep":0,"add":[]}},"present":{},"files":6}}"#,
+        state(3),
+        state(4)
+    );
+    let adjustment = to_text(&Adjustment { sigma0: Some(1.25), ..Adjustment::default() });
+    let texts = [
+        (1, "{}".into()),
+        (2, "[]".into()),
+        (3, to_text(&*renamed(&document, "before").project)),
+        (4, to_text(&*renamed(&document, "now").project)),
+        (5, format!(r#"{{"input":3,"oriented":3,"adjustment":{adjustment}}}"#)),
+        (6, "{}".into()),
+    ];
+    let mut journal = Journal { notes: vec![note], texts: HashMap::from(texts), ..Journal::default() };
+    let (mut read, mut history, mut book) = journal.read();
+    book.files(6, "{}").unwrap();
+    assert_eq!(read.project, renamed(&document, "now").project);
+    assert_eq!(read.result.as_ref().map(|result| result.adjustment.sigma0), Some(Some(1.25)));
+    assert_eq!(documents(&history.past, 0)[0].as_ref().map(|d| d.project.name.as_str()), Some("before"));
+    for (_, action) in ACTIONS {
+        history.push(Change::UnitSet, read.clone());
+        action(&mut read);
+        journal.add(book.note(&read, &history, &BTreeMap::new()));
+    }
+    let (again, past, _) = journal.read();
+    assert_eq!(contents(&again, &past), contents(&read, &history));
+}
