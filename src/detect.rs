@@ -26,6 +26,7 @@ mod part;
 mod pass;
 mod picture;
 mod rendered;
+mod rims;
 mod search;
 mod shot;
 mod sites;
@@ -150,6 +151,7 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     levels.developed = processed && !character.is_clipped();
     let mut picture = report(&levels, &character, options.method);
     let mut passed = pass::pass(plane, levels, options, processed && character.is_compressed(), None, &[]);
+    let coloured = passed.coloured;
     if !processed && !levels.stairs {
         // Dots too small for flat sides of a row's steps show in their own rims what was done to the picture.
         let outlines: Vec<Outline> = passed.detection.targets.iter().map(outline_of).collect();
@@ -211,6 +213,8 @@ fn detect_in<T: Sample>(plane: Plane<T>, options: &DetectOptions) -> Detection {
     let taken_back = left.len() - code::keep_ringed(&mut detection, left, family);
     code::settle_grounds(&mut detection, found - taken_back, family);
     code::drop_parts(&mut detection, family);
+    code::drop_sectors(&mut detection);
+    rims::settle(&plane, &levels, options, coloured, &mut detection);
     detection.targets.sort_by(|a, b| a.v.total_cmp(&b.v).then(a.u.total_cmp(&b.u)));
     let size = |pixels| u32::try_from(pixels).unwrap_or(u32::MAX);
     Detection { width: size(plane.width), height: size(plane.height), picture, ..detection }
@@ -329,7 +333,8 @@ fn in_rings<'a, T: Sample>(
     let mut colours = Vec::new();
     let wanted = if processed { Wanted::InRingOrWide } else { Wanted::InRing };
     pass::take_alike(&mut measure, &mut census, &mut colours, doubtful, &alike, wanted);
-    let mut left = Pass { detection: census.finish(), grounds: Vec::new(), colours, doubtful: Vec::new() };
+    let mut left =
+        Pass { detection: census.finish(), grounds: Vec::new(), colours, doubtful: Vec::new(), coloured: processed };
     left.correlate();
     left.detection.targets
 }

@@ -209,6 +209,8 @@ pub enum CodeNote {
     Uncertain,
     /// The ring is a code of several families.
     SeveralFamilies,
+    /// Two or more ellipses stand where a ring has its sectors: a ring that was not read. They are no targets and count as rejected.
+    Unread,
 }
 
 /// Kept measurements have sentences here that earlier versions wrote: those say nothing any more.
@@ -272,14 +274,67 @@ pub struct Target {
     /// safely or in doubt: other photos may show that it is of theirs. Empty otherwise.
     #[serde(default)]
     pub code_candidates: Vec<CodeCandidate>,
+    /// The rim of a hole in it, about the same centre: of a donut the outer rim is the target, and this is a property of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inner: Option<InnerRim>,
     /// How good the image is.
     pub quality: Quality,
+}
+
+/// The inner rim of a donut: an ellipse of the other polarity within the target. Pixels, radians.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct InnerRim {
+    /// Centre, to the right.
+    pub u: f64,
+    /// Centre, downwards.
+    pub v: f64,
+    /// Standard error of u.
+    pub sigma_u: f64,
+    /// Standard error of v.
+    pub sigma_v: f64,
+    /// Covariance of u and v, in square pixels.
+    pub covariance_uv: f64,
+    /// Full major axis.
+    pub major: f64,
+    /// Full minor axis.
+    pub minor: f64,
+    /// Angle of the major axis from u towards v.
+    pub angle: f64,
+    /// Whether the two centres differ by more than their standard errors explain (at 0.1 %): the hole is punched or printed off the centre,
+    /// or perspective moves the two ellipses by different amounts. The target's own centre and standard errors are those of the outer rim.
+    pub off_centre: bool,
+}
+
+impl InnerRim {
+    /// The rim of a target, as that of a hole.
+    pub fn of(hole: &Target) -> Self {
+        let Target { u, v, sigma_u, sigma_v, covariance_uv, major, minor, angle, .. } = *hole;
+        Self { u, v, sigma_u, sigma_v, covariance_uv, major, minor, angle, off_centre: false }
+    }
+
+    /// The same with its centre moved.
+    pub fn moved(self, [du, dv]: [f64; 2]) -> Self {
+        Self { u: self.u + du, v: self.v + dv, ..self }
+    }
+
+    /// A target with this rim in place of its own.
+    pub fn laid_on(self, target: Target) -> Target {
+        let Self { u, v, sigma_u, sigma_v, covariance_uv, major, minor, angle, .. } = self;
+        Target { u, v, sigma_u, sigma_v, covariance_uv, major, minor, angle, ..target }
+    }
 }
 
 impl Target {
     /// What an observation of it refers to.
     pub fn number(&self) -> Option<u32> {
         Some(self.id).filter(|id| *id > 0)
+    }
+
+    /// The same at another place, with the rim of its hole.
+    pub fn moved(self, by: [f64; 2]) -> Self {
+        let inner = self.inner.map(|inner| inner.moved(by));
+        Self { u: self.u + by[0], v: self.v + by[1], inner, ..self }
     }
 
     /// Number of its code in a family, where it reads safely as one.

@@ -106,6 +106,7 @@ pub(crate) fn target(u: f64, v: f64, code: Option<u32>) -> Target {
         code,
         code_family: None,
         code_candidates: Vec::new(),
+        inner: None,
         quality: crate::detection::Quality::default(),
     }
 }

@@ -46,6 +46,7 @@ pub fn target(u: f64, v: f64) -> Target {
         code: None,
         code_family: None,
         code_candidates: Vec::new(),
+        inner: None,
         quality: Quality::default(),
     }
 }

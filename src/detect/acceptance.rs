@@ -460,6 +460,26 @@ pub(crate) mod covered {
     }
 }
 
+/// Donuts.
+pub(crate) mod rims {
+    use super::Source;
+
+    table! {
+        /// Distance from a hole's centre, in its semi-major axes, up to which the outer rim is looked for.
+        FARTHEST: f64 = 12.0, Judged "the spot in the centre of Metashape's dots is an eleventh; without a limit every dot would be looked around to the end of the picture";
+        /// Share of the hole's contrast that comes back beyond the disc, and the same in noise.
+        RETURNS: f64 = 0.4, Judged "what stands around a donut may be a little more like it than its hole is; as the least step of a look";
+        CLEAR: f64 = 6.0, Derived "chance passes nowhere on 48 rays of a hundred places";
+        /// Share of the rays on which it does, and how far these places may be from their median radius.
+        SEEN: f64 = 0.8, Judged "a gap of a tenth, and a neighbour";
+        ROUGH: f64 = 0.3, Judged "a hole aside by a tenth moves the rim by less";
+        /// Distance of the two centres, in the outer semi-minor axis, up to which they are rims of one donut.
+        CONCENTRIC: f64 = 0.15, Judged "more is a disc with a mark on it";
+        /// Square of the distance of the centres, in their standard errors, from which they differ.
+        OFF: f64 = 13.8, Derived "99.9 % of χ² of two degrees of freedom";
+    }
+}
+
 /// Targets of a photo by what the others have in common.
 pub(crate) mod alike {
     use super::Source;

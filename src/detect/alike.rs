@@ -271,6 +271,7 @@ impl<T: Sample> Measure<'_, T> {
             code: None,
             code_family: None,
             code_candidates: Vec::new(),
+            inner: None,
             quality: Quality {
                 fit_rms: fit.rms,
                 noise: around.noise,

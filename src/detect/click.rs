@@ -3,6 +3,7 @@
 use super::measure::{Found, Measure};
 use super::part::Part;
 use super::picture::noise::{self, Levels};
+use super::rims::{self, Donut};
 use super::search::{self, Hidden};
 use super::{Outline, Plane, code};
 use crate::detect::acceptance::place::BESIDE;
@@ -25,13 +26,15 @@ pub(super) fn measure<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &Dete
     code::read_in(&plane, found.as_mut_slice(), options.codes);
     let is_settled =
         |target: &Target| options.codes == Codes::None || target.code.is_some() || !target.code_candidates.is_empty();
+    let donut = |target| rims::settle_one(&plane, options, target);
     if found.as_ref().is_some_and(is_settled) {
-        return found;
+        return found.map(donut);
     }
     // a dot may be measured otherwise, and read, where others tell of it
     let coded = |target: &Target| found.is_none() || target.code.is_some();
     let noisy = |noise| at(plane, u, v, options, noise, |measure, found| measure.finish(found, method).ok());
-    in_ordinary(plane, u, v, options).filter(coded).or(found).or_else(|| NOISE_AT_RIMS.into_iter().find_map(noisy))
+    let ordinary = in_ordinary(plane, u, v, options).filter(coded);
+    ordinary.or(found.map(donut)).or_else(|| NOISE_AT_RIMS.into_iter().find_map(noisy).map(donut))
 }
 
 /// The target under the click where the picture is no laboratory's: as the whole picture would be searched, in windows.
@@ -45,7 +48,7 @@ fn in_ordinary<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptio
             (c.hypot(s) <= 1.0).then(|| (outline.u - u).hypot(outline.v - v))
         };
         let found = super::detect_in(Plane::new(width, height, &samples), options).targets.into_iter();
-        let shifted = found.map(|target| Target { u: target.u + left as f64, v: target.v + top as f64, ..target });
+        let shifted = found.map(|target| target.moved([left as f64, top as f64]));
         let hit = shifted.filter_map(|target| away(&target).map(|distance| (distance, target)));
         hit.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, target)| target)
     })
@@ -54,16 +57,26 @@ fn in_ordinary<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptio
 /// Every method's measurement of the target under the click.
 pub(super) fn compare<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &DetectOptions) -> Vec<MethodResult> {
     let all = [Method::LeastSquares, Method::Ellipse, Method::Intensity, Method::Gradient];
-    let results = |noise| {
+    let results = |[u, v]: [f64; 2], noise| {
         at(plane, u, v, options, noise, |measure, found| {
-            measure.finish(found, Method::LeastSquares).ok()?;
-            Some(all.map(|method| match measure.finish(found, method) {
-                Ok(target) => MethodResult { method, target: Some(target), reason: None },
-                Err(reason) => MethodResult { method, target: None, reason: Some(reason) },
+            let target = measure.finish(found, Method::LeastSquares).ok()?;
+            let donut = Donut::around(&plane, &measure.levels, options, &target, false);
+            Some(all.map(|method| {
+                let measured = match &donut {
+                    Some(donut) => donut.measured(options, method).map(|(target, _)| target),
+                    None => measure.finish(found, method),
+                };
+                match measured {
+                    Ok(target) => MethodResult { method, target: Some(target), reason: None },
+                    Err(reason) => MethodResult { method, target: None, reason: Some(reason) },
+                }
             }))
         })
     };
-    results(1.0).or_else(|| NOISE_AT_RIMS.into_iter().find_map(results)).map(Vec::from).unwrap_or_default()
+    let found = results([u, v], 1.0).or_else(|| NOISE_AT_RIMS.into_iter().find_map(|noise| results([u, v], noise)));
+    // beside the hole of a donut
+    let in_hole = || results(measure(plane, u, v, options)?.inner.map(|inner| [inner.u, inner.v])?, 1.0);
+    found.or_else(in_hole).map(Vec::from).unwrap_or_default()
 }
 
 /// Finds the blobs of a window around the place and hands the one that the click means to `finish`, judged by so many times the noise of

@@ -26,7 +26,7 @@ use judge::{Divisions, Tone, judge};
 use polar::{Frame, Polar, Rays};
 use radial::Radial;
 
-pub(super) use parts::{drop_parts, keep_ringed, settle_grounds};
+pub(super) use parts::{drop_parts, drop_sectors, keep_ringed, settle_grounds};
 pub(super) use radial::may_be_in_ring;
 pub(super) use vote::{read_all, read_in};
 

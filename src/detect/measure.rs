@@ -212,6 +212,7 @@ impl<'a, T: Sample> Measure<'a, T> {
             code: None,
             code_family: None,
             code_candidates: Vec::new(),
+            inner: None,
             quality: Quality {
                 fit_rms,
                 noise: surround.noise,

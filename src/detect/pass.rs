@@ -16,6 +16,7 @@ use crate::detection::{DetectOptions, Detection, Polarity, Reason, Target};
 use crate::image::{Plane, Sample};
 
 /// What one pass over a picture found.
+#[derive(Default)]
 pub(super) struct Pass {
     pub detection: Detection,
     /// Targets that may be the ground of a code's ring, to be settled when codes are read.
@@ -24,6 +25,8 @@ pub(super) struct Pass {
     pub colours: Vec<([f64; 2], Colour)>,
     /// Outlines that were no targets by themselves.
     pub doubtful: Vec<Outline>,
+    /// Whether its pixels were taken to share their noise.
+    pub coloured: bool,
 }
 
 /// What a picture that was made of another one shows of that one's targets: times their contrast, and blurred by so many pixels.
@@ -35,15 +38,20 @@ pub(super) struct Soft {
 
 impl Pass {
     /// Puts the correlation of neighbouring pixels into the covariances: sum of the factors by which they grow, and their number. What
-    /// few targets show of it may be chance, and promises nothing.
+    /// few targets show of it may be chance, and promises nothing. A target that shows nothing of it itself has the median of the factors.
     pub fn correlate(&mut self) -> [f64; 2] {
         let Some(correlation) = Correlation::of(self.colours.iter().map(|(_, colour)| colour)) else { return [0.0; 2] };
         let least = if self.colours.len() < ENOUGH { 1.0 } else { 0.0 };
-        let mut all = [0.0; 2];
-        for target in &mut self.detection.targets {
+        let own = |target: &Target| {
             let own = self.colours.iter().find(|(place, _)| *place == [target.u, target.v]);
-            let Some((_, colour)) = own else { continue };
-            let factor = correlation.factor(colour).max(least);
+            own.map(|(_, colour)| correlation.factor(colour).max(least))
+        };
+        let factors: Vec<Option<f64>> = self.detection.targets.iter().map(own).collect();
+        let usual = median(factors.iter().copied().flatten().collect());
+        let mut all = [0.0; 2];
+        for (target, own) in self.detection.targets.iter_mut().zip(factors) {
+            // one whose own pixels do not tell has the noise of the others
+            let Some(factor) = own.or(usual) else { continue };
             target.sigma_u *= factor.sqrt();
             target.sigma_v *= factor.sqrt();
             target.covariance_uv *= factor;
@@ -133,6 +141,10 @@ pub(super) fn pass<T: Sample>(
     if rim_noise > shared {
         measure.work.coloured = true;
         colours = measured_again(&mut measure, &mut census.targets);
+        if colours.is_empty() {
+            // their standard errors are those of another noise, and nothing tells by how much
+            census.give_up(Reason::NoFit);
+        }
     }
     if let Some(alike) = alike::of(&mut measure, known, &census.targets) {
         if soft.is_some() || alike.swallows() {
@@ -145,10 +157,18 @@ pub(super) fn pass<T: Sample>(
         }
     }
     let grounds = std::mem::take(&mut census.grounds);
-    Pass { detection: census.finish(), grounds, colours, doubtful }
+    let coloured = measure.work.coloured;
+    Pass { detection: census.finish(), grounds, colours, doubtful, coloured }
 }
 
-/// Measures targets again where neighbouring pixels turn out to share their noise; what they share.
+/// The middle one of some values.
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+/// Measures targets again where neighbouring pixels turn out to share their noise; what they share. One that is not measured again stays as it
+/// is, and takes the median of the others' factors ([`Pass::correlate`]).
 fn measured_again<T: Sample>(measure: &mut Measure<T>, targets: &mut [Target]) -> Vec<([f64; 2], Colour)> {
     let mut colours = Vec::new();
     for target in targets {

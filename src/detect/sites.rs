@@ -15,10 +15,12 @@ use super::ellipse::outline::Outline;
 use super::part::Part;
 use super::rendered::Field;
 use super::rendered::neighbours::Neighbours;
+use super::rims;
 use super::{check_place, code::outline_of, detect_photo, edges::edge, edges::surround, measure_in_photo};
 use crate::decode::Photo;
 use crate::detection::{
-    Channel, Colour, DetectOptions, Detection, Measured, MeasuredOn, Method, Polarity, Reason, Rejected, Target,
+    Channel, Colour, DetectOptions, Detection, InnerRim, Measured, MeasuredOn, Method, Polarity, Reason, Rejected,
+    Target,
 };
 use crate::error::{Error, Place, Reason as Wrong, Result};
 use crate::image::{Grey, Plane, Samples};
@@ -255,8 +257,8 @@ impl Sites<'_> {
         options: &DetectOptions,
         field: &mut Field,
     ) -> Option<Target> {
-        let (u, v) = (target.u - self.lit[0] as f64, target.v - self.lit[1] as f64);
-        self.measured(searched, Target { u, v, ..target.clone() }, options, field).ok()
+        let shift = [self.lit[0], self.lit[1]].map(|from| -(from as f64));
+        self.measured(searched, target.clone().moved(shift), options, field).ok()
     }
 
     /// A target of the search, measured on the sites. Other methods than the fit keep what they found in the picture.
@@ -268,9 +270,8 @@ impl Sites<'_> {
         field: &mut Field,
     ) -> std::result::Result<Target, Reason> {
         let shift = [self.lit[0] as f64, self.lit[1] as f64];
-        let moved = |target: Target| Target { u: target.u + shift[0], v: target.v + shift[1], ..target };
         if options.method != Method::LeastSquares {
-            return Ok(moved(target));
+            return Ok(target.moved(shift));
         }
         let plane = searched.plane().ok_or(Reason::NoFit)?;
         let outline = outline_of(&target);
@@ -280,8 +281,10 @@ impl Sites<'_> {
         let outline = Outline { u: outline.u + shift[0], v: outline.v + shift[1], ..outline };
         let light = |fit: &SiteFit, reach: f64| searched.neighbours(fit, shift, reach);
         // where a ring stands near by, only the gap before it is ground
-        let found = fit::fit(self, &outline, blur, around.outer, field, light)
-            .or_else(|| fit::fit(self, &outline, blur, 0.0, field, light))
+        let shifted = |outline: Outline| Outline { u: outline.u + shift[0], v: outline.v + shift[1], ..outline };
+        let hole = rims::left_out(&target).map(shifted);
+        let found = fit::fit(self, &outline, hole.as_ref(), blur, around.outer, field, light)
+            .or_else(|| fit::fit(self, &outline, hole.as_ref(), blur, 0.0, field, light))
             .ok_or(Reason::NoFit)?;
         let (a, b, angle) = found.outline.axes();
         let bright = target.polarity == Polarity::Bright;
@@ -293,13 +296,18 @@ impl Sites<'_> {
             return Err(Reason::TooFlat);
         }
         let [uu, uv, vv] = found.covariance;
-        let mut quality = target.quality;
+        let mut quality = target.quality.clone();
         quality.fit_rms = found.rms;
         quality.noise = self.noise.deviation(found.ground);
         quality.edge_width = found.blur;
         quality.saturated = found.clipped;
         quality.roundness = b / a;
-        Ok(Target {
+        let inner = match rims::hole_of(&target) {
+            Some(hole) => Some(InnerRim::of(&self.measured(searched, hole, options, field)?)),
+            None => None,
+        };
+        let mut measured = Target {
+            inner,
             u: found.outline.u,
             v: found.outline.v,
             sigma_u: uu.sqrt(),
@@ -311,7 +319,9 @@ impl Sites<'_> {
             contrast: found.contrast.abs(),
             quality,
             ..target
-        })
+        };
+        rims::compare_centres(&mut measured);
+        Ok(measured)
     }
 
     /// What the detection says of what it was measured on.

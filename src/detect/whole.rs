@@ -30,7 +30,7 @@ pub fn detect_photo(photo: &Photo, options: &DetectOptions) -> Result<Detection>
     for [first, last] in whole_rows(photo) {
         let mut part = detect(&rows(&photo.grey, first, last)?, options)?;
         let down = first as f64;
-        part.targets.iter_mut().for_each(|target| target.v += down);
+        part.targets = part.targets.into_iter().map(|target| target.moved([0.0, down])).collect();
         part.rejected_blobs.iter_mut().for_each(|blob| blob.v += down);
         if last - first > largest {
             largest = last - first;
@@ -60,7 +60,7 @@ pub fn measure_in_photo(photo: &Photo, u: f64, v: f64, options: &DetectOptions) 
         return Err(Error::Invalid { reason: Reason::DamagedRow { value: v.into() }, at: Place::field("v") });
     };
     let target = measure_at(&rows(&photo.grey, first, last)?, u, v - first as f64, options)?;
-    Ok(target.map(|target| Target { v: target.v + first as f64, ..target }))
+    Ok(target.map(|target| target.moved([0.0, first as f64])))
 }
 
 /// Rows between the damaged ones: first row and the row after the last.

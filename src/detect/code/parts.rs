@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::outline_of;
-use crate::detect::acceptance::code::{BEYOND, SPOT};
+use crate::detect::acceptance::code::{BEYOND, SECTOR_CONTRAST, SECTOR_MIDDLE, SECTOR_WIDTH, SECTORS, SPOT};
 use crate::detect::outline::Outline;
 use crate::detect::search::census::forget_rejected;
-use crate::detection::{CodeCandidate, Detection, Reason, Rejected, Target};
+use crate::detection::{CodeCandidate, CodeNote, Detection, Reason, Rejected, Target};
 use crate::ring_code::{Design, Family};
 
 /// A dot with the ring around it, of a code that was read or of none: among codes of a family what has all of a ring but a number is one.
@@ -39,6 +39,56 @@ pub(crate) fn drop_parts(detection: &mut Detection, family: Option<Family>) {
         target.code.is_none() && dots.iter().any(within)
     };
     take_out(detection, is_part);
+}
+
+/// Takes out what stands where a ring that was not read has its sectors, and says so of the dot: two or more ellipses of its colour in the
+/// middle of a ring of some design and about as wide as that. One alone may be any neighbour.
+pub(crate) fn drop_sectors(detection: &mut Detection) {
+    let all = &detection.targets;
+    let mut sectors = vec![false; all.len()];
+    let mut dots = Vec::new();
+    for (k, dot) in all.iter().enumerate() {
+        let own = outline_of(dot);
+        let is_sector = |other: &usize, design: Design| {
+            let target = &all[*other];
+            let alike = target.polarity == dot.polarity
+                && target.contrast > SECTOR_CONTRAST * dot.contrast
+                && dot.contrast > SECTOR_CONTRAST * target.contrast;
+            *other != k && target.code.is_none() && alike && is_in_ring(&own, &outline_of(target), design)
+        };
+        // the design of which there are more: their rings overlap
+        let found = [Design::Schneider, Design::Metashape]
+            .map(|design| (0..all.len()).filter(|other| is_sector(other, design)).collect::<Vec<_>>());
+        let found = found.into_iter().max_by_key(Vec::len).unwrap_or_default();
+        if found.len() >= SECTORS {
+            found.into_iter().for_each(|sector| sectors[sector] = true);
+            dots.push(k);
+        }
+    }
+    for dot in dots.into_iter().filter(|dot| !sectors[*dot]) {
+        let target = &mut detection.targets[dot];
+        if target.code.is_none() && target.code_candidates.is_empty() {
+            target.quality.code_note.get_or_insert(CodeNote::Unread);
+        }
+    }
+    let mut sectors = sectors.into_iter();
+    take_out(detection, |_| sectors.next().unwrap_or_default());
+}
+
+/// Whether an ellipse may be a sector of the ring around a dot: in its middle, and as far across as the ring.
+fn is_in_ring(dot: &Outline, sector: &Outline, design: Design) -> bool {
+    let [inner, outer] = design.ring();
+    let (middle, width) = ((inner + outer) / 2.0, outer - inner);
+    let [x, y] = dot.normalised(sector.u, sector.v);
+    let radius = x.hypot(y);
+    if (radius - middle).abs() > SECTOR_MIDDLE * width {
+        return false;
+    }
+    // half of what it measures along the ray: |A' n| of its rim A (cos t, sin t)', with n the gradient of the dot's radius
+    let det = dot.p * dot.q - dot.r * dot.r;
+    let [nx, ny] = [(dot.q * x - dot.r * y) / (radius * det), (dot.p * y - dot.r * x) / (radius * det)];
+    let half = (sector.p * nx + sector.r * ny).hypot(sector.r * nx + sector.q * ny);
+    SECTOR_WIDTH.contains(&(2.0 * half / width))
 }
 
 /// Leaves of the targets in this range only those with a ring that is read, or may be, as a code; how many.
@@ -79,7 +129,7 @@ pub(crate) fn settle_grounds(detection: &mut Detection, from: usize, family: Opt
     }
 }
 
-fn take_out(detection: &mut Detection, which: impl Fn(&Target) -> bool) {
+fn take_out(detection: &mut Detection, which: impl FnMut(&Target) -> bool) {
     let (parts, targets) = std::mem::take(&mut detection.targets).into_iter().partition(which);
     detection.targets = targets;
     for Target { u, v, major, .. } in parts {

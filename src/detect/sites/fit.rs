@@ -56,11 +56,12 @@ struct State {
 }
 
 /// Fits, from an outline and a blur on the whole grid; `outer` is the distance from the rim up to which the ground is free. What is
-/// found chooses the sites anew: which ones count is not left to the first guess. `light` is what stands around a fit, seen as far as it
+/// found chooses the sites anew: which ones count is not left to the first guess; those in a hole do not. `light` is what stands around a fit, seen as far as it
 /// says, and throws onto a site, as a share of the contrast.
 pub(super) fn fit<L: Fn(f64, f64) -> f64>(
     sites: &Sites,
     start: &Outline,
+    hole: Option<&Outline>,
     blur: f64,
     outer: f64,
     field: &mut Field,
@@ -69,7 +70,7 @@ pub(super) fn fit<L: Fn(f64, f64) -> f64>(
     let blur = blur.clamp(BLUR.0.max(0.4), BLUR.1);
     let reach = |blur: f64| (2.5 * blur + 1.0).max(outer.min(2.5 * blur + WIDEST));
     let around = |outline: &Outline, blur: f64| {
-        let chosen = choose(sites, &outline.grown(reach(blur)));
+        let chosen = choose(sites, &outline.grown(reach(blur)), hole);
         (chosen.len() >= 2 * UNKNOWNS).then_some(chosen)
     };
     let mut chosen = around(start, blur)?;
@@ -139,8 +140,8 @@ fn approach(
     (last < 1e-3).then_some(origin)
 }
 
-/// The sites inside of an outline.
-fn choose(sites: &Sites, around: &Outline) -> Vec<Site> {
+/// The sites inside of an outline and not in a hole.
+fn choose(sites: &Sites, around: &Outline, hole: Option<&Outline>) -> Vec<Site> {
     let half_v = around.half_box().1;
     let [left, top, right, bottom] = sites.lit;
     let range = |from: f64, to: f64, low: usize, high: usize| {
@@ -150,7 +151,9 @@ fn choose(sites: &Sites, around: &Outline) -> Vec<Site> {
     let mut chosen = Vec::new();
     for y in range(around.v - half_v, around.v + half_v, top, bottom) {
         let Some((from, to)) = around.chord(y as f64 + 0.5).filter(|_| sites.is_whole(y)) else { continue };
-        for x in range(from - 0.5, to + 0.5, left, right).filter(|x| sites.has(*x, y)) {
+        let hidden = hole.and_then(|hole| hole.chord(y as f64 + 0.5)).unwrap_or((f64::INFINITY, f64::INFINITY));
+        let is_hidden = |x: &usize| (hidden.0..hidden.1).contains(&(*x as f64 + 0.5));
+        for x in range(from - 0.5, to + 0.5, left, right).filter(|x| sites.has(*x, y) && !is_hidden(x)) {
             let (raw, black) = (f64::from(sites.raw(x, y)), sites.sensor.mosaic.black.at(x, y));
             let clipped = raw >= sites.clip;
             chosen.push(Site { x: x as i64, y: y as i64, light: raw - black, black, clipped, kept: true });

@@ -150,6 +150,7 @@ impl CodedPatch {
             code: None,
             code_family: None,
             code_candidates: Vec::new(),
+            inner: None,
             quality: Quality { edge_width: self.blur, ..Quality::default() },
         }
     }

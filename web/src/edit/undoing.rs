@@ -39,6 +39,7 @@ pub fn target(id: u32, u: f64, v: f64) -> Target {
         code: None,
         code_family: None,
         code_candidates: Vec::new(),
+        inner: None,
         quality: Default::default(),
     }
 }

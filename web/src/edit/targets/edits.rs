@@ -22,6 +22,7 @@ fn target(id: u32, u: f64) -> Target {
         code: None,
         code_family: None,
         code_candidates: Vec::new(),
+        inner: None,
         quality: Quality::default(),
     }
 }
