@@ -46,6 +46,7 @@ use normal::BLUR;
 use outline::Outline;
 use pass::{Pass, Soft};
 use picture::character::{APART, Character};
+use picture::dither;
 use picture::noise::{self, Levels};
 use picture::sharpening::{self, Sharpening};
 use picture::softened::Softened;
@@ -56,9 +57,11 @@ pub use whole::{detect_photo, measure_in_photo};
 /// Finds and measures the targets of a picture.
 ///
 /// # Errors
-/// [`Error::Invalid`] for diameters that are not positive finite numbers or stand in the wrong order.
+/// [`Error::Invalid`] for diameters that are not positive finite numbers or stand in the wrong order, and for a picture of two levels whose greys
+/// are patterns of dots.
 pub fn detect(image: &GreyView, options: &DetectOptions) -> Result<Detection> {
     check(options)?;
+    check_levels(image)?;
     let mut detection = match image.samples() {
         SamplesView::U8(samples) => detect_in(Plane::new(image.width(), image.height(), samples), options),
         SamplesView::U16(samples) => detect_in(Plane::new(image.width(), image.height(), samples), options),
@@ -74,6 +77,7 @@ pub fn detect(image: &GreyView, options: &DetectOptions) -> Result<Detection> {
 /// [`Error::Invalid`] for a place outside of the picture, and as for [`detect`].
 pub fn measure_at(image: &GreyView, u: f64, v: f64, options: &DetectOptions) -> Result<Option<Target>> {
     check(options)?;
+    check_levels(image)?;
     check_place(image, u, v)?;
     Ok(match image.samples() {
         SamplesView::U8(samples) => click::measure(Plane::new(image.width(), image.height(), samples), u, v, options),
@@ -87,6 +91,7 @@ pub fn measure_at(image: &GreyView, u: f64, v: f64, options: &DetectOptions) -> 
 /// As for [`measure_at`].
 pub fn measure_all(image: &GreyView, u: f64, v: f64, options: &DetectOptions) -> Result<Vec<MethodResult>> {
     check(options)?;
+    check_levels(image)?;
     check_place(image, u, v)?;
     Ok(match image.samples() {
         SamplesView::U8(samples) => click::compare(Plane::new(image.width(), image.height(), samples), u, v, options),
@@ -111,6 +116,19 @@ fn check_place(image: &GreyView, u: f64, v: f64) -> Result<()> {
                 at: Place::field(name),
             });
         }
+    }
+    Ok(())
+}
+
+/// Error diffusion lays a grey down beside where it was: its edges are a quarter of a pixel off together, which no residual shows.
+fn check_levels(image: &GreyView) -> Result<()> {
+    let (width, height) = (image.width(), image.height());
+    let is_dithered = match image.samples() {
+        SamplesView::U8(samples) => dither::is_dithered(&Plane::new(width, height, samples)),
+        SamplesView::U16(samples) => dither::is_dithered(&Plane::new(width, height, samples)),
+    };
+    if is_dithered {
+        return Err(Error::Invalid { reason: error::Reason::Dithered, at: Place::field("picture") });
     }
     Ok(())
 }

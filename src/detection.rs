@@ -144,7 +144,7 @@ pub struct DetectOptions {
     pub channel: Channel,
     /// Which ring codes are read.
     pub codes: Codes,
-    /// Smallest full axis of a target in pixels.
+    /// Smallest full axis of a target in pixels: its minor axis is no smaller.
     pub min_diameter: f64,
     /// Largest full axis of a target in pixels.
     pub max_diameter: f64,

@@ -933,7 +933,7 @@ export interface DetectOptions {
   channel?: "grey" | "red" | "green" | "blue";
   /** Which ring codes are read; "auto": those of the one family that explains every ring of the photo ["none"] */
   codes?: "none" | CodeFamily | "auto";
-  /** Smallest full axis of a target in pixels [5]. */
+  /** Smallest full axis of a target in pixels, its minor axis [5]. */
   min_diameter?: number;
   /** Largest full axis of a target in pixels [400]. */
   max_diameter?: number;
@@ -952,7 +952,21 @@ export interface Quality {
   /** Safety of the code reading, 0 (a coin toss) to 1; null where no ring was seen. */
   code_margin: number | null;
   /** Why a ring was seen but not read. */
-  code_note: "all_set" | "no_code" | "disturbed" | "between_levels" | "other_family" | "uncertain" | "several_families" | null;
+  code_note: "all_set" | "no_code" | "disturbed" | "between_levels" | "other_family" | "uncertain" | "several_families" | "unread" | null;
+}
+
+/** The inner rim of a donut: pixels, radians; major and minor are the ellipse's full axes. */
+export interface InnerRim {
+  u: number;
+  v: number;
+  sigma_u: number;
+  sigma_v: number;
+  covariance_uv: number;
+  major: number;
+  minor: number;
+  angle: number;
+  /** Whether the two centres differ by more than their standard errors explain (at 0.1 %). */
+  off_centre: boolean;
 }
 
 /** A target of a photo: pixels, radians; major and minor are the ellipse's full axes. */
@@ -974,6 +988,8 @@ export interface Target {
   code_family: CodeFamily | null;
   /** The codes that the ring may be where it is not safely one, and under "auto" those of other families; margin 0 where in doubt. */
   code_candidates: CodeCandidate[];
+  /** The rim of a hole in it: of a donut the outer rim is the target. */
+  inner?: InnerRim;
   quality: Quality;
 }
 

@@ -80,6 +80,10 @@ pub(crate) mod picture {
         COMPRESSED: f64 = 0.12, Judged "what is not compressed shows at most some hundredths by chance";
         /// Standard errors by which borders of blocks stand out of their neighbours.
         CERTAIN: f64 = 4.0, Derived "chance: 3 in 100,000 pictures";
+        /// Samples of a picture of two levels that differ from all four neighbours: their share of the changes along rows, and of all, from
+        /// which they are the dots of a dithering.
+        DOTTED: f64 = 0.15, Derived "thresholds at random make 0.25 of a middle grey, patterns and error diffusion more";
+        DOTS: f64 = 0.005, Judged "specks of a scan are fewer, a grey disc of a hundredth of the picture has as many";
         /// Second differences that are enough where most of the picture is clipped.
         ENOUGH: u64 = 400, Derived "their quartile is good to 9 %";
         /// Most grey levels, and noise, of a drawing without soft edges.

@@ -289,7 +289,7 @@ impl<T: Sample> Measure<'_, T> {
     fn judge(&self, seen: &Outline, fit: &Fit, alike: &Alike) -> Result<(), Reason> {
         let (a, b) = fit.outline.semi_axes();
         let contrast = if alike.bright { fit.contrast } else { -fit.contrast };
-        if 2.0 * a < FIT_SMALL * self.options.min_diameter {
+        if 2.0 * b < FIT_SMALL * self.options.min_diameter {
             return Err(Reason::TooSmall);
         }
         if 2.0 * a > EDGES_LARGE * self.options.max_diameter {

@@ -67,10 +67,19 @@ pub(super) fn read<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64, fami
     let as_is = Around::of(plane, target, blur, size);
     let in_light = bent.as_ref().map(|(part, target)| (part.plane(), target));
     let in_light = in_light.as_ref().map(|(plane, target)| Around::of(plane, target, blur, size));
-    read_tones(families, |design| {
+    let both = |design: Design| {
         let bent = in_light.as_ref().and_then(|around| around.straightest(design));
-        as_is.straightest(design).into_iter().chain(bent).collect()
-    })
+        as_is.straightest(design).into_iter().chain(bent)
+    };
+    let readings = read_tones(families, |design| both(design).collect());
+    if bent.is_none() || readings.iter().any(|reading| matches!(reading, Reading::Code { .. })) {
+        return readings;
+    }
+    // a sharpened rim has another place and another width than the curve alone explains: both as they are in light
+    let Some((part, target)) = light::measured(plane, target) else { return readings };
+    let part = part.plane();
+    let around = Around::of(&part, &target, target.quality.edge_width, size);
+    read_tones(families, |design| both(design).chain(around.straightest(design)).collect())
 }
 
 /// The same in a picture whose levels are a known curve of light, of which `light` is the inverse.

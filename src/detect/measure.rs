@@ -329,7 +329,7 @@ impl<'a, T: Sample> Measure<'a, T> {
         if b < self.options.min_axis_ratio * a {
             return Err(Reason::TooFlat);
         }
-        if 2.0 * a < FIT_SMALL * self.options.min_diameter {
+        if 2.0 * b < FIT_SMALL * self.options.min_diameter {
             return Err(Reason::TooSmall);
         }
         if self.explains(found, &fit) { Ok((fit, surround)) } else { Err(Reason::NotAnEllipse) }

@@ -2,6 +2,7 @@
 //! sharpened; and the picture made of it in which the sharpening is undone.
 
 pub(crate) mod character;
+pub(crate) mod dither;
 pub(crate) mod mean;
 pub(crate) mod noise;
 pub(crate) mod sharpening;

@@ -132,6 +132,7 @@ reasons! {
     NotPixels { name: String, value: Number } => "{name} is {value}; a positive number of pixels is expected";
     AxisRatio { value: Number } => "min_axis_ratio is {value}; a ratio from 0.15 to 1 is expected";
     DiametersSwapped { min_diameter: Number, max_diameter: Number } => "min_diameter {min_diameter} is larger than max_diameter {max_diameter}";
+    Dithered => "the picture has two levels in patterns of dots, which moved its edges by up to half a pixel when it was converted; use it in grey levels";
     Samples { samples: usize, width: usize, height: usize } => "{samples} samples are no picture of {width} x {height} pixels";
 
     // Texts and tables

@@ -38,7 +38,10 @@ mod detect {
     mod coarse;
     mod codes;
     mod compression;
+    mod developed;
+    mod donuts;
     mod formats;
+    mod honest;
     mod light;
     mod ordinary;
     mod panel;
@@ -115,10 +118,12 @@ mod support {
     pub mod camera_model;
     #[allow(dead_code, reason = "the benchmark uses the rest")]
     pub mod coded_patch;
+    pub mod coded_photo;
     pub mod compression;
     pub mod conditions;
     pub mod data;
     pub mod dense;
+    pub mod donuts;
     pub mod epochs;
     pub mod extent;
     pub mod grid_fit;
@@ -128,6 +133,7 @@ mod support {
     pub mod painter;
     pub mod print_shot;
     pub mod seed_document;
+    pub mod textures;
     pub mod tree;
     pub mod trials;
     pub mod wavy;

@@ -7,8 +7,11 @@
 use super::outline_of;
 use super::radial::{contrast, levels};
 use crate::detect::acceptance::code::{TONE, TONE_SMALL};
+use crate::detect::measure::Measure;
+use crate::detect::outline::Outline;
 use crate::detect::part::Part;
-use crate::detection::{Polarity, Target};
+use crate::detect::picture::noise;
+use crate::detection::{DetectOptions, Polarity, Target};
 use crate::image::{Plane, Sample};
 use crate::statistics::distribution::normal_quantile;
 
@@ -33,15 +36,26 @@ pub(in crate::detect) fn of<T: Sample>(
     }
     let aside = -blur * normal_quantile(share);
     let outline = outline_of(target).grown(if target.polarity == Polarity::Bright { -aside } else { aside });
+    let part = part_of(plane, target, light);
+    let target =
+        in_part(&part, target, Outline { u: target.u - part.left as f64, v: target.v - part.top as f64, ..outline });
+    Some((part, target))
+}
+
+/// The part of a picture that holds a target and its ring, in light.
+fn part_of<T: Sample>(plane: &Plane<T>, target: &Target, light: impl Fn(f64) -> f64) -> Part<u16> {
     let Part { left, top, width, height, samples } =
         Part::of(plane, target.u, target.v, (WINDOW.0 * target.major) as usize + WINDOW.1);
     let samples = in_light(&samples, |level| (WHITE * light(f64::from(level))).round() as u16);
-    let part = Part { left, top, width, height, samples };
+    Part { left, top, width, height, samples }
+}
+
+/// The target with an outline of that part.
+fn in_part(part: &Part<u16>, target: &Target, outline: Outline) -> Target {
     let (a, b, angle) = outline.axes();
-    let (u, v) = (target.u - left as f64, target.v - top as f64);
-    let mut target = Target { u, v, major: 2.0 * a, minor: 2.0 * b, angle, ..target.clone() };
+    let mut target = Target { u: outline.u, v: outline.v, major: 2.0 * a, minor: 2.0 * b, angle, ..target.clone() };
     target.contrast = contrast(&part.plane(), &target);
-    Some((part, target))
+    target
 }
 
 /// Samples through a curve, of which a table is made where that is less work.
@@ -55,8 +69,26 @@ fn in_light<T: Sample>(samples: &[T], curve: impl Fn(u32) -> u16) -> Vec<u16> {
     levels().map(curve).collect()
 }
 
+/// Light of a level by the curve that cameras follow about.
+fn screen<T: Sample>(level: f64) -> f64 {
+    (level / f64::from(T::MAX)).max(0.0).powf(TONE)
+}
+
 /// The same where a camera's curve may have bent the levels; none where the target is too large for a difference.
 pub(super) fn of_screen<T: Sample>(plane: &Plane<T>, target: &Target, blur: f64) -> Option<(Part<u16>, Target)> {
-    let light = |level: f64| (level / f64::from(T::MAX)).max(0.0).powf(TONE);
-    (target.minor <= TONE_SMALL).then(|| of(plane, target, blur, light)).flatten()
+    (target.minor <= TONE_SMALL).then(|| of(plane, target, blur, screen::<T>)).flatten()
+}
+
+/// The same with outline and blur from the edges that the dot has in light: what a sharpening after the curve does to them no curve tells.
+/// None where there are none.
+pub(super) fn measured<T: Sample>(plane: &Plane<T>, target: &Target) -> Option<(Part<u16>, Target)> {
+    let part = part_of(plane, target, screen::<T>);
+    let outline = outline_of(target);
+    let start = Outline { u: outline.u - part.left as f64, v: outline.v - part.top as f64, ..outline };
+    let options = DetectOptions { min_diameter: 1.0, max_diameter: WHITE, ..DetectOptions::default() };
+    let mut measure = Measure::new(part.plane(), noise::levels(&part.plane()), &options);
+    let found = measure.confirm(&start, target.polarity == Polarity::Bright).ok()?;
+    let mut target = in_part(&part, target, found.ellipse.outline);
+    target.quality.edge_width = found.blur;
+    Some((part, target))
 }

@@ -41,8 +41,8 @@ pub(crate) fn drop_parts(detection: &mut Detection, family: Option<Family>) {
     take_out(detection, is_part);
 }
 
-/// Takes out what stands where a ring that was not read has its sectors, and says so of the dot: two or more ellipses of its colour in the
-/// middle of a ring of some design and about as wide as that. One alone may be any neighbour.
+/// Takes out what stands where a ring that was not read has its sectors, and says so of the dot: two or more ellipses in the
+/// middle of a ring of some design and about as wide as that. One alone may be any neighbour, unless the ring itself was seen.
 pub(crate) fn drop_sectors(detection: &mut Detection) {
     let all = &detection.targets;
     let mut sectors = vec![false; all.len()];
@@ -51,16 +51,17 @@ pub(crate) fn drop_sectors(detection: &mut Detection) {
         let own = outline_of(dot);
         let is_sector = |other: &usize, design: Design| {
             let target = &all[*other];
-            let alike = target.polarity == dot.polarity
-                && target.contrast > SECTOR_CONTRAST * dot.contrast
-                && dot.contrast > SECTOR_CONTRAST * target.contrast;
+            // between two sectors the ground is an ellipse too
+            let alike =
+                target.contrast > SECTOR_CONTRAST * dot.contrast && dot.contrast > SECTOR_CONTRAST * target.contrast;
             *other != k && target.code.is_none() && alike && is_in_ring(&own, &outline_of(target), design)
         };
         // the design of which there are more: their rings overlap
         let found = [Design::Schneider, Design::Metashape]
             .map(|design| (0..all.len()).filter(|other| is_sector(other, design)).collect::<Vec<_>>());
         let found = found.into_iter().max_by_key(Vec::len).unwrap_or_default();
-        if found.len() >= SECTORS {
+        let is_ring = dot.quality.code_note.is_some() || !dot.code_candidates.is_empty();
+        if !found.is_empty() && (is_ring || found.len() >= SECTORS) {
             found.into_iter().for_each(|sector| sectors[sector] = true);
             dots.push(k);
         }

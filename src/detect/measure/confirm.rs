@@ -157,7 +157,7 @@ impl<T: Sample> Measure<'_, T> {
         if b < self.options.min_axis_ratio * a {
             return Err(Reason::TooFlat);
         }
-        if 2.0 * a < EDGES_SMALL * self.options.min_diameter {
+        if 2.0 * b < EDGES_SMALL * self.options.min_diameter {
             return Err(Reason::TooSmall);
         }
         if 2.0 * a > EDGES_LARGE * self.options.max_diameter {

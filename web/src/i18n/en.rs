@@ -290,6 +290,10 @@ declare! { desk {
     code_other_family: "its sectors may be those of another family, or dots around it";
     code_uncertain: "its ring may look like a code by chance: it is small, blurred or a single arc";
     code_several_families: "it is a code of several families";
+    code_unread: "two or more ellipses stand where a ring has its sectors; they are no targets";
+    inner_rim: "inner rim, distance of the centres";
+    inner_rim_centred: "the centres agree";
+    inner_rim_off: "the centres differ by more than their standard errors; the outer rim counts";
     picture_sharpened(percent, radius): "sharpened by {percent} % (radius {radius} px), undone where that hides targets";
     picture_overexposed(percent): "{percent} % over-exposed, left out of the fits";
     picture_black(percent): "{percent} % without light, where nothing shows";

@@ -275,6 +275,10 @@ translate! { Korean desk {
     code_other_family: "다른 코드 종류의 구획이거나 둘레에 놓인 점일 수 있음";
     code_uncertain: "링이 작거나 흐리거나 호 하나뿐이어서 우연히 코드처럼 보일 수 있음";
     code_several_families: "여러 종류의 코드에 해당함";
+    code_unread: "링의 구획이 있을 자리에 타원이 둘 이상 있음. 이 타원들은 표적으로 보지 않음";
+    inner_rim: "안쪽 테두리, 중심 간 거리";
+    inner_rim_centred: "두 중심이 일치함";
+    inner_rim_off: "두 중심의 차이가 표준오차보다 큼. 바깥 테두리를 씀";
     picture_sharpened(percent, radius): "선명화 {percent} %(반경 {radius} px), 이 때문에 표적이 가려지는 곳은 되돌려 측정함";
     picture_overexposed(percent): "밝은 쪽 포화 {percent} %, 적합에서 제외함";
     picture_black(percent): "어두운 쪽 포화 {percent} %, 그곳에서는 아무것도 보이지 않음";

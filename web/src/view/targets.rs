@@ -295,6 +295,11 @@ pub fn TargetDetails() -> impl IntoView {
                             view! { <dt>{text::code_candidates}</dt><dd data-result="code-candidates">{words}</dd> }
                         })}
                         {t.quality.code_note.map(|note| view! { <dt>{text::code_not_read}</dt><dd data-result="code-note">{move || code_note(note)}</dd> })}
+                        {t.inner.map(|inner| {
+                            let words = if inner.off_centre { text::inner_rim_off() } else { text::inner_rim_centred() };
+                            let apart = format::fixed((inner.u - t.u).hypot(inner.v - t.v), 2);
+                            view! { <dt>{text::inner_rim}</dt><dd data-result="inner-rim">{format!("{} × {} px, {apart} px: {words}", format::fixed(inner.major, 1), format::fixed(inner.minor, 1))}</dd> }
+                        })}
                         <dt>{text::edge_width}</dt><dd>{format!("{} px", format::fixed(t.quality.edge_width, 2))}</dd>
                     </dl>
                 }.into_any()
@@ -321,6 +326,7 @@ fn code_note(note: CodeNote) -> &'static str {
         CodeNote::OtherFamily => text::code_other_family(),
         CodeNote::Uncertain => text::code_uncertain(),
         CodeNote::SeveralFamilies => text::code_several_families(),
+        CodeNote::Unread => text::code_unread(),
     }
 }
 
