@@ -5,7 +5,7 @@
 //! confirms them: sub-pixel edges, a robust ellipse through them ([`ellipse`] is the shape itself), the grey levels around.
 //! [`rendered`] measures the centre by the fit of a rendered ellipse, or [`centroid`] by a classical operator; [`measure`] leads
 //! from one to the next, [`pass`](mod@pass) through a whole picture. Rings around a target are read as codes ([`code`]). In ordinary
-//! photos [`alike`] finds more by what the targets found have in common. What decides is one table, [`acceptance`]. A room uses those
+//! photos [`alike`] finds more by what the targets found have in common. [`rims`] makes donuts of those that are holes. What decides is one table, [`acceptance`]. A room uses those
 //! before it, never the reverse. [`whole`] goes around what a damaged file does not give, [`sites`] measures on a sensor's own samples,
 //! [`colours`] red and blue beside green.
 

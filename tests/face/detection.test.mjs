@@ -102,6 +102,19 @@ test('small files that claim much are refused, and profiles are not unpacked, be
   assert.ok(memory() - before < 16 << 20, `${(memory() - before) >> 20} MB`);
 });
 
+test('the outer rim of a donut is the target, its hole a property', () => {
+  const outer = disc(90, 80, 45.3, 39.8, 22, 8);
+  const hole = disc(90, 80, 46.1, 39.8, 8, 8);
+  const samples = outer.map((level, i) => level - hole[i] + 40);
+  const { targets } = sightline.detectGray(90, 80, samples);
+  assert.equal(targets.length, 1);
+  const [{ u, v, major, inner }] = targets;
+  assert.ok(Math.hypot(u - 45.3, v - 39.8) < 0.02 && Math.abs(major - 44) < 0.2, `${u}, ${v}, ${major}`);
+  assert.ok(Math.hypot(inner.u - 46.1, inner.v - 39.8) < 0.03 && Math.abs(inner.major - 16) < 0.2, JSON.stringify(inner));
+  assert.equal(inner.off_centre, true);
+  assert.equal(sightline.detectGray(80, 60, disc(80, 60, 41.3, 28.8, 9.5, 8)).targets[0].inner, undefined);
+});
+
 test('what is rejected is shown where it is, with its reason', () => {
   const detected = () => {
     const samples = disc(120, 60, 31.3, 28.8, 9.5, 8);

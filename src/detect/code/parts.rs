@@ -82,7 +82,9 @@ fn is_in_ring(dot: &Outline, sector: &Outline, design: Design) -> bool {
     let (middle, width) = ((inner + outer) / 2.0, outer - inner);
     let [x, y] = dot.normalised(sector.u, sector.v);
     let radius = x.hypot(y);
-    if (radius - middle).abs() > SECTOR_MIDDLE * width {
+    let (a, b) = dot.semi_axes();
+    let [share, pixels] = SECTOR_MIDDLE;
+    if (radius - middle).abs() > share * width + pixels * middle / (a * b).sqrt() {
         return false;
     }
     // half of what it measures along the ray: |A' n| of its rim A (cos t, sin t)', with n the gradient of the dot's radius
@@ -104,7 +106,7 @@ pub(crate) fn keep_ringed(detection: &mut Detection, range: Range<usize>, family
 
 /// Puts discs into the place of the spots in their centres, where a code shows that the disc is the target.
 ///
-/// Of concentric outlines detection takes the inner one. The outer ones of tiny ones come here as `grounds`: they were read
+/// Of concentric outlines the search takes the inner one. The outer ones of tiny ones come here as `grounds`: they were read
 /// together with the targets, which they follow from index `from` on.
 pub(crate) fn settle_grounds(detection: &mut Detection, from: usize, family: Option<Family>) {
     let grounds = detection.targets.split_off(from.min(detection.targets.len()));

@@ -2,7 +2,7 @@
 //!
 //! The levels of the search and the two picture sizes meet the same target again; parts of an outline lead to the same
 //! ellipse; specks lie inside of targets. Everything decided is entered into a grid of cells, and a candidate is compared
-//! with its neighbours only. Of concentric outlines the inner one is the target, the outer one is what it is printed on.
+//! with its neighbours only. Of concentric outlines the inner one is kept: from it the outer rim of a donut is found (`detect/rims.rs`).
 
 use super::blob::NoBlob;
 use crate::detect::acceptance::code::SPOT;

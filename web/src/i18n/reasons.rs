@@ -252,7 +252,7 @@ pub fn reason(reason: &Reason) -> String {
         }
         R::DamagedRow { value } => return format!("v가 {value}입니다. 손상된 파일에서 읽지 못한 행입니다"),
         R::Dithered => {
-            "두 가지 밝기만의 점무늬(디더링)로 명암을 나타낸 사진입니다. 변환하면서 경계가 최대 0.5픽셀 옮겨졌으므로 회색조 원본을 쓰십시오".into()
+            "두 가지 밝기만의 점무늬(디더링)로 명암을 나타낸 사진입니다. 변환하면서 경계가 최대 0.5화소 옮겨졌으므로 회색조 원본을 쓰십시오"
         }
         R::AxisRatio { value } => {
             return told("최소 축비가 {value}입니다. 0.15 이상 1 이하여야 합니다", &[("value", value)]);
