@@ -81,7 +81,9 @@ table! {
     SECTORS: usize = 2, Judged "one may be any neighbour: a click away from a dot stands another";
     SECTOR_CONTRAST: f64 = 0.5, Judged "blur and a tone curve leave half of a thin sector's contrast";
     SECTOR_MIDDLE: [f64; 2] = [0.2, 0.6], Measured "sectors found in developed photos lie within 0.1 of the middle; a tone curve moves the rim of a dot of 6 px by up to 0.6 px";
-    SECTOR_WIDTH: std::ops::Range<f64> = 0.65..1.45, Judged "a sharpening or a tone curve makes sectors narrower or wider by a quarter";
+    SECTOR_WIDTH: std::ops::Range<f64> = 0.8..1.2, Measured "sectors found in developed photos have 0.85 to 1.15";
+    /// Largest area of such an ellipse, in that of the dot.
+    SECTOR_AREA: f64 = 0.65, Judged "neighbours of one size and of axis ratios from 0.7 have more, where they nearly touch they stand as far as a ring";
     /// Largest size of the spot in the centre of a code's dot, in radii of the dot.
     SPOT: f64 = 0.16, Judged "0.09 by its maker, and what blur adds";
     /// Power of the level that is light again, and the least axis of a dot in pixels from which that makes no difference.

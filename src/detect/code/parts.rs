@@ -3,7 +3,9 @@
 use std::ops::Range;
 
 use super::outline_of;
-use crate::detect::acceptance::code::{BEYOND, SECTOR_CONTRAST, SECTOR_MIDDLE, SECTOR_WIDTH, SECTORS, SPOT};
+use crate::detect::acceptance::code::{
+    BEYOND, SECTOR_AREA, SECTOR_CONTRAST, SECTOR_MIDDLE, SECTOR_WIDTH, SECTORS, SPOT, TONE_SMALL,
+};
 use crate::detect::outline::Outline;
 use crate::detect::search::census::forget_rejected;
 use crate::detection::{CodeCandidate, CodeNote, Detection, Reason, Rejected, Target};
@@ -47,7 +49,8 @@ pub(crate) fn drop_sectors(detection: &mut Detection) {
     let all = &detection.targets;
     let mut sectors = vec![false; all.len()];
     let mut dots = Vec::new();
-    for (k, dot) in all.iter().enumerate() {
+    // the rings of large dots are read, and what stands around them is as far apart
+    for (k, dot) in all.iter().enumerate().filter(|(_, dot)| dot.minor <= TONE_SMALL) {
         let own = outline_of(dot);
         let is_sector = |other: &usize, design: Design| {
             let target = &all[*other];
@@ -76,13 +79,16 @@ pub(crate) fn drop_sectors(detection: &mut Detection) {
     take_out(detection, |_| sectors.next().unwrap_or_default());
 }
 
-/// Whether an ellipse may be a sector of the ring around a dot: in its middle, and as far across as the ring.
+/// Whether an ellipse may be a sector of the ring around a dot: in its middle, as far across as the ring, and smaller than a neighbour alike.
 fn is_in_ring(dot: &Outline, sector: &Outline, design: Design) -> bool {
     let [inner, outer] = design.ring();
     let (middle, width) = ((inner + outer) / 2.0, outer - inner);
     let [x, y] = dot.normalised(sector.u, sector.v);
     let radius = x.hypot(y);
-    let (a, b) = dot.semi_axes();
+    let ((a, b), (own_a, own_b)) = (dot.semi_axes(), sector.semi_axes());
+    if own_a * own_b > SECTOR_AREA * a * b {
+        return false;
+    }
     let [share, pixels] = SECTOR_MIDDLE;
     if (radius - middle).abs() > share * width + pixels * middle / (a * b).sqrt() {
         return false;
@@ -91,7 +97,8 @@ fn is_in_ring(dot: &Outline, sector: &Outline, design: Design) -> bool {
     let det = dot.p * dot.q - dot.r * dot.r;
     let [nx, ny] = [(dot.q * x - dot.r * y) / (radius * det), (dot.p * y - dot.r * x) / (radius * det)];
     let half = (sector.p * nx + sector.r * ny).hypot(sector.r * nx + sector.q * ny);
-    SECTOR_WIDTH.contains(&(2.0 * half / width))
+    // both by the same factor where the dot is measured too large or too small
+    SECTOR_WIDTH.contains(&(2.0 * half / width * middle / radius))
 }
 
 /// Leaves of the targets in this range only those with a ring that is read, or may be, as a code; how many.

@@ -149,9 +149,9 @@ fn sectors_of_an_unread_ring_are_no_targets() {
         let turn = random.within(0.0, 6.28);
         for k in 0..count {
             let (s, c) = (turn + 6.283 * (2 * k) as f64 / 12.0).sin_cos();
-            let radius = 0.5 * width * a * random.within(0.8, 1.0);
+            let radius = 0.5 * width * a * random.within(0.9, 1.05);
             let [u, v] = [dot.u + middle * a * c, dot.v + middle * a * s];
-            canvas.add(&Spot { u, v, a: radius, b: 0.9 * radius, angle: 0.0, contrast: 0.9 * contrast }, 0.8);
+            canvas.add(&Spot { u, v, a: radius, b: 0.97 * radius, angle: 0.0, contrast: 0.9 * contrast }, 0.8);
         }
         for codes in [Codes::None, Codes::Auto] {
             let detection = found(&canvas.expose(1.5, seed), &DetectOptions { codes, ..DetectOptions::default() });

@@ -52,7 +52,8 @@ struct Sums {
 
 impl Sums {
     fn add(&mut self, picture: &Grey, method: Method, spots: &[Spot], directions: &[[f64; 2]]) {
-        let options = DetectOptions { method, codes: Codes::None, ..DetectOptions::default() };
+        // ellipses of 6 px are as flat as 0.7
+        let options = DetectOptions { method, codes: Codes::None, min_diameter: 4.0, ..DetectOptions::default() };
         let found = detect(&picture.view().expect("a picture"), &options).expect("valid options");
         assert_eq!(found.picture.white_noise_assumed, method != Method::LeastSquares);
         let found = found.targets;

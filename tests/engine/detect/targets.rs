@@ -5,6 +5,7 @@ use crate::support::data::{data, text};
 use crate::support::painter::{Canvas, Spot, Uniform};
 use sightline::detect::{detect, measure_all, measure_at};
 use sightline::detection::{Channel, Codes, DetectOptions, Detection, Method, Polarity, Target};
+use sightline::error::Reason;
 use sightline::image::{Grey, GreyView, Samples, SamplesView};
 use sightline::{Error, decode};
 
@@ -276,7 +277,12 @@ fn no_picture_and_no_option_makes_it_fail() {
         let words: Vec<u16> = levels.iter().map(|level| (65535.0 * level) as u16).collect();
         for samples in [SamplesView::U8(&bytes), SamplesView::U16(&words)] {
             let view = GreyView::new(width, height, samples).expect("as many as its size says");
-            let found = detect(&view, &options).expect("valid options");
+            let found = match detect(&view, &options) {
+                Ok(found) => found,
+                // of two levels at random
+                Err(Error::Invalid { reason: Reason::Dithered, .. }) => continue,
+                Err(error) => panic!("valid options: {error}"),
+            };
             for t in &found.targets {
                 let numbers = [t.u, t.v, t.sigma_u, t.sigma_v, t.covariance_uv, t.major, t.minor, t.angle, t.contrast];
                 assert!(numbers.iter().all(|x| x.is_finite()), "{t:?}");
