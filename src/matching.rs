@@ -4,6 +4,7 @@ mod cluster;
 mod coded;
 mod epipolar;
 mod epipolar_line;
+mod grid;
 mod gross;
 mod join;
 mod photo;
@@ -16,6 +17,9 @@ mod uncoded;
 use serde::{Deserialize, Serialize};
 
 pub use coded::{Coded, name_coded};
+pub use grid::{
+    Board, BoardKind, GridNaming, GridOptions, GridOrientation, NamedGrid, Unnamed, UnnamedReason, name_grid,
+};
 pub use gross::{Cleaned, disagreeing, without_gross_errors};
 pub use predict::{EpipolarLine, PhotoPrediction, PredictOptions, Prediction, predict};
 pub use snap::{Mark, Snapped, Unsnapped, UnsnappedReason, snap};

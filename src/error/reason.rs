@@ -58,6 +58,11 @@ reasons! {
     ColoursWithoutDistance => "the colours of a lens are told by its principal distance, which is not known yet: orient or adjust first";
     ColoursBeyondModel { left_px: Number } => "the camera model leaves {left_px} pixels of the aberration: the distortion folds in the picture, or is no lens's";
 
+    // Boards of dots
+    BoardSize { given: u32, needed: u32 } => "{given} is given; a board has at least {needed} here, and at most 10000 dots";
+    BoardPitch => "the pitch of a board is greater than 0";
+    BoardDiameter => "the diameter of a board's dots is greater than 0 and less than their distance";
+
     // Equipment
     NoEquipment { message: String } => "this is no equipment of Sightline: {message}";
     EquipmentVersion { version: u32 } => "the equipment has version {version} and this program reads version 1: open it with a newer one";

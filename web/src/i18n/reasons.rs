@@ -31,6 +31,11 @@ pub fn reason(reason: &Reason) -> String {
         R::EquipmentTooLong { megabytes } => {
             return format!("장비 파일은 {megabytes} MB까지 읽는데, 이 파일은 더 큽니다");
         }
+        R::BoardSize { given, needed } => {
+            return format!("{given}을(를) 주었습니다. 여기에는 {needed} 이상이 필요하고, 판의 원은 모두 10000개까지입니다");
+        }
+        R::BoardPitch => "판의 원 간격은 0보다 커야 합니다",
+        R::BoardDiameter => "판의 원 지름은 0보다 크고 원 사이 거리보다 작아야 합니다",
         R::BarIncomplete => "축척 막대에는 이름과 두 끝점, 단위가 있어야 합니다",
         R::Format { format, version } => {
             return format!("형식 \"{format}\" 버전 {version}입니다. 여기서는 \"sightline\" 버전 1을 읽습니다");
