@@ -112,6 +112,15 @@ impl Board {
         }
     }
 
+    /// Whether a site is above, below, left or right of all dots.
+    pub(super) fn sides(&self, [p, q]: Site) -> [bool; 4] {
+        let (x, y, last) = match self.kind {
+            BoardKind::Symmetric => (p, q, self.columns as i32 - 1),
+            BoardKind::Asymmetric => (p - q, p + q, 2 * self.columns as i32 - 1),
+        };
+        [y < 0, y >= self.rows as i32, x < 0, x > last]
+    }
+
     /// Sites of all dots, row by row.
     pub(super) fn sites(&self) -> impl Iterator<Item = Site> + '_ {
         (0..self.rows).flat_map(move |row| (0..self.columns).map(move |column| self.site([row, column])))

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::board::Site;
 use super::local::{Predicted, predict, shortest};
 use crate::detection::Target;
+use crate::initial::robust::quantile;
 
 /// Fewest dots of a lattice that are taken for a board's: fewer stand in rows by chance.
 pub(super) const FEWEST: usize = 9;
@@ -24,6 +25,11 @@ const FURTHEST: f64 = 0.25;
 /// once all its neighbours are placed.
 const SIGMAS: f64 = 4.0;
 const ASTRAY: f64 = 0.12;
+/// Distance from the prediction in its standard errors, and logarithm of the ratio of a dot's size to that of the others: as multiples of the
+/// median of the lattice, at least these numbers. Without them clutter takes the places of hidden dots.
+const TYPICAL: f64 = 6.0;
+const OFF: f64 = 0.8;
+const SIZE_OFF: f64 = 0.08;
 /// Largest share of dots of a lattice that are removed, and of cells with a dot of the same kind inside.
 const REMOVED: f64 = 0.2;
 const FILLED: f64 = 0.1;
@@ -43,7 +49,8 @@ pub(super) struct Lattice {
 }
 
 struct Seed {
-    misfit: f64,
+    /// Area of a cell over that of its dot.
+    cell: f64,
     target: usize,
     steps: [[f64; 2]; 2],
 }
@@ -81,7 +88,8 @@ impl<'a> Pool<'a> {
     /// All lattices of at least [`FEWEST`] dots, each target in one of them at most, the first found first.
     pub fn lattices(&self) -> Vec<Lattice> {
         let mut seeds: Vec<Seed> = self.order.iter().filter_map(|&k| self.seed(k)).collect();
-        seeds.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
+        // the smallest cells first, for their size: steps over several dots are those of a part of the lattice
+        seeds.sort_by(|a, b| a.cell.total_cmp(&b.cell));
         let mut used: BTreeSet<usize> = BTreeSet::new();
         let mut found = Vec::new();
         for seed in seeds {
@@ -115,19 +123,19 @@ impl<'a> Pool<'a> {
         near.truncate(count);
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         // the step is the mean of both sides
-        let mut both: Vec<(f64, [f64; 2])> = Vec::new();
+        let mut both: Vec<[f64; 2]> = Vec::new();
         for (length, step) in &near {
             let across = |(_, other): &(f64, [f64; 2])| ((other[0] + step[0]).hypot(other[1] + step[1]) / length, *other);
             let opposite = near.iter().map(across).min_by(|a, b| a.0.total_cmp(&b.0))?;
             if opposite.0 < OPPOSITE {
-                both.push((opposite.0, [0.5 * (step[0] - opposite.1[0]), 0.5 * (step[1] - opposite.1[1])]));
+                both.push([0.5 * (step[0] - opposite.1[0]), 0.5 * (step[1] - opposite.1[1])]);
             }
         }
-        let (first, a) = *both.first()?;
+        let a = *both.first()?;
         let sine = |b: [f64; 2]| (a[0] * b[1] - a[1] * b[0]) / (a[0].hypot(a[1]) * b[0].hypot(b[1]));
-        let (second, b) = *both.iter().find(|(_, b)| sine(*b).abs() > 0.4)?;
+        let b = *both.iter().find(|b| sine(**b).abs() > 0.4)?;
         let b = if sine(b) > 0.0 { b } else { [-b[0], -b[1]] };
-        Some(Seed { misfit: first.max(second), target, steps: [a, b] })
+        Some(Seed { cell: (a[0] * b[1] - a[1] * b[0]) / (own * own), target, steps: [a, b] })
     }
 
     fn grown(&self, seed: &Seed, used: &BTreeSet<usize>) -> Option<Lattice> {
@@ -158,6 +166,7 @@ impl<'a> Pool<'a> {
                 return None;
             }
         }
+        lattice.remove_unlike(self);
         (lattice.dots.len() >= FEWEST && lattice.spans() && lattice.filled(self, &taken) <= FILLED).then_some(lattice)
     }
 
@@ -241,6 +250,30 @@ impl Lattice {
         worst.map(|(_, site, dot)| (site, dot))
     }
 
+    /// Removes the dots that are further from their places, or of another size, than the others of the lattice are.
+    fn remove_unlike(&mut self, pool: &Pool) {
+        let each: Vec<(Site, f64, f64)> = self
+            .dots
+            .iter()
+            .filter_map(|(site, k)| {
+                let (p, t) = (self.predicted(*site)?, &pool.targets[*k]);
+                let [a, b] = p.steps;
+                let off = (t.u - p.place[0]).hypot(t.v - p.place[1]) / p.sigma_px;
+                Some((*site, off, (size(t) / (a[0] * b[1] - a[1] * b[0]).abs().sqrt()).ln()))
+            })
+            .collect();
+        let median = |of: &dyn Fn(&(Site, f64, f64)) -> f64| quantile(&each.iter().map(of).collect::<Vec<_>>(), 0.5);
+        let usual = median(&|e| e.2);
+        let farthest = (TYPICAL * median(&|e| e.1)).max(OFF);
+        let widest = (TYPICAL * median(&|e| (e.2 - usual).abs())).max(SIZE_OFF);
+        for (site, off, ratio) in each {
+            if off > farthest || (ratio - usual).abs() > widest {
+                self.dots.remove(&site);
+                self.places.remove(&site);
+            }
+        }
+    }
+
     /// Whether it has at least two steps of extent in both directions.
     fn spans(&self) -> bool {
         (0..2).all(|k| {
@@ -251,20 +284,24 @@ impl Lattice {
 
     /// Share of the cells that have a dot of the same kind inside: much of it, and the steps are twice those of the board.
     fn filled(&self, pool: &Pool, taken: &BTreeSet<usize>) -> f64 {
-        let (mut cells, mut filled) = (0, 0);
+        let (mut cells, mut filled) = (0_u32, 0_u32);
         for (site, dot) in &self.dots {
             let corners = [[1, 0], [0, 1], [1, 1]].map(|[p, q]| self.places.get(&[site[0] + p, site[1] + q]));
             let ([u, v], [Some(a), Some(b), Some(c)]) = (self.places[site], corners) else { continue };
             cells += 1;
-            let spots = [
-                [0.25 * (u + a[0] + b[0] + c[0]), 0.25 * (v + a[1] + b[1] + c[1])],
-                [0.5 * (u + a[0]), 0.5 * (v + a[1])],
-                [0.5 * (u + b[0]), 0.5 * (v + b[1])],
-            ];
-            let radius = 0.15 * shortest([[a[0] - u, a[1] - v], [b[0] - u, b[1] - v]]);
-            let one = |at: &[f64; 2]| pool.near(*at, radius).iter().any(|(_, k)| pool.fits(*k, *dot, taken));
-            filled += usize::from(spots.iter().any(one));
+            let (p, q) = ([a[0] - u, a[1] - v], [b[0] - u, b[1] - v]);
+            let area = p[0] * q[1] - p[1] * q[0];
+            let middle = [0.25 * (u + a[0] + b[0] + c[0]), 0.25 * (v + a[1] + b[1] + c[1])];
+            let radius = 0.5 * (p[0] + q[0]).hypot(p[1] + q[1]).max((p[0] - q[0]).hypot(p[1] - q[1]));
+            let inside = |k: usize| {
+                let x = [pool.targets[k].u - u, pool.targets[k].v - v];
+                let [s, t] = [(x[0] * q[1] - x[1] * q[0]) / area, (p[0] * x[1] - p[1] * x[0]) / area];
+                let corner = |s: f64| s.min(1.0 - s).abs() < 0.2;
+                (-0.1..1.1).contains(&s) && (-0.1..1.1).contains(&t) && !(corner(s) && corner(t))
+            };
+            let one = pool.near(middle, radius).iter().any(|(_, k)| inside(*k) && pool.fits(*k, *dot, taken));
+            filled += u32::from(one);
         }
-        filled as f64 / f64::from(cells.max(1)).max(1.0)
+        f64::from(filled) / f64::from(cells.max(1))
     }
 }

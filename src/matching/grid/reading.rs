@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::board::Board;
+use super::board::{Board, Site};
 use super::growth::{FEWEST, Lattice, Pool, size};
 use super::local::predict;
 use super::outcome::UnnamedReason;
@@ -13,6 +13,9 @@ use crate::initial::robust::quantile;
 
 /// Largest ratio of the diameters of the dots, seen and given; and of two lattices' ratios of dot and step that may be of one board.
 const DIAMETERS: f64 = 1.3;
+/// Share of the board's dots, and of the ground beside one of its sides, that has to be seen where another grid may be the board too.
+const MOST: f64 = 0.75;
+const SIDE: f64 = 0.25;
 /// Distance of a target from the place of the corner mark, in steps.
 const MARK: f64 = 0.35;
 
@@ -34,7 +37,25 @@ struct Candidate<'a> {
     pool: &'a Pool<'a>,
     /// Diameter of a dot in steps.
     ratio: f64,
+    ground: BTreeMap<Site, bool>,
     placed: Placed,
+}
+
+impl Candidate<'_> {
+    /// Whether most of the board is seen, and ground without dots beside each of its sides: a larger grid that the photo cuts to the
+    /// board's size has none on one of them.
+    fn ends(&self, placement: &Placement, board: &Board) -> bool {
+        let dots = self.lattice.dots.keys().filter(|site| board.dot(placement.of(**site)).is_some()).count();
+        let mut sides = [(0, 0); 4];
+        for (site, shown) in &self.ground {
+            for (side, (seen, all)) in board.sides(placement.of(*site)).into_iter().zip(&mut sides) {
+                *all += usize::from(side);
+                *seen += usize::from(side && *shown);
+            }
+        }
+        dots as f64 >= MOST * board.dots() as f64
+            && sides.iter().all(|(seen, all)| *seen > 0 && *seen as f64 >= SIDE * *all as f64)
+    }
 }
 
 /// Finds the board among the targets of a photo of `size` pixels.
@@ -49,7 +70,7 @@ pub(super) fn read(targets: &[Target], photo_size: Option<[u32; 2]>, board: &Boa
         for lattice in pool.lattices() {
             let ground = ground(&lattice, pool, photo_size);
             let placed = place(&lattice, pool, board, &ground);
-            candidates.push(Candidate { ratio: ratio(&lattice, pool), lattice, pool, placed });
+            candidates.push(Candidate { ratio: ratio(&lattice, pool), lattice, pool, ground, placed });
         }
     }
     candidates.sort_by_key(|c| std::cmp::Reverse(c.lattice.dots.len()));
@@ -83,6 +104,11 @@ fn decide(candidates: &[Candidate], dots: usize, board: &Board) -> Result<Readin
     let Placed::There(placement, by_border) = candidate.placed else {
         return Err(UnnamedReason::NotThisBoard { dots });
     };
+    let others = candidates.iter().filter(|c| !std::ptr::eq(*c, candidate));
+    let rivals = others.filter(|c| !matches!(c.placed, Placed::NotThisBoard)).count();
+    if rivals > 0 && !candidate.ends(&placement, board) {
+        return Err(UnnamedReason::SeveralBoards { count: 1 + rivals });
+    }
     // where something crosses the board, what lies beyond is a lattice of its own, and the gap is no end of the board
     let similar = |c: &&Candidate| c.ratio < DIAMETERS * candidate.ratio && candidate.ratio < DIAMETERS * c.ratio;
     let pieces = candidates.iter().filter(similar).count();

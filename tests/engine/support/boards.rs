@@ -200,7 +200,7 @@ pub fn view(board: &Board, diameter: f64, camera: Camera, trouble: Trouble, seed
             truth.push(Some(*dot));
         }
         if trouble.second {
-            second(&camera, &pose, board, diameter, &mut random, &mut targets);
+            second(&camera, &pose, board, &mut random, &mut targets);
         }
         // nothing stands on the board itself
         let clear = |targets: &[Target], u: f64, v: f64| targets.iter().all(|t| (t.u - u).hypot(t.v - v) > 0.8 * (t.major + t.minor));
@@ -222,10 +222,12 @@ pub fn view(board: &Board, diameter: f64, camera: Camera, trouble: Trouble, seed
 }
 
 /// Dots of another board in the same plane, beside the first one.
-fn second(camera: &Camera, pose: &Pose, first: &Board, diameter: f64, random: &mut Uniform, targets: &mut Vec<Target>) {
-    let (mut other, _) = random_board(random);
-    other.pitch = first.pitch * random.between(0.6, 1.6);
+fn second(camera: &Camera, pose: &Pose, first: &Board, random: &mut Uniform, targets: &mut Vec<Target>) {
+    let (mut other, own) = random_board(random);
+    let other_pitch = first.pitch * random.between(0.6, 1.6);
+    other.pitch = other_pitch;
     let last = place(first, [first.rows - 1, first.columns - 1]);
+    let diameter = own * random.between(0.7, 1.2) * other_pitch / first.pitch;
     let gap = 3.0 * first.pitch + 2.0 * diameter;
     let side = random.between(0.0, 2.0) as u32;
     let angle = random.between(-0.1, 0.1_f64);
@@ -233,7 +235,7 @@ fn second(camera: &Camera, pose: &Pose, first: &Board, diameter: f64, random: &m
         let at = place(&other, dot);
         let at = Vector3::new(at.x * angle.cos() - at.y * angle.sin(), at.x * angle.sin() + at.y * angle.cos(), 0.0);
         let offset = if side == 0 { Vector3::new(last.x + gap + 30.0, 0.0, 0.0) } else { Vector3::new(0.0, last.y + gap + 30.0, 0.0) };
-        if let Some(t) = image(camera, pose, at + offset, diameter * other.pitch / first.pitch) {
+        if let Some(t) = image(camera, pose, at + offset, diameter) {
             targets.push(t);
         }
     }
