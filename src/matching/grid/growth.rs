@@ -38,7 +38,7 @@ const FILLED: f64 = 0.1;
 pub(super) struct Pool<'a> {
     pub targets: &'a [Target],
     /// Indices of the targets, ascending by u.
-    order: Vec<usize>,
+    pub order: Vec<usize>,
 }
 
 /// A grown lattice: target by site.

@@ -77,6 +77,14 @@ pub enum UnnamedReason {
         /// How many.
         count: usize,
     },
+    /// The photo cuts the board off, or something hides an end of it, and other dots like its own are in the photo: they may be the rest of
+    /// it, or this may be another board.
+    OtherDots {
+        /// Dots of the grid.
+        dots: usize,
+        /// Other dots of their size.
+        others: usize,
+    },
     /// The mark that tells the first corner is not seen, or something is seen in several of its places.
     Mark {
         /// Places of the mark where a target is seen.
@@ -107,6 +115,10 @@ impl fmt::Display for UnnamedReason {
             Self::SeveralBoards { count } => {
                 write!(f, "{count} grids in the photo may be the board: cover the others, or take a photo of one board")
             }
+            Self::OtherDots { dots, others } => write!(
+                f,
+                "an end of the grid of {dots} dots is not in the photo and {others} other dots of their size are: show the whole board, or cover what is beside it"
+            ),
             Self::Mark { seen } => {
                 write!(f, "targets in the places where the corner mark may be: {seen}; exactly one of them is expected")
             }

@@ -11,7 +11,9 @@ use crate::detection::{Polarity, Target};
 use crate::error::Number;
 use crate::initial::robust::quantile;
 
-/// Largest ratio of the diameters of the dots, seen and given; and of two lattices' ratios of dot and step that may be of one board.
+/// Largest ratio of the diameters of the dots, seen and given.
+const DIAMETER: f64 = 1.15;
+/// Largest ratio of two lattices' ratios of dot and step that may be of one board.
 const DIAMETERS: f64 = 1.3;
 /// Share of the board's dots, and of the ground beside one of its sides, that has to be seen where another grid may be the board too.
 const MOST: f64 = 0.75;
@@ -56,6 +58,14 @@ impl Candidate<'_> {
         dots as f64 >= MOST * board.dots() as f64
             && sides.iter().all(|(seen, all)| *seen > 0 && *seen as f64 >= SIDE * *all as f64)
     }
+
+    /// Number of targets like the dots that are not of the lattice.
+    fn others(&self) -> usize {
+        let sizes: Vec<f64> = self.lattice.dots.values().map(|k| size(&self.pool.targets[*k])).collect();
+        let (low, high) = (quantile(&sizes, 0.0) / DIAMETERS, quantile(&sizes, 1.0) * DIAMETERS);
+        let like = self.pool.order.iter().filter(|k| (low..high).contains(&size(&self.pool.targets[**k])));
+        like.count().saturating_sub(sizes.len())
+    }
 }
 
 /// Finds the board among the targets of a photo of `size` pixels.
@@ -78,7 +88,7 @@ pub(super) fn read(targets: &[Target], photo_size: Option<[u32; 2]>, board: &Boa
     let dots = largest.lattice.dots.len();
     if let Some(given) = board.diameter {
         let seen = |c: &Candidate| c.ratio * board.pitch * board.step();
-        let fits = |c: &Candidate| seen(c) < DIAMETERS * given && given < DIAMETERS * seen(c);
+        let fits = |c: &Candidate| seen(c) < DIAMETER * given && given < DIAMETER * seen(c);
         let largest = seen(largest);
         candidates.retain(fits);
         if candidates.is_empty() {
@@ -108,6 +118,10 @@ fn decide(candidates: &[Candidate], dots: usize, board: &Board) -> Result<Readin
     let rivals = others.filter(|c| !matches!(c.placed, Placed::NotThisBoard)).count();
     if rivals > 0 && !candidate.ends(&placement, board) {
         return Err(UnnamedReason::SeveralBoards { count: 1 + rivals });
+    }
+    let others = candidate.others();
+    if others >= FEWEST && !candidate.ends(&placement, board) {
+        return Err(UnnamedReason::OtherDots { dots: candidate.lattice.dots.len(), others });
     }
     // where something crosses the board, what lies beyond is a lattice of its own, and the gap is no end of the board
     let similar = |c: &&Candidate| c.ratio < DIAMETERS * candidate.ratio && candidate.ratio < DIAMETERS * c.ratio;
