@@ -72,5 +72,5 @@ impl Default for Criteria {
 /// Whether a parameter is one of distortion, whose neutral value is 0: only of these it means something not to be told from 0.
 pub(crate) fn is_distortion(parameter: Parameter) -> bool {
     use Parameter as P;
-    matches!(parameter, P::K1 | P::K2 | P::K3 | P::P1 | P::P2 | P::B1 | P::B2)
+    matches!(parameter, P::K1 | P::K2 | P::K3 | P::K4 | P::K5 | P::K6 | P::P1 | P::P2 | P::B1 | P::B2)
 }

@@ -75,6 +75,11 @@ mod monitoring {
     mod simulated;
 }
 
+/// Names of targets.
+mod matching {
+    mod grids;
+}
+
 /// From names to initial values.
 mod orient {
     mod doubles;
@@ -115,6 +120,7 @@ mod teaching;
 
 /// What several tests share; benches and fuzz targets use some of it.
 mod support {
+    pub mod boards;
     pub mod camera_model;
     #[allow(dead_code, reason = "the benchmark uses the rest")]
     pub mod coded_patch;

@@ -125,7 +125,8 @@ impl<'a> Pool<'a> {
         // the step is the mean of both sides
         let mut both: Vec<[f64; 2]> = Vec::new();
         for (length, step) in &near {
-            let across = |(_, other): &(f64, [f64; 2])| ((other[0] + step[0]).hypot(other[1] + step[1]) / length, *other);
+            let across =
+                |(_, other): &(f64, [f64; 2])| ((other[0] + step[0]).hypot(other[1] + step[1]) / length, *other);
             let opposite = near.iter().map(across).min_by(|a, b| a.0.total_cmp(&b.0))?;
             if opposite.0 < OPPOSITE {
                 both.push([0.5 * (step[0] - opposite.1[0]), 0.5 * (step[1] - opposite.1[1])]);
@@ -217,7 +218,8 @@ impl Lattice {
                     let radius = (SIGMAS * p.sigma_px + 0.5).min(FURTHEST * p.shortest_px);
                     let Some(beside) = self.nearest(site) else { continue };
                     let near = pool.near(p.place, radius);
-                    let mut fits = near.iter().filter(|(_, k)| pool.fits(*k, beside, taken) && !barred.contains(&(site, *k)));
+                    let mut fits =
+                        near.iter().filter(|(_, k)| pool.fits(*k, beside, taken) && !barred.contains(&(site, *k)));
                     if let (Some((_, dot)), None) = (fits.next(), fits.next()) {
                         sure.push((p.sigma_px / p.shortest_px, site, *dot));
                     }

@@ -105,12 +105,11 @@ mod tests {
             [300.0 + (40.0 * x + 6.0 * y) / w, 200.0 + (-4.0 * x + 30.0 * y) / w]
         };
         let dots = (0..5).flat_map(|p| (0..5).map(move |q| [p, q]));
-        let dots: BTreeMap<Site, [f64; 2]> =
-            dots.map(|s| (s, image(f64::from(s[0]), f64::from(s[1])))).collect();
+        let dots: BTreeMap<Site, [f64; 2]> = dots.map(|s| (s, image(f64::from(s[0]), f64::from(s[1])))).collect();
         let beside = predict(&dots, [5.0, 2.0], None).expect("dots around");
         let truth = image(5.0, 2.0);
         let error = (beside.place[0] - truth[0]).hypot(beside.place[1] - truth[1]);
-        assert!(error < 0.03 * beside.shortest_px && error < 3.0 * beside.sigma_px, "{error} {beside:?}");
+        assert!(error < 0.06 * beside.shortest_px && error < 3.0 * beside.sigma_px, "{error} {beside:?}");
         // a line of dots says nothing of what is beside it
         let line: BTreeMap<Site, [f64; 2]> = (0..5).map(|p| ([p, 0], image(f64::from(p), 0.0))).collect();
         assert!(predict(&line, [2.0, 1.0], None).is_none());

@@ -31,7 +31,12 @@ fn same_place(target: &Target, u: f64, v: f64) -> bool {
 ///
 /// # Errors
 /// Those of [`Board::check`] and [`Project::validate`].
-pub fn name_grid(project: &Project, photos: &[PhotoTargets], board: &Board, options: &GridOptions) -> Result<GridNaming> {
+pub fn name_grid(
+    project: &Project,
+    photos: &[PhotoTargets],
+    board: &Board,
+    options: &GridOptions,
+) -> Result<GridNaming> {
     board.check()?;
     project.validate()?;
     let sizes: BTreeMap<&str, [u32; 2]> = project

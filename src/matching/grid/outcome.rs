@@ -103,7 +103,10 @@ impl fmt::Display for UnnamedReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoGrid { targets } => {
-                write!(f, "no grid of dots among the {targets} targets: show at least 3 by 3 neighbouring dots of the board")
+                write!(
+                    f,
+                    "no grid of dots among the {targets} targets: show at least 3 by 3 neighbouring dots of the board"
+                )
             }
             Self::NotThisBoard { dots } => {
                 write!(f, "the grid of {dots} dots is no part of this board: check rows, columns and kind")
@@ -123,7 +126,10 @@ impl fmt::Display for UnnamedReason {
                 write!(f, "targets in the places where the corner mark may be: {seen}; exactly one of them is expected")
             }
             Self::Diameter { seen, given } => {
-                write!(f, "the dots have a diameter of {seen} by the pitch and the board's are {given}: check pitch, diameter and kind")
+                write!(
+                    f,
+                    "the dots have a diameter of {seen} by the pitch and the board's are {given}: check pitch, diameter and kind"
+                )
             }
         }
     }

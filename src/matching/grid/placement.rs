@@ -164,7 +164,8 @@ fn candidates(lattice: &Lattice, pool: &Pool, board: &Board) -> Vec<Placement> {
 /// The changes of basis under which the dots are images of circles; all of them where the targets' axes say nothing.
 fn turns(lattice: &Lattice, pool: &Pool) -> Vec<[[i32; 2]; 2]> {
     let range = || -SHEAR..=SHEAR;
-    let all = range().flat_map(|a| range().flat_map(move |b| range().flat_map(move |c| range().map(move |d| [[a, b], [c, d]]))));
+    let all = range()
+        .flat_map(|a| range().flat_map(move |b| range().flat_map(move |c| range().map(move |d| [[a, b], [c, d]]))));
     let all: Vec<[[i32; 2]; 2]> = all.filter(|[[a, b], [c, d]]| a * d - b * c == 1).collect();
     // lists of centres without axes have circles everywhere
     if lattice.dots.values().all(|k| pool.targets[*k].major == pool.targets[*k].minor) {
@@ -215,7 +216,8 @@ mod tests {
 
     #[test]
     fn boards_have_the_symmetries_of_their_dots() {
-        let board = |rows, columns, kind| Board { rows, columns, pitch: 1.0, kind, diameter: None, sigma: None, mark: None };
+        let board =
+            |rows, columns, kind| Board { rows, columns, pitch: 1.0, kind, diameter: None, sigma: None, mark: None };
         let count = |rows, columns, kind| symmetries(&board(rows, columns, kind)).len();
         assert_eq!(count(7, 7, BoardKind::Symmetric), 4);
         assert_eq!(count(7, 9, BoardKind::Symmetric), 2);

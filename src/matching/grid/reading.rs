@@ -137,7 +137,8 @@ fn reading(found: &Candidate, placement: &Placement, by_border: bool, board: &Bo
     let mut placements: Vec<Placement> = symmetries(board).iter().map(|g| placement.then(g)).collect();
     // the upright one first, the others in the order of the board's turns from it
     let rightwards = |p: &Placement| rightwards(lattice, p, board);
-    let upright = (0..placements.len()).max_by(|&a, &b| rightwards(&placements[a]).total_cmp(&rightwards(&placements[b])));
+    let upright =
+        (0..placements.len()).max_by(|&a, &b| rightwards(&placements[a]).total_cmp(&rightwards(&placements[b])));
     placements.rotate_left(upright.unwrap_or(0));
     let mut marked = false;
     if let (Some(mark), true) = (board.mark, placements.len() > 1) {
@@ -183,9 +184,7 @@ fn shows_mark(lattice: &Lattice, pool: &Pool, placement: &Placement, board: &Boa
     let at = placement.back(board.lattice_from_board(mark));
     let Some(p) = predict(&lattice.places, at, None) else { return false };
     let dot = |k: usize| lattice.dots.iter().any(|(site, d)| *d == k && board.dot(placement.of(*site)).is_some());
-    let near = |(k, t): (usize, &Target)| {
-        (t.u - p.place[0]).hypot(t.v - p.place[1]) < MARK * p.shortest_px && !dot(k)
-    };
+    let near = |(k, t): (usize, &Target)| (t.u - p.place[0]).hypot(t.v - p.place[1]) < MARK * p.shortest_px && !dot(k);
     pool.targets.iter().enumerate().any(near)
 }
 

@@ -79,7 +79,17 @@ pub fn random_camera(random: &mut Uniform) -> Camera {
     let interior = match random.between(0.0, 4.0) as u32 {
         0 => {
             let fx = f(random.between(10.0, 33.0));
-            Interior::Opencv { fx, fy: fx, cx, cy, k1: random.between(-0.3, 0.1), k2: 0.05, p1: 1e-3, p2: -1e-3, k3: 0.0 }
+            Interior::Opencv {
+                fx,
+                fy: fx,
+                cx,
+                cy,
+                k1: random.between(-0.3, 0.1),
+                k2: 0.05,
+                p1: 1e-3,
+                p2: -1e-3,
+                k3: 0.0,
+            }
         }
         1 => {
             let fx = f(random.between(40.0, 50.0));
@@ -89,7 +99,18 @@ pub fn random_camera(random: &mut Uniform) -> Camera {
             let fx = f(random.between(40.0, 55.0));
             let k = random.between(0.2, 0.5);
             Interior::OpencvRational {
-                fx, fy: fx, cx, cy, k1: 0.1, k2: 0.01, p1: 0.0, p2: 0.0, k3: 0.0, k4: 0.1 + k, k5: 0.1 * k, k6: 0.0,
+                fx,
+                fy: fx,
+                cx,
+                cy,
+                k1: 0.1,
+                k2: 0.01,
+                p1: 0.0,
+                p2: 0.0,
+                k3: 0.0,
+                k4: 0.1 + k,
+                k5: 0.1 * k,
+                k6: 0.0,
             }
         }
         _ => {
@@ -129,7 +150,8 @@ fn image(camera: &Camera, pose: &Pose, centre: Vector3<f64>, diameter: f64) -> O
     let (mean, difference) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
     let (major, minor) = ((mean + difference).sqrt(), (mean - difference).max(0.0).sqrt());
     let margin = 0.5 * major + 1.0;
-    let inside = u > margin && v > margin && u < f64::from(camera.width) - margin && v < f64::from(camera.height) - margin;
+    let inside =
+        u > margin && v > margin && u < f64::from(camera.width) - margin && v < f64::from(camera.height) - margin;
     inside.then(|| target(u, v, major, minor, 0.5 * xy.atan2(0.5 * (xx - yy))))
 }
 
@@ -203,7 +225,9 @@ pub fn view(board: &Board, diameter: f64, camera: Camera, trouble: Trouble, seed
             second(&camera, &pose, board, &mut random, &mut targets);
         }
         // nothing stands on the board itself
-        let clear = |targets: &[Target], u: f64, v: f64| targets.iter().all(|t| (t.u - u).hypot(t.v - v) > 0.8 * (t.major + t.minor));
+        let clear = |targets: &[Target], u: f64, v: f64| {
+            targets.iter().all(|t| (t.u - u).hypot(t.v - v) > 0.8 * (t.major + t.minor))
+        };
         for _ in 0..random.between(0.0, trouble.clutter) as usize {
             let (u, v) = (random.between(0.0, f64::from(camera.width)), random.between(0.0, f64::from(camera.height)));
             let major = wanted_px * random.between(0.5, 2.0);
@@ -230,11 +254,17 @@ fn second(camera: &Camera, pose: &Pose, first: &Board, random: &mut Uniform, tar
     let diameter = own * random.between(0.7, 1.2) * other_pitch / first.pitch;
     let gap = 3.0 * first.pitch + 2.0 * diameter;
     let side = random.between(0.0, 2.0) as u32;
+    // nobody could tell two boards of one design from each other
+    other.rows += u32::from((other.rows, other.columns, other.kind) == (first.rows, first.columns, first.kind));
     let angle = random.between(-0.1, 0.1_f64);
     for dot in dots(&other) {
         let at = place(&other, dot);
         let at = Vector3::new(at.x * angle.cos() - at.y * angle.sin(), at.x * angle.sin() + at.y * angle.cos(), 0.0);
-        let offset = if side == 0 { Vector3::new(last.x + gap + 30.0, 0.0, 0.0) } else { Vector3::new(0.0, last.y + gap + 30.0, 0.0) };
+        let offset = if side == 0 {
+            Vector3::new(last.x + gap + 30.0, 0.0, 0.0)
+        } else {
+            Vector3::new(0.0, last.y + gap + 30.0, 0.0)
+        };
         if let Some(t) = image(camera, pose, at + offset, diameter) {
             targets.push(t);
         }
