@@ -247,6 +247,23 @@ pub fn snap_marks(
     snapped().map(|snapped| value::write(&snapped)).map_err(|error: Error| thrown(&error))
 }
 
+/// Names the dots of a board of circles in photos, of which it takes no orientation: points, observations, and why a photo has none.
+#[wasm_bindgen(js_name = nameGrid, unchecked_return_type = "GridNaming")]
+pub fn name_grid(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "PhotoTargets[]")] photos: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Board")] board: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "GridOptions")] options: JsValue,
+) -> Thrown {
+    let named = || {
+        let options: matching::GridOptions = value::options(&options, &[])?;
+        let photos = value::read::<Vec<matching::PhotoTargets>>(&photos, "photos")?;
+        let board = value::read::<matching::Board>(&board, "board")?;
+        matching::name_grid(&value::project(&project)?, &photos, &board, &options)
+    };
+    named().map(|naming| value::write(&naming)).map_err(|error| thrown(&error))
+}
+
 /// Matches targets of oriented photos that have no name yet: to points that are there, and to new ones.
 #[wasm_bindgen(js_name = matchUncoded, unchecked_return_type = "Matching")]
 pub fn match_uncoded(

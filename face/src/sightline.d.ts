@@ -1180,6 +1180,63 @@ export interface Matching {
   doubtful: Doubtful[];
 }
 
+/**
+ * A board of circular dots. Its coordinates: the first dot at (0, 0, 0), x along its row, y down the rows, z away from who looks at it.
+ * Dot (i, j) of row i and column j stands at (j, i) pitches on a symmetric board and at (2 j + i mod 2, i) on an asymmetric one.
+ */
+export interface Board {
+  rows: number;
+  /** Dots in each row. */
+  columns: number;
+  /** Distance of two rows, in the unit of the project; the dots of a row of an asymmetric board are two pitches apart. */
+  pitch: number;
+  kind?: "symmetric" | "asymmetric";
+  /** Diameter of the dots: goes to the points, and tells this board from others [null]. */
+  diameter?: number | null;
+  /** Standard error of a dot's coordinates: control points, 0 holds them [null: tie points at the board's coordinates]. */
+  sigma?: number | null;
+  /** Place (x, y) on the board of an additional target that shows which corner is the first [null]. */
+  mark?: [number, number] | null;
+}
+
+export interface GridOptions {
+  /** By photo, the pixel of the board's first dot, for boards that look the same when turned; one photo is enough for all [{}]. */
+  first?: Record<string, [number, number]>;
+}
+
+export interface GridNaming {
+  /** What the names begin with: "", or "b2-", "b3-" where the project has other points of these names. Then rowcolumn from 1: "r3c5". */
+  prefix: string;
+  /** Dots that the project has no point for. */
+  points: Point[];
+  /** Observations that the project does not have. */
+  observations: Observation[];
+  named: {
+    photo: string;
+    dots: number;
+    /** Dots of the board that the photo does not show. */
+    missing: number;
+    /** Dots that were observed under another name before and keep it. */
+    named_before: number;
+    /** "assumed": the board looks the same when turned, and that turn was taken whose rows run to the right. */
+    orientation: "unique" | "mark" | "given" | "assumed";
+    /** Turns under which the board looks the same. */
+    turns: number;
+    /** Whether ground without dots told the place on the board. */
+    by_border: boolean;
+  }[];
+  unnamed: { photo: string; reason: UnnamedReason; sentence: string }[];
+}
+
+export type UnnamedReason =
+  | { kind: "no_grid"; targets: number }
+  | { kind: "not_this_board"; dots: number }
+  | { kind: "ambiguous"; dots: number; places: number }
+  | { kind: "several_boards"; count: number }
+  | { kind: "other_dots"; dots: number; others: number }
+  | { kind: "mark"; seen: number }
+  | { kind: "diameter"; seen: number; given: number };
+
 export interface PredictOptions {
   /** Photos in which epipolar lines are wanted [null: all]. */
   lines_in?: string[] | null;

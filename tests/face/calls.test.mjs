@@ -119,6 +119,7 @@ function calls() {
     nameCoded: [[named, {}], 20],
     spreadCodes: [['ring-12'], 1],
     snapMarks: [[project, named, {}], 20],
+    nameGrid: [[project, named, { rows: 4, columns: 5, pitch: 20 }, {}], 5],
     matchUncoded: [[project, named, {}], 2],
     predict: [[project, null, '4', {}], 10],
     exchangeAxes: [[project, 'xy'], 1],

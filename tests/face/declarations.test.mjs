@@ -73,6 +73,16 @@ function detection() {
   return sightline.detectGray(width, height, samples, { codes: 'ring-14' });
 }
 
+/** Targets of a photo of `rows` rows of four dots. */
+function grid(photo, rows) {
+  const target = (k) => ({ ...detectedDot, id: k + 1, u: 100 + 40 * (k % 4), v: 100 + 38 * Math.floor(k / 4) });
+  return { photo, targets: Array.from({ length: 4 * rows }, (_, k) => target(k)) };
+}
+
+const detectedDot = {
+  sigma_u: 0.02, sigma_v: 0.02, major: 16, minor: 15.2, angle: 0, contrast: 100, polarity: 'dark', code: null, quality: {},
+};
+
 test('every field that the engine returns is declared, and every declared field is there', () => {
   const found = detection();
   assert.ok(found.targets.length >= 7);
@@ -167,6 +177,7 @@ test('every field that the engine returns is declared, and every declared field 
     literal('film', 'S.ReducedFilm', sightline.reduceFilm({ 'plate.txt': 'c 100\nfiducial a 0 0\nfiducial b 50 0\nfiducial c 0 40\nfiducial d 50 40\ndistortion 10 1\ndistortion 20 2\ndistortion 30 4\ndistortion 40 6\n1 a 0 0\n1 b 50 0\n1 c 0 40\n1 d 50 40\n1 7 10 10' })),
     literal('experiment', 'S.Experiment', sightline.runExperiment('film')),
     literal('matching', 'S.Matching', sightline.matchUncoded(project, photosOf(project))),
+    literal('gridNaming', 'S.GridNaming', sightline.nameGrid(project, [grid('a', 3), grid('b', 1)], { rows: 3, columns: 4, pitch: 20, sigma: 0.1 })),
     literal('prediction', 'S.Prediction', sightline.predict(project, 'p1', adjustments[0])),
     ...adjustments.map((adjustment, k) => literal(`adjustment${k}`, 'S.Adjustment', adjustment)),
     literal('measured', 'S.Measured', measuredLater),
@@ -224,6 +235,7 @@ test('the options that are declared are those that exist', () => {
     ['PredictOptions', (options) => sightline.predict(sightline.simulate(network()), 'p1', null, options)],
     ['SheetOptions', (options) => sightline.targetSheet(options)],
     ['MakePlanOptions', (options) => sightline.makePlan(sightline.planExample('kim'), options)],
+    ['GridOptions', (options) => sightline.nameGrid(sightline.simulate(network()), [], { rows: 3, columns: 4, pitch: 20 }, options)],
     ['MatchOptions', (options) => sightline.matchUncoded(sightline.simulate(network()), [], options)],
   ]) {
     const body = declared.split(`export interface ${name} {`)[1].split('\n}')[0];
