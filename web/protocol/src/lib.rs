@@ -16,7 +16,7 @@ use sightline::detection::{ColoursApart, DetectOptions, Detection, Target};
 use sightline::exchange::foreign::{CameraOptions, ImportedCamera};
 use sightline::exif::PhotoInfo;
 use sightline::experiments::{Experiment, ExperimentOptions};
-use sightline::matching::{Matching, PhotoTargets, PredictOptions, Prediction};
+use sightline::matching::{Board, GridNaming, GridOptions, Matching, PhotoTargets, PredictOptions, Prediction};
 use sightline::monitoring::{Epoch, Monitoring, Options as MonitoringOptions};
 use sightline::orient::Note;
 use sightline::plan::{Criterion, Made, MakeOptions, Prediction as PlanPrediction, Suggested};
@@ -268,6 +268,13 @@ tasks! {
         CompareModels { /** The network. */ pub project: Project, /** Whose, and how. */ pub options: ModelsOptions } => Nothing, Vec<ComparedModel>;
         /// Measure the features of a project at the values that an adjustment with these options gave it.
         MeasureFeatures { /** With the adjusted values. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Measured;
+        /// Name the dots of a board of circles.
+        NameGrid {
+            /** Of the photos. */ pub project: Project,
+            /** Of each photo. */ pub targets: Vec<PhotoTargets>,
+            /** Which. */ pub board: Board,
+            /** The first dot, where it was shown. */ pub options: GridOptions,
+        } => Nothing, GridNaming;
         /// Name uncoded targets by the geometry of the photos, which are oriented and adjusted first where they are not.
         Match {
             /** Of the photos. */ pub project: Project,

@@ -9,6 +9,7 @@ pub mod epoch;
 pub mod equipment;
 pub mod exchange;
 pub mod features;
+pub mod grids;
 pub mod many;
 pub mod models;
 pub mod naming;

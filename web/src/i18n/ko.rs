@@ -13,6 +13,7 @@ mod before;
 mod beginning;
 mod beside;
 mod exchange;
+mod gridded;
 mod laid_open;
 mod listed;
 mod modelled;

@@ -17,8 +17,8 @@ use sightline::initial::Degeneracy;
 use sightline::project::ReportLanguage;
 
 pub use en::{
-    comparing, equipment, experiments, first, inside, interchange, lasting, lists, modelling, monitoring, object,
-    planning, printing, systematic,
+    comparing, equipment, experiments, first, grids, inside, interchange, lasting, lists, modelling, monitoring,
+    object, planning, printing, systematic,
 };
 
 use crate::browser::page;
@@ -233,6 +233,7 @@ mod tests {
                 first::words(language).every_text(),
                 systematic::words(language).every_text(),
                 modelling::words(language).every_text(),
+                grids::words(language).every_text(),
                 inside::words(language).every_text(),
             ];
             parts.into_iter().flatten().map(move |text| (language, text))

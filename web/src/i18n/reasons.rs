@@ -32,7 +32,9 @@ pub fn reason(reason: &Reason) -> String {
             return format!("장비 파일은 {megabytes} MB까지 읽는데, 이 파일은 더 큽니다");
         }
         R::BoardSize { given, needed } => {
-            return format!("{given}을(를) 주었습니다. 여기에는 {needed} 이상이 필요하고, 판의 원은 모두 10000개까지입니다");
+            return format!(
+                "{given}을(를) 주었습니다. 여기에는 {needed} 이상이 필요하고, 판의 원은 모두 10000개까지입니다"
+            );
         }
         R::BoardPitch => "판의 원 간격은 0보다 커야 합니다",
         R::BoardDiameter => "판의 원 지름은 0보다 크고 원 사이 거리보다 작아야 합니다",

@@ -15,6 +15,7 @@ pub mod experiments;
 pub mod features;
 pub mod foreign;
 pub mod history;
+pub mod grids;
 pub mod identity;
 pub mod inside;
 pub mod intake;

@@ -7,6 +7,7 @@ use sightline::matching::{Doubt, UnsnappedReason};
 use sightline::project::{Observation, Role};
 
 use super::field::Field;
+use super::grids::GridPanel;
 use super::icon::{Glyph, Icon};
 use super::insets::Insets;
 use super::loupe::Loupe;
@@ -19,7 +20,7 @@ use super::strip::Strip;
 use super::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 use crate::browser::{event, file};
 use crate::format;
-use crate::i18n::{first, text, text::role_word};
+use crate::i18n::{first, grids, text, text::role_word};
 use crate::store::texts::Reading;
 use crate::store::{Desk, Kind, Step};
 
@@ -42,9 +43,17 @@ pub fn Identities() -> impl IntoView {
                 && d.detections.values().any(|d| d.targets.iter().any(|t| t.code.is_none()))
         })
     });
+    let grid_open = RwSignal::new(false);
+    let has_dots = Memo::new(move |_| {
+        desk.document.with(|d| d.detections.values().any(|d| d.targets.iter().any(|t| t.code.is_none())))
+    });
     view! {
         <TitleBar title=text::identities sentence=Signal::derive(sentence)>
             <button class="button" on:click=move |_| choose_marks(desk)>{text::open_marks}</button>
+            <Show when=move || has_dots.get()>
+                <button class="button" data-action="grid" title=grids::how aria-expanded=move || grid_open.get().to_string()
+                    on:click=move |_| grid_open.update(|open| *open = !*open)>{grids::circle_grid}</button>
+            </Show>
             <Show when=move || has_uncoded.get()>
                 <button class="button" data-action="match" title=first::match_how disabled=move || desk.job.with(Option::is_some)
                     on:click=move |_| desk.match_uncoded()>{first::match_targets}</button>
@@ -55,6 +64,7 @@ pub fn Identities() -> impl IntoView {
             <Strip/>
             <NamedPhoto/>
             <div class="columns" on:pointerdown=move |_| desk.ask_no_more()>
+                <Show when=move || grid_open.get() && has_dots.get()><GridPanel/></Show>
                 <NothingNamed/>
                 <QuestionList/>
                 <PointsTable/>

@@ -11,6 +11,7 @@ pub mod estimated;
 pub mod experiments;
 pub mod field;
 mod files;
+pub mod grids;
 pub mod gross_errors;
 pub mod help;
 pub mod icon;

@@ -15,7 +15,7 @@ use sightline::exchange::displacements;
 use sightline::exchange::package::{self, Held, Package};
 use sightline::exchange::{self, export};
 use sightline::experiments::{self, Experiment};
-use sightline::matching::{MatchOptions, Matching, Prediction, match_uncoded, predict};
+use sightline::matching::{GridNaming, MatchOptions, Matching, Prediction, match_uncoded, name_grid, predict};
 use sightline::monitoring::{self, Epoch, Monitoring};
 use sightline::orient::{Note, orient};
 use sightline::plan::{self, Made, Prediction as PlanPrediction, Suggested};
@@ -148,6 +148,12 @@ impl Service<CompareModels> for Engine {
 impl Service<MeasureFeatures> for Engine {
     fn serve(&self, task: MeasureFeatures, _: Files, _: Progress<Nothing>) -> Served<Measured> {
         Ok((measured_at(&task.project, &task.options)?, Vec::new()))
+    }
+}
+
+impl Service<NameGrid> for Engine {
+    fn serve(&self, task: NameGrid, _: Files, _: Progress<Nothing>) -> Served<GridNaming> {
+        Ok((name_grid(&task.project, &task.targets, &task.board, &task.options)?, Vec::new()))
     }
 }
 

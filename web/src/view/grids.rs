@@ -1,0 +1,139 @@
+//! The panel that names the dots of a board of circles.
+
+use leptos::prelude::*;
+use sightline::matching::{Board, BoardKind, GridNaming, GridOptions, GridOrientation, UnnamedReason};
+
+use super::field::Field;
+use super::picking::chosen_target;
+use crate::browser::event;
+use crate::format;
+use crate::i18n::{grids, text};
+use crate::store::Desk;
+
+fn reason_words(reason: &UnnamedReason) -> String {
+    match reason {
+        UnnamedReason::NoGrid { targets } => grids::no_grid(targets),
+        UnnamedReason::NotThisBoard { dots } => grids::not_this_board(dots),
+        UnnamedReason::Ambiguous { dots, places } => grids::ambiguous(dots, places),
+        UnnamedReason::SeveralBoards { count } => grids::several_boards(count),
+        UnnamedReason::OtherDots { dots, others } => grids::other_dots(dots, others),
+        UnnamedReason::Mark { seen } => grids::mark(seen),
+        UnnamedReason::Diameter { seen, given } => grids::diameter_apart(seen, given),
+    }
+}
+
+/// Rows, columns, pitch and what else is known of the board; then what was named and what was not, and why.
+#[component]
+pub fn GridPanel() -> impl IntoView {
+    let desk = expect_context::<Desk>();
+    let board = RwSignal::new(Board {
+        rows: 11,
+        columns: 4,
+        pitch: 20.0,
+        kind: BoardKind::Asymmetric,
+        diameter: None,
+        sigma: None,
+        mark: None,
+    });
+    let naming = RwSignal::new(None::<GridNaming>);
+    let count =
+        move |read: fn(&Board) -> u32, write: fn(&mut Board, u32), name: &'static str, label: fn() -> &'static str| {
+            view! {
+                <label class="field">
+                    <span>{label}</span>
+                    <Field value=Signal::derive(move || board.with(read).to_string()) commit=move |typed: String| {
+                        if let Ok(count) = typed.trim().parse() {
+                            board.update(|b| write(b, count));
+                        }
+                    } attr:class="short" attr:inputmode="numeric" attr:name=name/>
+                </label>
+            }
+        };
+    let length = move |read: fn(&Board) -> Option<f64>,
+                       write: fn(&mut Board, Option<f64>),
+                       name: &'static str,
+                       label: fn() -> &'static str| {
+        view! {
+            <label class="field">
+                <span>{label} " " <u>{move || desk.document.with(|d| d.project.unit.clone())}</u></span>
+                <Field value=Signal::derive(move || board.with(read).map(format::editable).unwrap_or_default())
+                    commit=move |typed: String| {
+                        let value = format::parse(&typed);
+                        if value.is_some() || typed.trim().is_empty() {
+                            board.update(|b| write(b, value));
+                        }
+                    } attr:class="short" attr:inputmode="decimal" attr:name=name/>
+            </label>
+        }
+    };
+    let first = Memo::new(move |_| {
+        let photo = desk.selection.with(|s| s.photo.clone())?;
+        chosen_target(desk).map(|t| (photo, [t.u, t.v], t.id))
+    });
+    let name = move |_| {
+        let first = first.get_untracked().map(|(photo, place, _)| (photo, place));
+        desk.name_grid(board.get_untracked(), GridOptions { first: first.into_iter().collect() }, naming);
+    };
+    view! {
+        <section class="panel" data-panel="grid">
+            <h2 class="section-head">
+                <span>{grids::circle_grid}</span>
+                <button class="button small primary" data-action="name-grid" disabled=move || desk.job.with(Option::is_some) on:click=name>
+                    {grids::name_dots}
+                </button>
+            </h2>
+            <div class="fields inline">
+                <label class="field">
+                    <span>{grids::kind}</span>
+                    <select name="grid-kind" on:change=move |e| board.update(|b| b.kind = kind_of(&event::value(&e)))>
+                        <option value="asymmetric">{grids::asymmetric}</option>
+                        <option value="symmetric">{grids::symmetric}</option>
+                    </select>
+                </label>
+                {count(|b| b.rows, |b, n| b.rows = n, "grid-rows", grids::rows)}
+                {count(|b| b.columns, |b, n| b.columns = n, "grid-columns", grids::columns)}
+                {length(|b| Some(b.pitch), |b, x| b.pitch = x.unwrap_or(b.pitch), "grid-pitch", grids::pitch)}
+                {length(|b| b.sigma, |b, x| b.sigma = x, "grid-sigma", grids::sigma)}
+                {length(|b| b.diameter, |b, x| b.diameter = x, "grid-diameter", grids::diameter)}
+            </div>
+            <p class="hint">{grids::hint}</p>
+            <p class="hint" data-grid="first">{move || match first.get() {
+                Some((photo, _, target)) => grids::first_is(target, photo),
+                None => grids::first_how().to_owned(),
+            }}</p>
+            {move || naming.get().map(|naming| view! { <Outcome naming/> })}
+        </section>
+    }
+}
+
+fn kind_of(value: &str) -> BoardKind {
+    if value == "symmetric" { BoardKind::Symmetric } else { BoardKind::Asymmetric }
+}
+
+/// What was named; photos without names with the reason.
+#[component]
+fn Outcome(naming: GridNaming) -> impl IntoView {
+    let (named, all) = (naming.named.len(), naming.named.len() + naming.unnamed.len());
+    let observations = naming.observations.len();
+    let assumed = naming.named.iter().filter(|n| n.orientation == GridOrientation::Assumed).count();
+    let before: usize = naming.named.iter().map(|n| n.named_before).sum();
+    let prefix = naming.prefix.clone();
+    let unnamed = naming.unnamed;
+    view! {
+        <p role="status" data-grid="result">{move || grids::named_in(named, all, format::count(observations))}</p>
+        {(assumed > 0).then(|| view! { <p class="hint warn" data-grid="assumed">{move || grids::assumed(assumed)}</p> })}
+        {(before > 0).then(|| view! { <p class="hint warn">{move || grids::named_before(before)}</p> })}
+        {(!prefix.is_empty()).then(|| view! { <p class="hint">{move || grids::prefixed(&prefix)}</p> })}
+        {(!unnamed.is_empty()).then(|| view! {
+            <div class="scroll short-list" tabindex="0" role="region" aria-label=text::why_not>
+                <table class="table" data-grid="unnamed">
+                    <thead><tr><th class="left">{text::photo}</th><th class="left wide">{text::why_not}</th></tr></thead>
+                    <tbody>{unnamed.iter().map(|u| {
+                        let reason = u.reason.clone();
+                        view! { <tr><td class="left">{u.photo.clone()}</td><td class="left wide warn">{move || reason_words(&reason)}</td></tr> }
+                    }).collect_view()}</tbody>
+                </table>
+            </div>
+        })}
+    }
+}
