@@ -1,15 +1,15 @@
 //! Boards of circles: lists of targets drawn at random, photos rendered and detected, and OpenCV's photos.
 
+use sightline::decode;
 use sightline::detect::detect;
 use sightline::detection::{DetectOptions, Target};
 use sightline::image::{Grey, GreyView, Samples, SamplesView};
 use sightline::matching::{
     Board, BoardKind, GridNaming, GridOptions, GridOrientation, PhotoTargets, UnnamedReason, name_grid,
 };
-use sightline::project::Role;
+use sightline::project::{Photo, Project, Role};
 use sightline::render::{Exposure, render};
 use sightline::scene::{Disc, Face, Scene};
-use sightline::{decode, project::Project};
 
 use crate::support::boards::{self, Trouble, View, board, document, random_board, random_camera, view};
 use crate::support::networks::Uniform;
@@ -265,9 +265,13 @@ fn the_boards_of_opencvs_photos_are_named_as_opencv_names_them() {
                 Some([(k / columns) as u32, (k % columns) as u32])
             })
             .collect();
-        // without the project's photo: its size is not known
+        // of five rows only two dots and two empty sites at the ends of the shifted rows tell the turn: the photo's size is needed
+        let mut camera = lens(1);
+        (camera.width, camera.height) = (picture.width as u32, picture.height as u32);
+        let photo = Photo { id: name.clone(), camera: "cam".into(), enabled: true, ..Photo::default() };
+        let project = Project { cameras: vec![camera], photos: vec![photo], ..Project::default() };
         let photos = [PhotoTargets { photo: name.clone(), targets: targets.clone() }];
-        let naming = name_grid(&Project::default(), &photos, &board, &GridOptions::default()).expect("a board");
+        let naming = name_grid(&project, &photos, &board, &GridOptions::default()).expect("a board");
         let why = naming.unnamed.first().map(|u| u.sentence.clone());
         assert!(why.is_none(), "{name}: {why:?}");
         assert_eq!(wrong(&naming, &board, &truth), 0, "{name}");
