@@ -29,8 +29,8 @@ use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
     Adjust, Adjusted, Adjusting, BeginPlan, CompareEpochs, CompareModels, CompareResults, Content, ConvertCamera,
     Detect, DifferColours, DrawSheets, Drawn, Export, ExportExperiment, ExportMonitoring, Foreign, Given, Glance,
-    Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, Nothing, Open, Opened,
-    Pack, PlanOf, Predict, PredictPlan, Progress, ReadForeign, ReportEpochs, ReportMade, RunExperiment, Sample,
+    Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, NameGrid, Nothing, Open,
+    Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReadForeign, ReportEpochs, ReportMade, RunExperiment, Sample,
     SampleEpochs, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate,
     Situated, Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteCamera, WriteNetwork, WriteSheets, Written,
     from_pieces, written,
