@@ -163,8 +163,8 @@ fn names_are_kept_apart_from_others_and_given_once() {
     let first = named(&seen);
     assert_eq!((first.prefix.as_str(), first.points.len(), first.points[0].role), ("", 91, Role::Control));
     assert_eq!(first.points[8].xyz, Some([3.0 * 20.0, 20.0, 0.0]));
-    project.points.clone_from(&first.points);
-    project.observations.clone_from(&first.observations);
+    project.points.clone_from(&first.points.into());
+    project.observations.clone_from(&first.observations.into());
     let again = name_grid(&project, &targets, &asymmetric, &GridOptions::default()).expect("a board");
     assert!(again.prefix.is_empty() && again.points.is_empty() && again.observations.is_empty());
     // a board of another pitch in the same photo's place
@@ -269,7 +269,7 @@ fn the_boards_of_opencvs_photos_are_named_as_opencv_names_them() {
         let mut camera = lens(1);
         (camera.width, camera.height) = (picture.width as u32, picture.height as u32);
         let photo = Photo { id: name.clone(), camera: "cam".into(), enabled: true, ..Photo::default() };
-        let project = Project { cameras: vec![camera], photos: vec![photo], ..Project::default() };
+        let project = Project { cameras: vec![camera], photos: vec![photo].into(), ..Project::default() };
         let photos = [PhotoTargets { photo: name.clone(), targets: targets.clone() }];
         let naming = name_grid(&project, &photos, &board, &GridOptions::default()).expect("a board");
         let why = naming.unnamed.first().map(|u| u.sentence.clone());

@@ -171,6 +171,7 @@ fn target(u: f64, v: f64, major: f64, minor: f64, angle: f64) -> Target {
         code: None,
         code_family: None,
         code_candidates: Vec::new(),
+        inner: None,
         quality: Quality::default(),
     }
 }
@@ -274,7 +275,7 @@ fn second(camera: &Camera, pose: &Pose, first: &Board, random: &mut Uniform, tar
 /// The photo as a project without points, and its targets.
 pub fn document(view: &View) -> (Project, Vec<PhotoTargets>) {
     let photo = Photo { id: "a".into(), camera: "cam".into(), enabled: true, ..Photo::default() };
-    let project = Project { cameras: vec![view.camera.clone()], photos: vec![photo], ..Project::default() };
+    let project = Project { cameras: vec![view.camera.clone()], photos: vec![photo].into(), ..Project::default() };
     let mut targets = view.targets.clone();
     (1..).zip(&mut targets).for_each(|(id, t): (u32, _)| t.id = id);
     (project, vec![PhotoTargets { photo: "a".into(), targets }])
