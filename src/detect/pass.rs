@@ -52,9 +52,7 @@ impl Pass {
         for (target, own) in self.detection.targets.iter_mut().zip(factors) {
             // one whose own pixels do not tell has the noise of the others
             let Some(factor) = own.or(usual) else { continue };
-            target.sigma_u *= factor.sqrt();
-            target.sigma_v *= factor.sqrt();
-            target.covariance_uv *= factor;
+            widen(target, factor.sqrt());
             all = [all[0] + factor, all[1] + 1.0];
         }
         all
@@ -142,8 +140,8 @@ pub(super) fn pass<T: Sample>(
         measure.work.coloured = true;
         colours = measured_again(&mut measure, &mut census.targets);
         if colours.is_empty() {
-            // their standard errors are those of another noise, and nothing tells by how much
-            census.give_up(Reason::NoFit);
+            // none tells what its pixels share: the noise of the rims is all that is known
+            census.targets.iter_mut().for_each(|target| widen(target, rim_noise));
         }
     }
     if let Some(alike) = alike::of(&mut measure, known, &census.targets) {
@@ -159,6 +157,13 @@ pub(super) fn pass<T: Sample>(
     let grounds = std::mem::take(&mut census.grounds);
     let coloured = measure.work.coloured;
     Pass { detection: census.finish(), grounds, colours, doubtful, coloured }
+}
+
+/// Multiplies the standard errors of a target.
+fn widen(target: &mut Target, factor: f64) {
+    target.sigma_u *= factor;
+    target.sigma_v *= factor;
+    target.covariance_uv *= factor * factor;
 }
 
 /// The middle one of some values.

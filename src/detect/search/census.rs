@@ -163,14 +163,6 @@ impl Census {
         self.enter(Entry { outline, bright: target.polarity == Polarity::Bright, accepted: true });
     }
 
-    /// Rejects all targets.
-    pub fn give_up(&mut self, reason: Reason) {
-        for target in std::mem::take(&mut self.targets) {
-            let outline = Outline::from_axes(target.u, target.v, target.major / 2.0, target.minor / 2.0, target.angle);
-            self.count(&NoBlob::of(&outline, reason));
-        }
-    }
-
     /// Enters an outline that is no target's.
     pub fn reject(&mut self, outline: Outline, bright: bool, reason: Reason) {
         self.enter(Entry { outline, bright, accepted: false });
