@@ -198,21 +198,24 @@ test('boards of circles: names, coordinates, and why a photo has none', () => {
   const target = (id, u, v) => ({
     id, u, v, sigma_u: 0.02, sigma_v: 0.02, major: 16, minor: 15.2, angle: 1.5, contrast: 100, polarity: 'dark', code: null, quality: {},
   });
-  // 5 rows of 3 dots, every other one shifted, in a photo turned by a right angle
-  const places = Array.from({ length: 15 }, (_, k) => [2 * (k % 3) + (Math.floor(k / 3) % 2), Math.floor(k / 3)]);
+  // 7 rows of 4 dots, every other one shifted, in a photo turned by a right angle
+  const places = Array.from({ length: 28 }, (_, k) => [2 * (k % 4) + (Math.floor(k / 4) % 2), Math.floor(k / 4)]);
   const seen = places.map(([x, y], k) => target(k + 1, 400 - 30 * y, 100 + 31 * x));
   const project = sightline.importProject('sightline', { 'project.json': JSON.stringify({ format: 'sightline', version: 1 }) });
-  const board = { rows: 5, columns: 3, pitch: 20, kind: 'asymmetric', sigma: 0.05, diameter: 10 };
+  const board = { rows: 7, columns: 4, pitch: 20, kind: 'asymmetric', sigma: 0.05, diameter: 10 };
   const photos = [{ photo: 'a', targets: seen }, { photo: 'b', targets: seen.slice(0, 4) }];
   const naming = sightline.nameGrid(project, photos, board);
-  assert.deepEqual(naming.named.map(({ photo, dots, missing, orientation }) => [photo, dots, missing, orientation]), [['a', 15, 0, 'unique']]);
+  assert.deepEqual(naming.named.map(({ photo, dots, missing, orientation }) => [photo, dots, missing, orientation]), [['a', 28, 0, 'unique']]);
   assert.deepEqual(naming.unnamed.map(({ photo, reason }) => [photo, reason.kind]), [['b', 'no_grid']]);
   const last = naming.points.at(-1);
-  assert.deepEqual([last.id, last.role, last.xyz, last.diameter], ['r5c3', 'control', [80, 80, 0], 10]);
+  assert.deepEqual([last.id, last.role, last.xyz, last.diameter], ['r7c4', 'control', [120, 120, 0], 10]);
   for (const { point, target: id } of naming.observations) {
     const [, row, column] = point.match(/^r(\d+)c(\d+)$/).map(Number);
-    assert.equal(id, 3 * (row - 1) + column);
+    assert.equal(id, 4 * (row - 1) + column);
   }
+  // A part of a larger board, which fits in several places, is not guessed.
+  const part = sightline.nameGrid(project, photos, { ...board, rows: 11, columns: 6 });
+  assert.deepEqual([part.named, part.unnamed[0].reason.kind], [[], 'ambiguous']);
   const error = thrown(() => sightline.nameGrid(project, photos, { ...board, rows: 2 }));
-  assert.deepEqual([error.code, error.at.field], ['invalid', 'rows']);
+  assert.deepEqual([error.code, error.where.field], ['invalid', 'rows']);
 });

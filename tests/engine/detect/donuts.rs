@@ -146,9 +146,9 @@ fn sectors_of_an_unread_ring_are_no_targets() {
         // discs as wide as the ring of a design, in its middle, in some of fourteen places
         let [middle, width] = if random.next() < 0.5 { [2.5, 1.0] } else { [2.91, 1.26] };
         let count = 1 + seed as usize % 5;
-        let turn = random.within(0.0, 6.28);
+        let turn = random.within(0.0, std::f64::consts::TAU);
         for k in 0..count {
-            let (s, c) = (turn + 6.283 * (2 * k) as f64 / 12.0).sin_cos();
+            let (s, c) = (turn + std::f64::consts::TAU * (2 * k) as f64 / 12.0).sin_cos();
             let radius = 0.5 * width * a * random.within(0.9, 1.05);
             let [u, v] = [dot.u + middle * a * c, dot.v + middle * a * s];
             canvas.add(&Spot { u, v, a: radius, b: 0.97 * radius, angle: 0.0, contrast: 0.9 * contrast }, 0.8);
