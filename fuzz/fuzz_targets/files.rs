@@ -71,9 +71,9 @@ fn archive() -> Vec<u8> {
     };
     let project = Project {
         cameras: vec![Camera::new("c", 20, 10, Interior::brown(9.0))],
-        photos: vec![photo],
-        points: vec![Point { id: "1".into(), ..Point::default() }],
-        observations: vec![seen],
+        photos: vec![photo].into(),
+        points: vec![Point { id: "1".into(), ..Point::default() }].into(),
+        observations: vec![seen].into(),
         ..Project::default()
     };
     let grey = (0..40 * 40).map(|k| if (k % 40 - 20) * (k % 40 - 20) + (k / 40 - 20) * (k / 40 - 20) < 60 { 220 } else { 30 });
