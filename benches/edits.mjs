@@ -41,8 +41,8 @@ const journal = (page) => page.evaluate(async () => {
 });
 
 /**
- * Edits one after the other; how long each held up the thread, in ms. `kind` is "datum", or what is done with one observation after the other:
- * excluded and restored.
+ * Makes edits and returns how long each blocked the page's thread, in ms. `kind` is "datum" (the datum is switched) or "observations" (one
+ * observation after the other is excluded and restored).
  */
 const edited = (page, count, kind) => page.evaluate(async ([count, kind]) => {
   const { port1, port2 } = new MessageChannel();
@@ -89,7 +89,7 @@ try {
       await page.click('[data-table=Observations]');
       await page.waitForSelector('.sheet tr.data');
     }
-    // What is drawn for the first time is no cost of an edit.
+    // The first edits also draw the page for the first time: they are not measured.
     await edited(page, 6, kind);
     await written(page);
     await page.waitForTimeout(3000);

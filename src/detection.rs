@@ -144,7 +144,7 @@ pub struct DetectOptions {
     pub channel: Channel,
     /// Which ring codes are read.
     pub codes: Codes,
-    /// Smallest full axis of a target in pixels: its minor axis is no smaller.
+    /// Smallest minor axis (full length) of a target, in pixels.
     pub min_diameter: f64,
     /// Largest full axis of a target in pixels.
     pub max_diameter: f64,

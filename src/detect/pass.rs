@@ -172,8 +172,8 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
-/// Measures targets again where neighbouring pixels turn out to share their noise; what they share. One that is not measured again stays as it
-/// is, and takes the median of the others' factors ([`Pass::correlate`]).
+/// Measures the targets of a picture again, now with the correlation of neighbouring pixels' noise, and returns that correlation for each. A target
+/// that cannot be measured again is left as it is; its standard errors take the median factor of the others ([`Pass::correlate`]).
 fn measured_again<T: Sample>(measure: &mut Measure<T>, targets: &mut [Target]) -> Vec<([f64; 2], Colour)> {
     let mut colours = Vec::new();
     for target in targets {

@@ -1,6 +1,6 @@
 //! Donuts: of a disc with a hole the outer rim is the target, the rim of the hole a property of it.
 //!
-//! The search finds the hole, an even disc, and not what is uneven for it. So the outer rim is looked for around every target that has no
+//! The search finds the hole, because it is a disc of one level, and not the disc around it. So the outer rim is looked for around every target that has no
 //! code: on rays from its centre, the ground of a hole ends where its own level comes back. If these places are an ellipse, it is confirmed and
 //! measured as any other, in a copy of the picture: to be confirmed with the hole filled up with the level of the disc, for the fit with the
 //! hole left out, so that the rim of one says nothing of the other.
@@ -189,7 +189,7 @@ pub(super) fn compare_centres(target: &mut Target) {
     inner.off_centre = square > OFF;
 }
 
-/// The ellipse on which, around a hole, its own level comes back; none where that is not all around.
+/// The outer rim around a hole: the ellipse beyond which the level of the hole comes back. None where it does not come back on enough rays.
 fn rim_around<T: Sample>(plane: &Plane<T>, levels: &Levels, target: &Target, hole: &Outline) -> Option<Outline> {
     let sign = if target.polarity == Polarity::Bright { 1.0 } else { -1.0 };
     let rise = (RETURNS * target.contrast).max(CLEAR * levels.noise.max(target.quality.noise));
