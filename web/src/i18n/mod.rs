@@ -1,6 +1,6 @@
-//! Every word of the desk in every language: a file a language, with parts beside it where that grows long, and a text missing in one does not compile.
+//! Every word of the desk in every language: a folder a language, a file for each part of the desk, and a text missing in one does not compile.
 //!
-//! `en.rs` declares the texts; the files of other languages translate them. A text is a function: used in a view it follows
+//! The files in `en` declare the texts; those of other languages translate them. A text is a function: used in a view it follows
 //! the language switch by itself, for it reads the language signal. What the engine has words for, its reasons and the language
 //! of its pages, every language says through [`Speech`]. A further language is its texts, its `Speech`, and its lines in the
 //! enum and the macro `spoken` below; pages in it are the engine's (`src/report/texts`).
@@ -144,27 +144,26 @@ pub fn restore_language() {
 #[cfg(test)]
 type Declared = (&'static str, &'static [&'static str], &'static str);
 
-/// Declares a part's texts in English: `name: "words";` or, with values, `name(a, b): "words {a} {b:one|many}";`. Each becomes
-/// a function of the part's module, and a method of its trait `Words`, which every language implements.
+/// Declares a part's texts in English, in the file of the part's name: `name: "words";` or, with values, `name(a, b): "words {a} {b:one|many}";`.
+/// Each becomes a function of the part's module, and a method of its trait `Words`, which every language implements.
 macro_rules! declare {
     ($part:ident { $($name:ident $(($($value:ident),+))? : $text:literal;)+ }) => {
-        pub mod $part {
-            /// What every language says.
-            // A text's name may begin with any word.
-            #[allow(clippy::wrong_self_convention)]
-            pub trait Words: Sync {
-                $($crate::i18n::declare!(@method $name $(($($value),+))?);)+
-                #[cfg(test)]
-                fn every_text(&self) -> Vec<$crate::i18n::Declared>;
-            }
-
-            /// The texts in a language.
-            pub fn words(language: $crate::i18n::Language) -> &'static dyn Words {
-                $crate::i18n::spoken!(language)
-            }
-
-            $($crate::i18n::declare!(@function $name $(($($value),+))?);)+
+        /// What every language says.
+        // A text's name may begin with any word.
+        #[allow(clippy::wrong_self_convention)]
+        pub trait Words: Sync {
+            $($crate::i18n::declare!(@method $name $(($($value),+))?);)+
+            #[cfg(test)]
+            fn every_text(&self) -> Vec<$crate::i18n::Declared>;
         }
+
+        /// The texts in a language.
+        pub fn words(language: $crate::i18n::Language) -> &'static dyn Words {
+            $crate::i18n::spoken!(language)
+        }
+
+        $($crate::i18n::declare!(@function $name $(($($value),+))?);)+
+
         $crate::i18n::translate! { English $part { $($name $(($($value),+))? : $text;)+ } }
     };
     (@method $name:ident) => { fn $name(&self) -> &'static str; };
@@ -218,7 +217,16 @@ mod tests {
     fn all() -> Vec<(Language, Declared)> {
         let of = |language: Language| {
             let parts = [
-                en::desk::words(language).every_text(),
+                en::adjusting::words(language).every_text(),
+                en::changes::words(language).every_text(),
+                en::control::words(language).every_text(),
+                en::general::words(language).every_text(),
+                en::names::words(language).every_text(),
+                en::photos::words(language).every_text(),
+                en::projects::words(language).every_text(),
+                en::reports::words(language).every_text(),
+                en::results::words(language).every_text(),
+                en::targets::words(language).every_text(),
                 experiments::words(language).every_text(),
                 printing::words(language).every_text(),
                 planning::words(language).every_text(),

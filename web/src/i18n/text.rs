@@ -1,6 +1,15 @@
-//! The texts of the desk, apart from those of the experiments and of errors.
+//! The texts that most of the desk uses, under one name; those of a part by itself (experiments, plan, monitoring) go by the part's name.
 
-pub use super::en::desk::*;
+pub use super::en::adjusting::*;
+pub use super::en::changes::*;
+pub use super::en::control::*;
+pub use super::en::general::*;
+pub use super::en::names::*;
+pub use super::en::photos::*;
+pub use super::en::projects::*;
+pub use super::en::reports::*;
+pub use super::en::results::*;
+pub use super::en::targets::*;
 
 /// A point's role.
 pub fn role_word(role: sightline::project::Role) -> &'static str {

@@ -22,16 +22,17 @@ impl<T: Clone + PartialEq> Table<T> {
         }
         let splices = splices::between(above, rows);
         // A table that is changed all over is kept once, not twice.
-        if splices::rows_in(&splices) < rows.len() { Self::FromAbove(splices) } else { Self::Whole(rows.clone()) }
+        let smaller = splices::rows_in(&splices) < rows.len();
+        if smaller && splices::fit(above, &splices) { Self::FromAbove(splices) } else { Self::Whole(rows.clone()) }
     }
 
     fn rows(self, above: &Rows<T>) -> Rows<T> {
         match self {
             Self::Whole(rows) => rows,
             Self::FromAbove(splices) if splices.is_empty() => above.clone(),
-            Self::FromAbove(splices) => {
-                splices::forward(above, &splices).expect("a state lies on the one it was told from").into()
-            }
+            Self::FromAbove(splices) => splices::forward(above, &splices)
+                .expect("splices that fitted the table above when they were made")
+                .into(),
         }
     }
 }

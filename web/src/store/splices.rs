@@ -67,6 +67,12 @@ fn until_equal<T: PartialEq>(before: &[T], after: &[T]) -> (usize, usize) {
     (before.len(), after.len())
 }
 
+/// Whether splices lead away from this version. Those [`between`] found do, unless a row in them does not equal itself, as one with a number
+/// that is not a number.
+pub fn fit<T: PartialEq>(before: &[T], splices: &[Splice<T>]) -> bool {
+    splices.iter().all(|splice| before.get(splice.at..splice.at + splice.was.len()) == Some(&splice.was[..]))
+}
+
 /// The version after, out of the one before.
 ///
 /// # Errors
@@ -112,6 +118,14 @@ fn replaced<'a, T: Clone + PartialEq + 'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_row_that_does_not_equal_itself_fits_no_splice() {
+        let (before, after) = ([1.0, 2.0, 3.0], [1.0, 4.0, 3.0]);
+        assert!(fit(&before, &between(&before, &after)));
+        let before = [1.0, f64::NAN, 3.0];
+        assert!(!fit(&before, &between(&before, &after)));
+    }
 
     #[test]
     fn either_version_comes_back_from_the_other_whatever_was_done() {

@@ -1,4 +1,4 @@
-//! 작업 단계 옆에 있는 것의 글: 이전 결과와의 비교, 프로젝트를 넘어 쓰는 장비, 오래 걸리는 일.
+//! 두 결과를 비교하는 문장.
 
 use super::{Korean, choose};
 use crate::i18n::translate;
@@ -36,63 +36,4 @@ translate! { Korean comparing {
     cancelled_result_old: "취소했습니다. 마지막 결과는 남아 있으며, 그때의 프로젝트에 대한 것입니다.";
     cancelled_no_result: "취소했습니다. 아직 결과가 없습니다.";
     residuals_by_photo: "사진별 잔차";
-}}
-
-translate! { Korean equipment {
-    equipment: "장비";
-    equipment_words: "검정한 카메라와 인증된 축척 막대를 이 컴퓨터와 파일에 두고, 사진에 보이면 바로 쓰게 합니다.";
-    sentence(cameras, calibrations, bars): "카메라 {cameras}대, 검정 {calibrations}건, 축척 막대 {bars}개.";
-    import_file: "파일 들여오기";
-    export_file: "파일로 저장";
-    kept_cameras: "카메라";
-    kept_bars: "축척 막대";
-    no_cameras: "아직 보관한 카메라가 없습니다. 카메라를 추정한 조정이 끝나면 아래에서 그 검정을 보관하십시오.";
-    no_bars: "아직 보관한 축척 막대가 없습니다. 인증서에 적힌 값을 넣으십시오. 두 끝이 코드 표적이고 사진 두 장에 보이면 막대의 거리가 저절로 들어갑니다.";
-    of_this_result: "지금 결과의 카메라";
-    keep_calibration: "이 검정 보관";
-    calibration_kept(camera): "{camera}의 검정을 이 컴퓨터에 보관했습니다.";
-    calibrated_on(date): "{date} 검정";
-    remove_camera(camera): "카메라 {camera} 빼기";
-    remove_calibration(date): "{date} 검정 빼기";
-    remove_bar(bar): "축척 막대 {bar} 빼기";
-    removed: "보관 목록에서 뺐습니다.";
-    put_back: "되돌리기";
-    bar_name: "이름";
-    certificate: "인증서";
-    date: "날짜";
-    date_hint: "2026-05-01";
-    keep_bar: "막대 보관";
-    not_kept: "이 브라우저의 저장소에 장비를 쓰지 못했습니다. 파일로 저장하십시오.";
-    imported(file, cameras, calibrations, bars):
-        "{file}: 새 카메라 {cameras}대, 검정 {calibrations}건, 축척 막대 {bars}개를 들여왔습니다.";
-    known_camera(name, date): "보관한 카메라입니다: {name}, {date} 검정. 이 값을";
-    held: "고정";
-    held_means: "모든 매개변수를 검정한 값으로 고정합니다.";
-    observed: "관측값으로";
-    observed_means: "매개변수마다 검정의 표준오차를 가진 관측값으로 둡니다.";
-    free: "추정";
-    free_means: "검정한 값에서 시작해 모두 추정합니다.";
-    bars_seen(bars): "사진에 보이는 축척 막대: {bars}.";
-    take_bars: "거리 넣기";
-    bars_taken(bars): "사진에 보이는 축척 막대의 거리를 넣었습니다: {bars}.";
-    with_colours(colours): "{colours}에 대한 차이 포함";
-    change_calibration(camera): "{camera} 검정 값 사용";
-    change_bars(n): "축척 막대 거리 {n}개";
-}}
-
-translate! { Korean lasting {
-    photo: "사진을 읽는 중";
-    pixels: "사진의 화소값을 읽는 중";
-    target: "표적을 측정하는 중";
-    colours: "사진의 색별 위치를 측정하는 중";
-    lens_colours: "렌즈의 색별 차이를 계산하는 중";
-    situation: "점의 예상 위치를 보이려고 사진 표정을 구하는 중";
-    features: "형상과 좌표계를 측정하는 중";
-    report: "보고서를 만드는 중";
-    report_stopped: "보고서 작성을 멈췄습니다. 다음 변경 후 다시 만듭니다.";
-    plots: "그림을 그리는 중";
-    comparison: "결과를 비교하는 중";
-    sheets: "표적을 그리는 중";
-    file: "파일을 쓰는 중";
-    plan: "계획을 계산하는 중";
-}}
+} }

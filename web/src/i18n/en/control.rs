@@ -1,0 +1,68 @@
+//! Texts of control points, distances and their lists.
+
+use super::{English, choose};
+use crate::i18n::declare;
+
+declare! { control {
+    // Control and scale
+    control_and_scale: "Control, scale";
+    control_sentence(control, check, distances):
+        "{control} {control:control point|control points}, {check} check {check:point|points}, {distances} {distances:distance|distances}.";
+    open_control: "Open control points…";
+    control_points: "Control points";
+    paste_control: "Paste rows here: id, X, Y, Z, sX, sY, sZ";
+    pasted: "Control points, pasted";
+    rows_read(all, bad): "{all} rows read, {bad} not understood";
+    take_points(n): "Import {n} {n:point|points}";
+    measured: "measured";
+    not_measured: "not measured in any photo";
+    fixed: "fixed";
+    distances: "Distances";
+    distance_same_point: "A distance needs two different points.";
+    distance_no_point: "Both ends must be points of this project.";
+    distance_length: "Enter the length as a positive number, e.g. 1250.4.";
+    distance_sigma: "Enter the standard error of this length as a positive number, e.g. 0.02.";
+    add_distance: "Add";
+    remove_distance: "Remove the distance";
+    from_point: "from";
+    to_point: "to";
+    length: "length";
+    unit_of_length: "unit of length";
+    unit_of_these: "in";
+    choose_unit: "choose…";
+    which_unit: "Say in which unit these coordinates are: a sheet of 1 m must not become one of 1 mm.";
+    unit_question(from, to, after):
+        "The numbers are in {from}. Convert them to {to} (1000 {from} become {after} {to}), or were they in {to} all along?";
+    unit_convert: "Convert the numbers";
+    unit_relabel: "Only the unit was wrong";
+    unit_unknown(unit): "\"{unit}\" is not a known unit of length. Choose the unit of the numbers.";
+    unit_unknown_question(from, to): "\"{from}\" is not a known unit, and nothing can be converted from it. Are the numbers in {to}?";
+    unit_is_right: "Yes, change the unit";
+    read_separator(separator): "Fields are separated by {separator}.";
+    separator_comma: "commas";
+    separator_semicolon: "semicolons";
+    separator_tab: "tabs";
+    separator_blanks: "blanks";
+    read_point: "Decimal point.";
+    read_comma: "Decimal comma.";
+    read_columns(columns): "Columns by the heading: {columns}.";
+    read_columns_assumed(columns): "No heading; columns assumed: {columns}.";
+    read_ignored(columns): "Not used: {columns}.";
+    read_remarks(headings): "Not understood in the heading: {headings}.";
+    ask_decimal: "Which number is meant?";
+    ask_axes: "The table has no heading that tells the axes. Which coordinate comes first?";
+    axes_xy: "X, east";
+    axes_yx: "Y, north";
+    in_unit(unit): "in {unit}";
+    observed_centres: "Observed projection centres";
+    observed_centres_hint: "as from GNSS; used under the control datum";
+    forget_centre: "Observe this projection centre no more";
+    observe: "Observe";
+    datum: "Datum";
+    datum_control: "Control points";
+    datum_control_means: "The result sits in the control system, and errors of control enter the shape.";
+    datum_minimal: "Minimal constraints";
+    datum_minimal_means: "Seven coordinates are held: fixes position, rotation and scale only. Standard errors depend on which seven.";
+    datum_free: "Free network";
+    datum_free_means: "Inner constraints over all points give the smallest mean sigma; control only gives the start.";
+} }

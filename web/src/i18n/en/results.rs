@@ -1,0 +1,95 @@
+//! Texts of results and their plots.
+
+use super::{English, choose};
+use crate::i18n::declare;
+
+declare! { results {
+    // Results: plots and meanings
+    tables: "Tables";
+    plots: "Plots";
+    meanings: "What the numbers mean";
+    what_it_means: "What it means";
+    what_to_do: "What to do:";
+    source: "Source";
+    residuals_of_photos: "Residuals, photo by photo";
+    drawing_plots: "Drawing the plots";
+    save_svg: "Save SVG";
+    sigma0_name: "σ₀, standard deviation of unit weight";
+    sigma0_means: "How large the residuals are beside what was assumed of the observations: 1 where the assumption is right. Every standard deviation of the result contains it.";
+    sigma0_do: "Well above 1: look for gross errors, then for an unmodelled part of the camera; if both are settled, the assumed standard deviations are too small. Well below 1: they are too large.";
+    global_name: "Global test";
+    global_means: "Whether σ₀ can differ from 1 by chance. The test fails by chance in 5 of 100 adjustments that are in order.";
+    global_do: "Failed and σ₀ above 1: start with the worst observations. Failed and below 1: only the assumption is too careful, the coordinates are the same.";
+    redundancy_means: "How many observations are more than needed: these check the others.";
+    redundancy_do: "Small redundancy hides errors: measure points in more photos, add photos.";
+    rms_residual_means: "How well the adjusted rays meet the measured places in the photos, in pixels.";
+    rms_residual_do: "With good targets some hundredths of a pixel. More: targets out of focus, wrong identities, or a lens the model does not describe.";
+    rms_sigma_means: "The precision of a coordinate, in the mean over all tie points, at 1σ. It tells how observations repeat, not what is systematically wrong: check points tell that.";
+    rms_sigma_do: "For better figures: photos at larger angles, a closer or longer lens, more rays per point.";
+    relative_means: "The largest dimension of the object over the mean standard deviation: it compares networks of different size.";
+    relative_do: "1 : 5 000 is a camera held by hand, 1 : 100 000 a calibrated network of targets.";
+    check_rms_means: "Differences at points that were known beforehand and took no part: the one independent statement about accuracy here.";
+    check_rms_do: "Much larger than the standard deviations say: scale, datum or the check points themselves are wrong, or the camera is.";
+    w_name: "w, test of a single observation";
+    w_means(limit): "A residual in units of its own standard deviation. Beyond {limit} it is one in a thousand by chance.";
+    w_do: "Look at the largest in its photo first: one gross error enlarges others. Measure again or exclude, then adjust again.";
+    r_name: "r, redundancy number";
+    r_means: "The share of an error in this observation that shows in its own residual: 1 all of it, 0 nothing.";
+    r_do: "Below 0.1 a gross error stays unseen: give its point more rays or its photo more points.";
+    mdb_name: "Detectable error and its effect";
+    mdb_means: "The smallest error of an observation that the test finds with a power of 80 %, and how far it moves a coordinate while it stays undetected.";
+    mdb_do: "An effect that is larger than the tolerance asks for more checks just there.";
+    significance_name: "Significance of a parameter";
+    significance_means: "A parameter of distortion in units of its standard deviation: below 2 it is not told from 0.";
+    significance_do: "Hold it at 0, or keep it where the calibration is to be used elsewhere.";
+    correlation_name: "Correlation";
+    correlation_means(limit): "How far two parameters stand in for each other: beyond {limit} they are known together only.";
+    correlation_do: "Roll the camera by 90°, vary depth and direction; or hold the finer of the two.";
+
+    // Results
+    results: "Results";
+    no_result: "There is no result yet";
+    no_result_body: "Run the adjustment; its result appears here.";
+    results_stale: "These results are out of date";
+    changed_since: "Since the last adjustment:";
+    no_number_until: "No number is shown until the network is adjusted again.";
+    a_priori_one: "a priori 1";
+    test_passed: "Global test passed";
+    test_failed: "Global test failed";
+    standard_errors_estimated(factors): "No global test: standard errors estimated, {factors}";
+    times_a_priori_px(factor, px): "{factor} times the a priori {px} px";
+    times_a_priori(factor): "{factor} times the a priori ones";
+    and_unmodelled(factors, px): "{factors}, and {px} px that are not modelled";
+    not_estimated(redundancy, needed): "not estimated: redundancy {redundancy}, needed {needed}";
+    no_residuals: "not estimated: all residuals are 0";
+    errors_estimated: "standard errors estimated";
+    redundancy: "redundancy";
+    rms_residual: "rms residual";
+    all_image_coordinates: "all image coordinates";
+    rms_sigma: "rms σ";
+    points_one_sigma(n): "{n} {n:point|points}, 1σ";
+    relative_accuracy: "relative accuracy";
+    largest_dimension(length, unit): "largest dimension {length} {unit}";
+    check_rms: "check points rms";
+    check_points: "Check points";
+    adjusted_minus_given: "adjusted minus given";
+    export_csv: "Export CSV";
+    camera_and_correlations(camera): "Camera {camera} and its correlations";
+    value: "value";
+    unit: "unit";
+    rms_x: "rms x";
+    rms_y: "rms y";
+    rms_summary(x, y, unit, n): "rms x {x}, y {y} {unit}, {n} {n:point|points}";
+    residuals: "Residuals";
+    residuals_of(photo): "Residuals, photo {photo}";
+    worst_observations: "Worst observations";
+    baarda: "Baarda's w, α 0.1 %";
+    over(limit): "over {limit}";
+    verdict: "verdict";
+    unchecked: "unchecked";
+    other_observations: "Other observations";
+    kind_of_observation: "kind";
+    detectable: "detectable";
+    effect: "effect";
+    effect_on: "on point";
+} }

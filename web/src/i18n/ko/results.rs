@@ -1,0 +1,95 @@
+//! 결과와 그림의 문장.
+
+use super::{Korean, choose};
+use crate::i18n::translate;
+
+translate! { Korean results {
+    // Results: plots and meanings
+    tables: "표";
+    plots: "그림";
+    meanings: "수치의 뜻";
+    what_it_means: "뜻 보기";
+    what_to_do: "할 일:";
+    source: "출처";
+    residuals_of_photos: "사진별 잔차";
+    drawing_plots: "그림 그리는 중";
+    save_svg: "SVG 저장";
+    sigma0_name: "σ₀, 사후 단위중량 표준오차";
+    sigma0_means: "관측값에 대해 가정한 것에 비해 잔차가 얼마나 큰지를 나타내며, 가정이 옳으면 1입니다. 결과의 모든 표준오차에 들어 있습니다.";
+    sigma0_do: "1보다 훨씬 크면 과대오차를 먼저, 다음으로 카메라의 모형화되지 않은 부분을 찾으십시오. 둘 다 아니면 가정한 표준오차가 너무 작은 것입니다. 1보다 훨씬 작으면 너무 큰 것입니다.";
+    global_name: "전체 모형 검정";
+    global_means: "σ₀가 우연히 1과 다를 수 있는지를 봅니다. 문제없는 조정도 100번 중 5번은 우연히 실패합니다.";
+    global_do: "실패하고 σ₀가 1보다 크면 가장 나쁜 관측값부터 보십시오. 1보다 작으면 가정이 지나치게 조심스러울 뿐 좌표는 같습니다.";
+    redundancy_means: "필요한 것보다 많은 관측값의 수이며, 이것이 다른 관측값을 점검합니다.";
+    redundancy_do: "잉여도가 작으면 오차가 숨습니다. 점을 더 많은 사진에서 측정하고 사진을 더하십시오.";
+    rms_residual_means: "조정된 광선이 사진에서 측정한 자리와 얼마나 잘 만나는지를 픽셀로 나타냅니다.";
+    rms_residual_do: "좋은 표적이면 수백분의 일 픽셀입니다. 더 크면 초점이 흐리거나, 점 이름이 틀렸거나, 모형이 렌즈를 나타내지 못하는 것입니다.";
+    rms_sigma_means: "모든 결합점에 대한 좌표의 평균 정밀도(1σ)입니다. 관측이 되풀이되는 정도이며 계통오차는 검사점이 알려 줍니다.";
+    rms_sigma_do: "더 좋게 하려면 교회각을 크게, 더 가까이 또는 긴 렌즈로, 점마다 광선을 더 많이 찍으십시오.";
+    relative_means: "대상물의 최대 치수를 평균 표준오차로 나눈 것으로, 크기가 다른 망을 비교합니다.";
+    relative_do: "1 : 5 000은 손에 든 카메라, 1 : 100 000은 검정된 표적망의 수준입니다.";
+    check_rms_means: "미리 알고 있으나 조정에 쓰지 않은 점에서의 차이이며, 정확도에 대한 유일한 독립적 진술입니다.";
+    check_rms_do: "표준오차보다 훨씬 크면 축척, 기준계, 검사점 자체 또는 카메라가 잘못된 것입니다.";
+    w_name: "w, 관측값 하나의 검정";
+    w_means(limit): "잔차를 자신의 표준오차로 나눈 값입니다. {limit}{limit:을|를} 넘는 것은 우연히는 천에 하나입니다.";
+    w_do: "가장 큰 것부터 사진에서 보십시오. 과대오차 하나가 다른 것도 키웁니다. 다시 측정하거나 제외하고 다시 조정하십시오.";
+    r_name: "r, 잉여수";
+    r_means: "이 관측값의 오차 중 자신의 잔차에 드러나는 몫입니다. 1이면 전부, 0이면 전혀 드러나지 않습니다.";
+    r_do: "0.1 미만이면 과대오차가 드러나지 않습니다. 점에 광선을, 사진에 점을 더하십시오.";
+    mdb_name: "탐지 가능 오차와 그 영향";
+    mdb_means: "검정이 80 %의 검정력으로 찾아내는 가장 작은 오차와, 찾아내지 못한 동안 그것이 좌표를 옮기는 양입니다.";
+    mdb_do: "영향이 허용 오차보다 크면 바로 그곳에 점검할 관측이 더 필요합니다.";
+    significance_name: "매개변수의 유의성";
+    significance_means: "왜곡 매개변수를 표준오차로 나눈 값으로, 2 미만이면 0과 구별되지 않습니다.";
+    significance_do: "0으로 고정하거나, 검정 결과를 다른 곳에 쓸 때는 그대로 두십시오.";
+    correlation_name: "상관";
+    correlation_means(limit): "두 매개변수가 서로를 대신하는 정도이며, {limit}{limit:을|를} 넘으면 함께만 알려집니다.";
+    correlation_do: "카메라를 90° 돌리고 깊이와 방향을 바꾸어 찍거나, 둘 중 더 세밀한 것을 고정하십시오.";
+
+    // Results
+    results: "결과";
+    no_result: "아직 결과가 없습니다";
+    no_result_body: "광속조정을 실행하면 결과가 여기에 나타납니다.";
+    results_stale: "결과를 갱신해야 합니다";
+    changed_since: "마지막 조정 뒤의 변경:";
+    no_number_until: "다시 조정할 때까지 수치를 보이지 않습니다.";
+    a_priori_one: "사전값 1";
+    test_passed: "전체 모형 검정 통과";
+    test_failed: "전체 모형 검정 실패";
+    standard_errors_estimated(factors): "전체 모형 검정 없음: 표준오차를 추정함, {factors}";
+    times_a_priori_px(factor, px): "사전 표준오차 {px} px의 {factor}배";
+    times_a_priori(factor): "사전 표준오차의 {factor}배";
+    and_unmodelled(factors, px): "{factors}, 모형화되지 않은 오차 {px} px";
+    not_estimated(redundancy, needed): "추정하지 않음: 잉여도 {redundancy}, 필요 {needed}";
+    no_residuals: "추정하지 않음: 잔차가 모두 0";
+    errors_estimated: "표준오차를 추정함";
+    redundancy: "잉여도";
+    rms_residual: "잔차 RMS";
+    all_image_coordinates: "모든 사진좌표";
+    rms_sigma: "RMS σ";
+    points_one_sigma(n): "{n}점, 1σ";
+    relative_accuracy: "상대정확도";
+    largest_dimension(length, unit): "최대 치수 {length} {unit}";
+    check_rms: "검사점 RMS";
+    check_points: "검사점";
+    adjusted_minus_given: "조정값 − 주어진 값";
+    export_csv: "CSV 내보내기";
+    camera_and_correlations(camera): "카메라 {camera}와 상관행렬";
+    value: "값";
+    unit: "단위";
+    rms_x: "RMS x";
+    rms_y: "RMS y";
+    rms_summary(x, y, unit, n): "RMS x {x}, y {y} {unit}, {n}점";
+    residuals: "잔차";
+    residuals_of(photo): "잔차, 사진 {photo}";
+    worst_observations: "큰 잔차 관측값";
+    baarda: "Baarda w, α 0.1 %";
+    over(limit): "{limit} 초과";
+    verdict: "판정";
+    unchecked: "검증 불가";
+    other_observations: "그 밖의 관측값";
+    kind_of_observation: "종류";
+    detectable: "검출 한계";
+    effect: "영향";
+    effect_on: "영향받는 점";
+} }
