@@ -1,7 +1,8 @@
-//! The invariants of CONTRIBUTING.md that text alone can show, and its code map.
+//! The invariants of CONTRIBUTING.md that text alone can show, its code map, and that no large file is kept.
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use crate::Outcome;
 use crate::process::root;
@@ -10,6 +11,9 @@ use super::order;
 
 /// Lines from which a file should be split; said, not enforced.
 const LONG: usize = 450;
+
+/// Bytes above which a file is no source: pictures of the documents have to be smaller, and data and packages do not belong here.
+const LARGE: u64 = 300_000;
 
 /// What a part of the tree must not contain.
 struct Ban {
@@ -74,6 +78,7 @@ pub fn faults() -> Outcome<Vec<String>> {
             println!("note: {path} has {lines} lines; one algorithm a file is about 250");
         }
     }
+    faults.extend(large(&root)?);
     let map = fs::read_to_string(root.join("CONTRIBUTING.md")).map_err(|error| format!("CONTRIBUTING.md: {error}"))?;
     let map = map.split("## Code map").nth(1).ok_or("CONTRIBUTING.md has no code map")?;
     let map = map.split("\n## ").next().unwrap_or(map);
@@ -106,6 +111,24 @@ impl Ban {
         });
         broken.collect()
     }
+}
+
+/// Files that Git keeps, or would with the next `git add`, and that are too large.
+fn large(root: &Path) -> Outcome<Vec<String>> {
+    let listed = Command::new("git")
+        .args(["ls-files", "-z", "--cached", "--others", "--exclude-standard"])
+        .current_dir(root)
+        .output()
+        .map_err(|error| format!("git ls-files: {error}"))?;
+    if !listed.status.success() {
+        return Err(format!("git ls-files: {}", String::from_utf8_lossy(&listed.stderr)));
+    }
+    let names = String::from_utf8_lossy(&listed.stdout).into_owned();
+    let size = |name: &str| fs::metadata(root.join(name)).map_or(0, |about| about.len());
+    let large = names.split('\0').filter(|name| !name.is_empty() && size(name) > LARGE);
+    Ok(large
+        .map(|name| format!("{name}: {} kB; files above {} kB are not kept", size(name) / 1000, LARGE / 1000))
+        .collect())
 }
 
 /// Repository paths in backquotes.
