@@ -28,13 +28,13 @@ pub(super) fn measure<T: Sample>(plane: Plane<T>, u: f64, v: f64, options: &Dete
         |target: &Target| options.codes == Codes::None || target.code.is_some() || !target.code_candidates.is_empty();
     let donut = |target| rims::settle_one(&plane, options, target);
     if found.as_ref().is_some_and(is_settled) {
-        return found.map(donut);
+        return found.and_then(donut);
     }
     // a dot may be measured otherwise, and read, where others tell of it
     let coded = |target: &Target| found.is_none() || target.code.is_some();
     let noisy = |noise| at(plane, u, v, options, noise, |measure, found| measure.finish(found, method).ok());
     let ordinary = in_ordinary(plane, u, v, options).filter(coded);
-    ordinary.or(found.map(donut)).or_else(|| NOISE_AT_RIMS.into_iter().find_map(noisy).map(donut))
+    ordinary.or_else(|| found.and_then(donut)).or_else(|| NOISE_AT_RIMS.into_iter().find_map(noisy).and_then(donut))
 }
 
 /// The target under the click where the picture is no laboratory's: as the whole picture would be searched, in windows.

@@ -26,7 +26,9 @@ use super::pass::Pass;
 use super::picture::noise::{self, Levels};
 use super::rendered::colour::Colour;
 use super::search::census::forget_rejected;
-use crate::detection::{DetectOptions, Detection, InnerRim, Method, Polarity, PolarityChoice, Reason, Target};
+use crate::detection::{
+    DetectOptions, Detection, InnerRim, Method, Polarity, PolarityChoice, Reason, Rejected, Target,
+};
 use crate::image::{Plane, Sample};
 
 /// Rays on which an outer rim is looked for, and the part of a pixel between two places on them.
@@ -112,6 +114,19 @@ impl Donut {
         target.inner = Some(self.inner);
         Ok((target, measure.colour.take()))
     }
+
+    /// The blob of a donut that is not measured.
+    fn rejected(&self, reason: Reason) -> Rejected {
+        let outline = &self.found.ellipse.outline;
+        let (u, v) = (outline.u + self.left, outline.v + self.top);
+        Rejected { u, v, diameter: 2.0 * outline.semi_axes().0, reason }
+    }
+
+    /// The target by the method asked for, or at its ellipse where a fit to its levels fails.
+    fn target(&self, options: &DetectOptions) -> Result<(Target, Option<Colour>), Reason> {
+        let by_levels = self.measured(options, options.method);
+        by_levels.or_else(|reason| self.measured(options, Method::Ellipse).map_err(|_| reason))
+    }
 }
 
 /// What is left out of a disc for its hole: as far as the blur of the hole's rim reaches, but no more than half of what lies between the rims.
@@ -145,14 +160,19 @@ pub(super) fn settle<T: Sample>(
     coloured: bool,
     detection: &mut Detection,
 ) {
-    let mut holes = Vec::new();
+    let (mut holes, mut unmeasured) = (Vec::new(), Vec::new());
     let mut pass = Pass { coloured, ..Pass::default() };
     for (k, target) in detection.targets.iter().enumerate() {
         let Some(donut) = Donut::around(plane, levels, options, target, coloured) else { continue };
-        let Ok((outer, colour)) = donut.measured(options, options.method) else { continue };
-        pass.colours.extend(colour.map(|colour| ([outer.u, outer.v], colour)));
-        pass.detection.targets.push(outer);
-        holes.push(k);
+        match donut.target(options) {
+            Ok((outer, colour)) => {
+                pass.colours.extend(colour.map(|colour| ([outer.u, outer.v], colour)));
+                pass.detection.targets.push(outer);
+                holes.push(k);
+            }
+            // The hole is no substitute: its centre is another one.
+            Err(reason) => unmeasured.push((k, donut.rejected(reason))),
+        }
     }
     pass.correlate();
     let mut gone = vec![false; detection.targets.len()];
@@ -165,17 +185,21 @@ pub(super) fn settle<T: Sample>(
         }
         detection.targets[k] = outer;
     }
+    for (k, rejected) in unmeasured {
+        gone[k] = true;
+        detection.rejected_blobs.push(rejected);
+    }
     let mut gone = gone.into_iter();
     detection.targets.retain(|_| !gone.next().unwrap_or_default());
 }
 
-/// The donut whose hole a target is, or the target as it is.
-pub(super) fn settle_one<T: Sample>(plane: &Plane<T>, options: &DetectOptions, target: Target) -> Target {
+/// The donut whose hole a target is, or the target as it is; `None` for a donut whose outer rim cannot be measured.
+pub(super) fn settle_one<T: Sample>(plane: &Plane<T>, options: &DetectOptions, target: Target) -> Option<Target> {
     let levels = noise::levels(plane);
-    let donut = Donut::around(plane, &levels, options, &target, false);
-    let Some(Ok((mut outer, _))) = donut.map(|donut| donut.measured(options, options.method)) else { return target };
+    let Some(donut) = Donut::around(plane, &levels, options, &target, false) else { return Some(target) };
+    let (mut outer, _) = donut.target(options).ok()?;
     compare_centres(&mut outer);
-    outer
+    Some(outer)
 }
 
 /// Says of a donut whether its two centres differ by more than their standard errors explain.
