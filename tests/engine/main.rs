@@ -37,6 +37,7 @@ mod detect {
     mod cases;
     mod coarse;
     mod codes;
+    mod codes_among;
     mod compression;
     mod developed;
     mod donuts;
