@@ -19,6 +19,7 @@ pub mod history;
 pub mod identity;
 pub mod inside;
 pub mod intake;
+mod jobs;
 pub mod keeping;
 pub mod kept;
 mod lasting;
@@ -26,6 +27,7 @@ pub mod lesson;
 pub mod marking;
 pub mod models;
 pub mod monitoring;
+mod notices;
 pub mod parts;
 pub mod pictures;
 pub mod planning;
@@ -42,16 +44,15 @@ pub mod saving;
 pub mod selection;
 pub mod shelf;
 mod splices;
+mod steps;
 pub mod tables;
 pub mod texts;
 pub mod values;
 
 use std::collections::{BTreeMap, HashMap};
-use std::rc::Rc;
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use leptos::task::spawn_local;
 use sightline::Error;
 use sightline::adjustment::Iteration;
 use sightline::detection::{Codes, DetectOptions};
@@ -63,7 +64,7 @@ use crate::browser::page;
 use crate::browser::picture::Picture;
 use crate::browser::storage::Fault;
 use crate::edit::questions::Question;
-use crate::i18n::{Text, errors, text};
+use crate::i18n::text;
 use control::Pasted;
 use document::{Change, Document};
 use equipment::Equipped;
@@ -71,98 +72,20 @@ use experiments::Experiments;
 use history::History;
 use identity::Marks;
 use inside::Inside;
+pub use jobs::{Job, JobKind};
 use keeping::{Keeper, Kept};
 use lesson::Lessons;
 use marking::Series;
 use monitoring::Monitored;
+pub use notices::{Asking, Notice, Until};
 use planning::Planning;
-use pool::{Batch, Pool};
+use pool::Pool;
 use predicting::Predicting;
 use printing::Printing;
 pub use selection::{Kind, Marking, Selection};
 use shelf::Shelved;
+pub use steps::Step;
 use tables::Tables;
-
-/// The steps of the path, and the page before it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Step {
-    #[default]
-    Start,
-    Photos,
-    Targets,
-    Identities,
-    Control,
-    Adjust,
-    Results,
-    Report,
-    /// A view of the results, beside the path.
-    Object,
-    /// Beside the path.
-    Experiments,
-    /// Beside the path too.
-    Tables,
-    /// Before it: the plan of the photos.
-    Plan,
-    /// Targets to print.
-    Print,
-    /// Cameras and scale bars that are of no project.
-    Equipment,
-    /// Epochs of an object beside each other.
-    Monitoring,
-    /// Files for other programs.
-    Files,
-    /// Matrices, steps, datums and errors of an adjustment.
-    Inside,
-}
-
-impl Step {
-    /// The steps in their order, without the start page.
-    pub const ROW: [Self; 7] =
-        [Self::Photos, Self::Targets, Self::Identities, Self::Control, Self::Adjust, Self::Results, Self::Report];
-
-    /// What is done before there are photos.
-    pub const BEFORE: [Self; 3] = [Self::Plan, Self::Print, Self::Equipment];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Start => "start",
-            Self::Photos => "photos",
-            Self::Targets => "targets",
-            Self::Identities => "identities",
-            Self::Control => "control",
-            Self::Adjust => "adjust",
-            Self::Results => "results",
-            Self::Report => "report",
-            Self::Object => "object",
-            Self::Experiments => "experiments",
-            Self::Tables => "tables",
-            Self::Plan => "plan",
-            Self::Print => "print",
-            Self::Equipment => "equipment",
-            Self::Monitoring => "monitoring",
-            Self::Files => "files",
-            Self::Inside => "inside",
-        }
-    }
-
-    fn from_name(name: &str) -> Self {
-        // A lesson and its state may follow.
-        let name = if name.starts_with("inside/") { Self::Inside.name() } else { name };
-        let beside =
-            [Self::Tables, Self::Object, Self::Monitoring, Self::Files, Self::Inside].into_iter().chain(Self::BEFORE);
-        Self::ROW.into_iter().chain(beside).find(|s| s.name() == name).unwrap_or_default()
-    }
-
-    /// Whether it shows a project, so that a project can be left at it.
-    pub fn of_a_project(self) -> bool {
-        !matches!(self, Self::Start | Self::Experiments | Self::Print | Self::Equipment | Self::Inside)
-    }
-
-    /// Whether it needs no project.
-    pub fn is_before(self) -> bool {
-        Self::BEFORE.contains(&self) || matches!(self, Self::Monitoring | Self::Inside)
-    }
-}
 
 /// A menu of the head.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -199,35 +122,6 @@ impl Theme {
             Self::Sun => Self::Light,
         }
     }
-}
-
-/// Work under way, in the one action slot.
-#[derive(Clone)]
-pub struct Job {
-    pub kind: JobKind,
-    pub done: usize,
-    pub total: usize,
-    batch: Batch,
-    /// Keeps what is done when the rest is cancelled.
-    keep: Rc<dyn Fn()>,
-}
-
-/// Kinds of long work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum JobKind {
-    Opening,
-    Detecting,
-    Adjusting,
-    Matching,
-    Saving,
-    OpeningProject,
-    /// Of files that may be another program's.
-    Reading,
-    Sample,
-    Experiment,
-    Reporting,
-    Planning,
-    Comparing,
 }
 
 /// A photo's file as it was dropped.
@@ -320,37 +214,6 @@ impl Default for Layers {
             contrast: 1.0,
         }
     }
-}
-
-/// A question that something waits for; cancelling it is always possible.
-#[derive(Clone)]
-pub struct Asking {
-    pub text: Rc<dyn Fn() -> String>,
-    /// What can be chosen, the most likely first.
-    pub choices: Vec<(Text, Rc<dyn Fn()>)>,
-}
-
-/// Something to tell, in whatever language is in use when it is read. It goes when its cause goes.
-#[derive(Clone)]
-pub struct Notice {
-    pub warning: bool,
-    pub text: Arc<dyn Fn() -> String + Send + Sync>,
-    until: Until,
-    /// The document, step and photo that it was told of.
-    of: (Document, Step, Option<String>),
-}
-
-/// How long there is reason to tell something; new work ends it in any case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Until {
-    /// It is of what was done last, and stays until something else is done.
-    NextWork,
-    /// It is of the document as it was.
-    Document,
-    /// It is of what is in sight: the document, the step and the photo.
-    Sight,
-    /// It is of the work under way.
-    WorkEnds,
 }
 
 /// The desk: signals of everything it knows. Copy it wherever it is needed.
@@ -616,48 +479,6 @@ impl Desk {
         self.history.with(|h| h.next().cloned())
     }
 
-    pub fn go(self, step: Step) {
-        self.leave_for(step);
-        self.step.set(step);
-        page::set_hash(step.name());
-    }
-
-    /// Ends what ends with the step, and remembers where the way back from beside the path leads.
-    pub(super) fn leave_for(self, step: Step) {
-        let now = self.step.get_untracked();
-        if now != step {
-            self.end_modes();
-            if now == Step::Start || Step::ROW.contains(&now) {
-                self.came_from.set(now);
-            }
-        }
-    }
-
-    /// Follows the address after '#', where the step is open already.
-    pub fn follow_hash(self) {
-        if let Some(name) = experiments::from_hash(&page::hash()) {
-            return self.show_experiment(name);
-        }
-        self.follow_lesson_in_address();
-        let step = Step::from_name(&page::hash());
-        let coming = self.coming.with_untracked(|coming| !coming.is_empty());
-        let empty = self.document.with_untracked(Document::is_empty) && !coming;
-        let allowed = if empty && !step.is_before() { Step::Start } else { step };
-        if self.step.get_untracked() != allowed {
-            self.leave_for(allowed);
-            self.step.set(allowed);
-        }
-    }
-
-    /// Shows what the address names, where it needs no project.
-    pub fn follow_hash_at_start(self) -> bool {
-        let step = Step::from_name(&page::hash());
-        if step.is_before() {
-            self.step.set(step);
-        }
-        step.is_before()
-    }
-
     pub fn set_theme(self, theme: Theme) {
         page::set_preference("theme", theme.name());
         self.theme.set(theme);
@@ -669,115 +490,8 @@ impl Desk {
         self.single_keys.set(on);
     }
 
-    /// Tells something of the document as it is.
-    pub fn tell(self, text: impl Fn() -> String + Send + Sync + 'static) {
-        self.say(false, Until::Document, text);
-    }
-
-    /// Tells something of what is in sight.
-    pub fn tell_here(self, text: impl Fn() -> String + Send + Sync + 'static) {
-        self.say(false, Until::Sight, text);
-    }
-
-    /// Tells what is wrong with the document as it is.
-    pub fn warn(self, text: impl Fn() -> String + Send + Sync + 'static) {
-        self.say(true, Until::Document, text);
-    }
-
-    /// Tells what is wrong with what was typed or pointed at.
-    pub fn warn_here(self, text: impl Fn() -> String + Send + Sync + 'static) {
-        self.say(true, Until::Sight, text);
-    }
-
-    /// Tells something until there is no reason to any more, until it is dismissed or until something newer is told.
-    pub fn say(self, warning: bool, until: Until, text: impl Fn() -> String + Send + Sync + 'static) {
-        let of = untrack(|| self.in_sight());
-        self.notice.set(Some(Notice { warning, text: Arc::new(text), until, of }));
-    }
-
-    fn in_sight(self) -> (Document, Step, Option<String>) {
-        (self.document.get(), self.step.get(), self.selection.with(|s| s.photo.clone()))
-    }
-
-    /// Takes the notice away when its cause is gone; to be run whenever something changes.
-    pub fn drop_stale_notice(self) {
-        let (document, step, photo) = self.in_sight();
-        let busy = self.job.with(Option::is_some);
-        let stale = self.notice.with_untracked(|notice| {
-            notice.as_ref().is_some_and(|notice| match notice.until {
-                Until::NextWork => false,
-                Until::Document => !document.same(&notice.of.0),
-                Until::Sight => !document.same(&notice.of.0) || (step, &photo) != (notice.of.1, &notice.of.2),
-                Until::WorkEnds => !busy,
-            })
-        });
-        if stale {
-            self.notice.set(None);
-        }
-    }
-
-    pub fn warn_error(self, error: Error) {
-        self.warn(move || errors::sentence(&error));
-    }
-
-    pub fn warn_crash(self, detail: String) {
-        self.say(true, Until::NextWork, move || text::worker_lost(&detail));
-        self.look_for_another_build();
-    }
-
-    /// A file of the page did not come: where the host has another build by now, the page has to be loaded anew.
-    pub fn look_for_another_build(self) {
-        spawn_local(async move {
-            if page::host_has_another_build().await {
-                self.outdated.set(true);
-            }
-        });
-    }
-
     /// Puts text on the clipboard.
     pub fn copy_text(self, text: String) {
         page::copy(text, move || self.warn_here(|| text::not_on_clipboard().to_owned()));
-    }
-
-    /// Takes the action slot for long work.
-    fn start_job(self, kind: JobKind, total: usize, keep: impl Fn() + 'static) -> Batch {
-        let batch = self.pool.with_value(Pool::batch);
-        self.notice.set(None);
-        self.job.set(Some(Job { kind, done: 0, total, batch, keep: Rc::new(keep) }));
-        batch
-    }
-
-    /// Counts one more piece of long work as done; true when it was the last.
-    fn step_job(self, batch: Batch) -> bool {
-        let mut last = false;
-        self.job.update(|job| {
-            if let Some(job) = job.as_mut().filter(|job| job.batch == batch) {
-                job.done += 1;
-                last = job.done == job.total;
-            }
-        });
-        last
-    }
-
-    /// Says how far long work is that counts by itself.
-    fn count_job(self, batch: Batch, done: usize, total: usize) {
-        self.job.update(|job| {
-            if let Some(job) = job.as_mut().filter(|job| job.batch == batch) {
-                (job.done, job.total) = (done, total);
-            }
-        });
-    }
-
-    fn end_job(self) {
-        self.job.set(None);
-    }
-
-    /// Stops long work at once and keeps what is done.
-    pub fn cancel(self) {
-        if let Some(job) = self.job.get_untracked() {
-            self.pool.with_value(|pool| pool.cancel(job.batch));
-            self.job.set(None);
-            (job.keep)();
-        }
     }
 }

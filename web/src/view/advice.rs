@@ -1,6 +1,7 @@
 //! What the network lacks, as sentences: what to do, why, and the number that says so.
 
 mod grouping;
+mod notes;
 mod questions;
 mod systematic;
 mod verdict;
@@ -9,7 +10,7 @@ use std::collections::{HashMap, HashSet};
 
 use leptos::prelude::*;
 use sightline::adjustment::{Exchange, Given};
-use sightline::orient::{DistanceSource, Note, PhotoReason, PointReason, ScaleSource, SystemSource};
+use sightline::orient::Note;
 use sightline::project::{DatumKind, Parameter, Role};
 
 use super::adjust::parameter_name;
@@ -22,6 +23,7 @@ use crate::i18n::{systematic as words, text};
 use crate::store::document::Outcome;
 use crate::store::{Desk, Step};
 
+use notes::{is_said, note_item};
 pub use verdict::VerdictLine;
 
 /// What to go to for more.
@@ -518,22 +520,6 @@ fn network_item(
     Item { warning: true, title, body, evidence, target }
 }
 
-/// Whether the adjustment's advice says the same: its figures are the better ones.
-fn is_said(note: &Note, advice: &[sightline::adjustment::Advice]) -> bool {
-    use sightline::adjustment::Advice as A;
-    advice.iter().any(|advice| match (note, advice) {
-        (Note::ControlMisfit { point, .. }, A::ControlMisfit { point: said, .. }) => point == said,
-        (Note::ExchangedPoints { points }, A::ExchangedPoints { points: said }) => points == said,
-        (Note::UnitRatio(ratio), A::UnitRatio(said)) => (ratio.of, &ratio.camera) == (said.of, &said.camera),
-        (Note::ImplausibleCamera(camera), A::ImplausibleCamera(said)) => camera == said,
-        (Note::OneStation(station), A::OneStation(said)) => station == said,
-        (Note::MirroredControl(_), A::MirroredControl(_))
-        | (Note::UndecidedAxes(_), A::UndecidedAxes(_))
-        | (Note::DoublePoints { .. }, A::DoublePoints { .. }) => true,
-        _ => false,
-    })
-}
-
 type Words = (String, String, String, Target);
 
 /// A control point that is not where the photos see it.
@@ -562,235 +548,5 @@ fn double_points(pairs: &[(String, String)]) -> Words {
     (title, text::double_points_body().to_owned(), format::count(pairs.len()), target)
 }
 
-/// What the orientation had to say.
-fn note_item(note: &Note, unit: &str) -> Option<Item> {
-    let item = |title: String, body: String, target: Target| Item {
-        warning: true,
-        title,
-        body,
-        evidence: String::new(),
-        target,
-    };
-    let worded = |(title, body, evidence, target): Words| Item { warning: true, title, body, evidence, target };
-    Some(match note {
-        Note::PrincipalDistance { camera, value, source } => Item {
-            warning: false,
-            title: match source {
-                DistanceSource::KnownPoints => text::c_found(camera, format::compact(*value)),
-                DistanceSource::Assumed => text::c_assumed(camera, format::compact(*value)),
-            },
-            body: text::c_body().to_owned(),
-            evidence: String::new(),
-            target: Target::Step(Step::Photos),
-        },
-        Note::PrincipalDistanceWeak { camera, value, sigma } => Item {
-            evidence: sigma
-                .map_or_else(|| text::c_undetermined().to_owned(), |sigma| format!("± {}", format::compact(sigma))),
-            ..item(
-                text::c_weak(camera, format::compact(*value)),
-                text::c_weak_body().to_owned(),
-                Target::Step(Step::Photos),
-            )
-        },
-        Note::PrincipalDistanceChanged { camera, value, given } => item(
-            text::c_changed(camera, format::compact(*given), format::compact(*value)),
-            text::c_changed_body().to_owned(),
-            Target::Step(Step::Photos),
-        ),
-        Note::Groups { groups } => {
-            let lists = groups.iter().map(|group| listed(group.iter().map(String::as_str))).collect::<Vec<_>>();
-            item(
-                text::photo_groups(groups.len()),
-                text::photo_groups_body(lists.join(" | ")),
-                Target::Step(Step::Identities),
-            )
-        }
-        Note::PhotoAmbiguous { photo, rms_px: [taken, other], .. } => Item {
-            evidence: format!("{} / {} px", format::fixed(*taken, 2), format::fixed(*other, 2)),
-            ..item(text::photo_ambiguous(photo), text::photo_ambiguous_body().to_owned(), Target::Photo(photo.clone()))
-        },
-        Note::System { source: SystemSource::Own, scale: ScaleSource::Given } => return None,
-        Note::System { scale: ScaleSource::Given, .. } => return None,
-        Note::System { scale: ScaleSource::Arbitrary, .. } => return None,
-        Note::PhotoNotOriented { photo, reason } => {
-            let why = match reason {
-                PhotoReason::NoPoints => text::photo_no_points().to_owned(),
-                PhotoReason::TooFewPoints { determined, needed } => text::photo_too_few(determined, needed),
-                PhotoReason::Disagrees { determined } => text::photo_disagrees(determined),
-                PhotoReason::OtherGroup { group } => text::photo_other_group(group),
-            };
-            item(text::photo_not_oriented(photo), why, Target::Photo(photo.clone()))
-        }
-        Note::PointNotDetermined { point, reason } => {
-            let why = match reason {
-                PointReason::NotMeasured => text::point_not_measured().to_owned(),
-                PointReason::SeenOnce { photo } => text::seen_once_body(point, photo),
-                PointReason::TooFewOrientedPhotos { photos } => text::point_too_few(photos),
-                PointReason::NearParallel { angle } => text::point_parallel(format::fixed(angle.to_degrees(), 1)),
-                PointReason::BehindCamera { photo } => text::point_behind(photo),
-                PointReason::RaysDisagree => text::point_disagrees().to_owned(),
-                PointReason::CoordinatesMissing => text::point_no_coordinates().to_owned(),
-                PointReason::Undecided { first, second } => {
-                    let listed = |photos: &[String]| listed(photos.iter().map(String::as_str));
-                    text::point_undecided(listed(first), listed(second))
-                }
-            };
-            let target = match reason {
-                PointReason::SeenOnce { photo } => Target::Observation { photo: photo.clone(), point: point.clone() },
-                _ => Target::Point(point.clone()),
-            };
-            item(text::point_not_determined(point), why, target)
-        }
-        Note::MeasurementDisagrees { photo, point, distance_px } => {
-            let far = distance_px.map_or_else(|| text::behind().to_owned(), |d| format!("{} px", format::fixed(d, 1)));
-            let target = Target::Observation { photo: photo.clone(), point: point.clone() };
-            Item {
-                evidence: far,
-                ..item(text::measurement_disagrees(point, photo), text::measurement_disagrees_body().to_owned(), target)
-            }
-        }
-        Note::ControlMisfit { point, difference, sigma_ratio } => {
-            worded(control_misfit(point, difference, *sigma_ratio, unit))
-        }
-        Note::ExchangedPoints { points } => worded(exchanged_points(points)),
-        Note::DoublePoints { pairs } => worded(double_points(pairs)),
-        Note::MirroredControl(found) => questions::mirrored(found),
-        Note::UndecidedAxes(found) => questions::undecided(found),
-        Note::UnitRatio(found) => questions::unit(found),
-        Note::OneStation(found) => questions::station(found),
-        Note::ImplausibleCamera(found) => questions::camera(found),
-        // The document says it.
-        Note::NoScale => return None,
-    })
-}
-
 #[cfg(test)]
-mod tests {
-    use sightline::adjustment::{
-        Advice as A, CameraDoubt, Criteria, Exchange, ImplausibleCamera, MirroredControl, OneStation, PatternKind,
-        Remedy, UndecidedAxes, UnitOf, UnitRatio,
-    };
-
-    use super::*;
-
-    /// One of every kind that the engine gives; a new kind does not compile here until it has its place.
-    fn every_kind() -> Vec<A> {
-        let pair = || ("a".to_owned(), "1".to_owned());
-        let all = vec![
-            A::HighCorrelation {
-                camera: "k".into(),
-                photo: None,
-                first: "c".into(),
-                second: "k1".into(),
-                correlation: 0.97,
-            },
-            A::LowRedundancy { observations: vec![pair()], given: Vec::new() },
-            A::TwoRays { points: vec!["1".into()] },
-            A::NarrowIntersection { points: vec![("1".into(), 0.01)] },
-            A::BehindCamera { observations: vec![pair()] },
-            A::DistanceUnused { distances: vec![pair()] },
-            A::WeakPrincipalDistance {
-                camera: "k".into(),
-                photo: None,
-                parameter: "c".into(),
-                value: 20.0,
-                sigma: 3.0,
-                convergence: 0.1,
-            },
-            A::GrossErrorsUnsettled,
-            A::VarianceComponentsUnsettled,
-            A::ResidualPattern {
-                camera: "k".into(),
-                pattern: PatternKind::Radius,
-                photos: Vec::new(),
-                p_value: 1e-30,
-                rms_px: 0.4,
-                max_px: 3.1,
-                sigma0: 1.1,
-                remedy: Remedy::Model { models: vec!["opencv_fisheye".into()] },
-            },
-            A::SigmasTooSmall { sigma0: 3.0, unmodelled: None },
-            A::UnmodelledAgain { sigma0: 0.2, unmodelled: 0.1 },
-            A::Insignificant {
-                camera: "k".into(),
-                photo: None,
-                parameter: Parameter::P1,
-                ratio: 0.4,
-                with: None,
-                correlation: None,
-            },
-            A::Suspected { count: 1, observations: vec![("a".into(), "1".into(), 6.0)], given: Vec::new() },
-            A::ControlMisfit { point: "9".into(), difference: [30.2, 0.1, -0.4], sigma_ratio: 300.0 },
-            A::ExchangedPoints { points: ["9".into(), "7".into()] },
-            A::DoublePoints { pairs: vec![("5".into(), "u12".into())] },
-            A::MirroredControl(MirroredControl {
-                exchange: Exchange::Xy,
-                alternatives: vec![Exchange::X],
-                rms_given: 0.2,
-                rms_exchanged: 0.001,
-                points: 8,
-            }),
-            A::UndecidedAxes(UndecidedAxes { points: 4, normal: [0.0, 1.0, 0.0] }),
-            A::UnitRatio(UnitRatio {
-                of: UnitOf::Distance,
-                ratio: 1000.4,
-                nearest: 1000.0,
-                distances: vec![pair()],
-                camera: None,
-            }),
-            A::OneStation(OneStation { photos: vec!["a".into(), "b".into()], all: false }),
-            A::ImplausibleCamera(ImplausibleCamera {
-                camera: "k".into(),
-                doubt: CameraDoubt::FieldOfView { angle: 3.1, value: 36.0, pixels: true },
-            }),
-            A::NoScale,
-        ];
-        for advice in &all {
-            match advice {
-                A::HighCorrelation { .. }
-                | A::LowRedundancy { .. }
-                | A::TwoRays { .. }
-                | A::NarrowIntersection { .. }
-                | A::BehindCamera { .. }
-                | A::DistanceUnused { .. }
-                | A::WeakPrincipalDistance { .. }
-                | A::GrossErrorsUnsettled
-                | A::VarianceComponentsUnsettled
-                | A::ResidualPattern { .. }
-                | A::SigmasTooSmall { .. }
-                | A::UnmodelledAgain { .. }
-                | A::Insignificant { .. }
-                | A::Suspected { .. }
-                | A::ControlMisfit { .. }
-                | A::ExchangedPoints { .. }
-                | A::DoublePoints { .. }
-                | A::MirroredControl(_)
-                | A::UndecidedAxes(_)
-                | A::UnitRatio(_)
-                | A::OneStation(_)
-                | A::ImplausibleCamera(_)
-                | A::NoScale => {}
-            }
-        }
-        all
-    }
-
-    #[test]
-    fn every_advice_has_a_button() {
-        for advice in every_kind() {
-            let item = network_item(&advice, &Criteria::default(), "mm");
-            assert_ne!(item.target, Target::None, "{}", item.title);
-            let choices = if matches!(advice, A::MirroredControl(_)) { 2 } else { 1 };
-            assert_eq!(item.target.buttons().len(), choices, "{}", item.title);
-            assert!(!item.title.is_empty() && !item.body.is_empty());
-        }
-        let notes = [
-            Note::PrincipalDistanceWeak { camera: "k".into(), value: 20.0, sigma: None },
-            Note::PrincipalDistanceChanged { camera: "k".into(), value: 20.0, given: 10.0 },
-            Note::Groups { groups: vec![vec!["a".into(), "b".into()], vec!["c".into(), "d".into()]] },
-        ];
-        for note in notes {
-            assert_ne!(note_item(&note, "mm").map(|item| item.target), Some(Target::None), "{note:?}");
-        }
-    }
-}
+mod tests;
