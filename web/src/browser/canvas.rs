@@ -23,11 +23,11 @@ pub struct Surface {
 pub type Affine = [f64; 6];
 
 impl Surface {
-    /// Fits the canvas to its box on the page and clears it.
-    pub fn new(canvas: &HtmlCanvasElement) -> Option<Self> {
+    /// Fits the canvas to its box on the page, whose width and height [`SizeWatch`] found, and clears it. Asking the page for them here would
+    /// have it laid out at once, in the middle of an edit.
+    pub fn new(canvas: &HtmlCanvasElement, [width, height]: [f64; 2]) -> Option<Self> {
         let window = web_sys::window()?;
         let ratio = window.device_pixel_ratio().clamp(1.0, 3.0);
-        let (width, height) = (f64::from(canvas.client_width()), f64::from(canvas.client_height()));
         let (w, h) = ((width * ratio).round() as u32, (height * ratio).round() as u32);
         if canvas.width() != w || canvas.height() != h {
             canvas.set_width(w);
@@ -175,17 +175,19 @@ impl Surface {
     }
 }
 
-/// Calls back when a canvas changes its size on the page, as long as this is kept.
+/// Calls back with the size of a canvas on the page, now and when it changes, as long as this is kept.
 pub struct SizeWatch {
     observer: ResizeObserver,
     _callback: Closure<dyn FnMut()>,
 }
 
 impl SizeWatch {
-    /// Calls `draw` now and at every change of size.
-    pub fn new(canvas: &HtmlCanvasElement, draw: impl Fn(&HtmlCanvasElement) + 'static) -> Option<Self> {
+    /// Calls `on_size` with width and height.
+    pub fn new(canvas: &HtmlCanvasElement, on_size: impl Fn(&HtmlCanvasElement, [f64; 2]) + 'static) -> Option<Self> {
         let element = canvas.clone();
-        let callback = Closure::<dyn FnMut()>::new(move || draw(&element));
+        let callback = Closure::<dyn FnMut()>::new(move || {
+            on_size(&element, [element.client_width(), element.client_height()].map(f64::from));
+        });
         let observer = ResizeObserver::new(callback.as_ref().unchecked_ref()).ok()?;
         observer.observe(canvas);
         Some(Self { observer, _callback: callback })

@@ -92,16 +92,17 @@ pub fn Insets() -> impl IntoView {
 fn InsetView(inset: Inset) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let canvas = NodeRef::<Canvas>::new();
-    let width = RwSignal::new(0.0_f64);
+    let bounds = RwSignal::new([0.0_f64; 2]);
     let watch = StoredValue::new_local(None);
     canvas.on_load(move |element| {
-        watch.set_value(SizeWatch::new(&element, move |element| width.set(f64::from(element.client_width()))));
+        watch.set_value(SizeWatch::new(&element, move |_, size| bounds.set(size)));
     });
     let drawn = inset.clone();
     Effect::new(move |_| {
         desk.theme.track();
-        let side = width.get();
-        let Some(surface) = canvas.get().filter(|_| side > 0.0).and_then(|element| Surface::new(&element)) else {
+        let size = bounds.get();
+        let Some(surface) = canvas.get().filter(|_| size[0] > 0.0).and_then(|element| Surface::new(&element, size))
+        else {
             return;
         };
         draw(desk, &surface, &drawn);

@@ -19,18 +19,19 @@ pub fn Loupe(
 ) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let canvas = NodeRef::<Canvas>::new();
-    let width = RwSignal::new(0.0_f64);
+    let bounds = RwSignal::new([0.0_f64; 2]);
     let watch = StoredValue::new_local(None);
     canvas.on_load(move |element| {
-        watch.set_value(SizeWatch::new(&element, move |element| width.set(f64::from(element.client_width()))));
+        watch.set_value(SizeWatch::new(&element, move |_, size| bounds.set(size)));
     });
     // Large targets are shown whole.
     let field = move || target.get().map_or(FIELD, |t| FIELD.max(t[2] * 1.6));
     Effect::new(move |_| {
         desk.theme.track();
-        let side = width.get();
+        let size_here = bounds.get();
+        let side = size_here[0];
         let Some(element) = canvas.get().filter(|_| side > 0.0) else { return };
-        let Some(surface) = Surface::new(&element) else { return };
+        let Some(surface) = Surface::new(&element, size_here) else { return };
         let Some(photo) = desk.selection.with(|s| s.photo.clone()) else { return };
         let target = target.get();
         let Some(centre) = desk.cursor.get().or(target.map(|t| [t[0], t[1]])) else { return };
@@ -63,7 +64,7 @@ pub fn Loupe(
         }
     });
     let factor = move || {
-        let side = width.get();
+        let side = bounds.get()[0];
         if side > 0.0 { format!("{} ×", crate::format::fixed(side / field(), 0)) } else { String::new() }
     };
     view! {

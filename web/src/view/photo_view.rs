@@ -126,9 +126,7 @@ pub fn PhotoView(
     let give_way = move |at: [f64; 2]| pointer_at.set(Some(at));
     let watch = StoredValue::new_local(None);
     canvas.on_load(move |element| {
-        watch.set_value(SizeWatch::new(&element, move |element| {
-            bounds.set([f64::from(element.client_width()), f64::from(element.client_height())]);
-        }));
+        watch.set_value(SizeWatch::new(&element, move |_, size| bounds.set(size)));
     });
     let photo = Memo::new(move |_| desk.selection.with(|s| s.photo.clone()));
     // Size and orientation: from the file, or from the camera where the file is not here.
@@ -227,19 +225,19 @@ pub fn PhotoView(
         }
     });
     Effect::new(move |_| {
-        bounds.track();
+        let size_here = bounds.get();
         desk.theme.track();
         let (Some(element), Some(placement)) = (below.get(), placement.get()) else { return };
-        let Some(surface) = Surface::new(&element) else { return };
+        let Some(surface) = Surface::new(&element, size_here) else { return };
         if let Some((photo, size, _)) = frame.get() {
             draw_photo(desk, &surface, &photo, size, placement);
         }
     });
     Effect::new(move |_| {
-        bounds.track();
+        let size_here = bounds.get();
         desk.theme.track();
         let (Some(element), Some(placement)) = (canvas.get(), placement.get()) else { return };
-        let Some(surface) = Surface::new(&element) else { return };
+        let Some(surface) = Surface::new(&element, size_here) else { return };
         let layers = desk.layers.get();
         if let Some((photo, ..)) = frame.get() {
             if layers.pixels {

@@ -23,8 +23,8 @@ pub fn Thumbnail(picture: Picture, orientation: u8) -> impl IntoView {
     let [w, h] = Placement { size, orientation, scale: 1.0, shift: [0.0; 2] }.upright();
     let watch = StoredValue::new_local(None);
     canvas.on_load(move |element| {
-        watch.set_value(SizeWatch::new(&element, move |element| {
-            if let Some(surface) = Surface::new(element) {
+        watch.set_value(SizeWatch::new(&element, move |element, bounds| {
+            if let Some(surface) = Surface::new(element, bounds) {
                 let placement = Placement::fitted(size, orientation, surface.width, surface.height);
                 surface.picture(&picture, placement.affine(), false);
             }

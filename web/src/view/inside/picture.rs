@@ -101,16 +101,14 @@ pub fn Picture(which: Which) -> impl IntoView {
     let bounds = RwSignal::new([0.0; 2]);
     let watch = StoredValue::new_local(None);
     canvas.on_load(move |element| {
-        watch.set_value(SizeWatch::new(&element, move |element| {
-            bounds.set([f64::from(element.client_width()), f64::from(element.client_height())]);
-        }));
+        watch.set_value(SizeWatch::new(&element, move |_, size| bounds.set(size)));
     });
     Effect::new(move || {
-        bounds.track();
+        let size = bounds.get();
         desk.theme.track();
         let chosen = (inside.row.get(), inside.column.get());
         let (Some(element), Some(looked)) = (canvas.get(), inside.looked()) else { return };
-        if let Some(surface) = Surface::new(&element) {
+        if let Some(surface) = Surface::new(&element, size) {
             paint(&surface, which, &looked, sight.get().unwrap_or_else(whole), chosen);
         }
     });

@@ -1,5 +1,6 @@
 //! A table whose cells are chosen, typed into and marked; only the rows in sight are drawn.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use leptos::html::{Div, Input};
@@ -211,12 +212,13 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
             }
         }).collect_view()
     };
+    // A row that shows the same after an edit stays as it is.
     let drawn = move || {
         let (first, last) = window.get();
         let shared = sheet.get();
-        let version = Arc::as_ptr(&shared.0) as usize;
         rows.with(|rows| {
-            (first..last.min(rows.len())).map(|k| (k, rows[k], version, shared.clone())).collect::<Vec<_>>()
+            let places = first..last.min(rows.len());
+            places.map(|k| (k, rows[k], fingerprint(&shared.0, rows[k] as usize), shared.clone())).collect::<Vec<_>>()
         })
     };
     view! {
@@ -226,7 +228,7 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
                 <thead><tr>{heads}</tr></thead>
                 <tbody>
                     <tr class="gap" aria-hidden="true" style:height=move || gap(window.get().0)></tr>
-                    <For each=drawn key=|(k, row, version, _)| (*k, *row, *version)
+                    <For each=drawn key=|(k, row, fingerprint, _)| (*k, *row, *fingerprint)
                         children=move |(k, row, _, shared)| view! {
                             <Line k row shared at typing choose=Callback::new(move |(place, how)| choose(place, how))
                                 begin=Callback::new(move |()| { begin(None); }) take=Callback::new(move |(typed, down)| take(typed, down))/>
@@ -236,6 +238,17 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
             </table>
         </div>
     }
+}
+
+/// Tells whether a row drawn already shows the same.
+fn fingerprint(sheet: &Sheet, row: usize) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    (sheet.key(row), sheet.takes_part(row)).hash(&mut hasher);
+    for &col in sheet.table.columns() {
+        let value = sheet.value(row, col);
+        (shown(&value), value.plain()).hash(&mut hasher);
+    }
+    hasher.finish()
 }
 
 fn is_words(col: Col) -> bool {
