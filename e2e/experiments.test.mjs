@@ -9,8 +9,8 @@ import { adjust, downloads, drop, figure, idle, notice, rows, scratch, unzipped 
 const NAMES = ['kang', 'film', 'lee-calibration', 'lee-structure', 'kim', 'sensor'];
 const show = (page, name) => page.click(`.tabs [data-experiment=${name}]`);
 
-/** Runs the experiment that is shown; how long it took and the longest time in which the page drew no frame, in ms. */
-async function run(page) {
+/** Runs the experiment that is shown, or the one that `start` shows; how long it took and the longest time in which the page drew no frame, in ms. */
+async function run(page, start = () => page.click('.action .run')) {
   await page.evaluate(() => {
     const seen = (window.frames_ = { last: performance.now(), longest: 0, on: true });
     const frame = (now) => {
@@ -21,7 +21,7 @@ async function run(page) {
     requestAnimationFrame(frame);
   });
   const began = Date.now();
-  await page.click('.action .run');
+  await start();
   const longest = await page.evaluate(async () => {
     while (!document.querySelector('.outcome .keys')) await new Promise((done) => setTimeout(done, 20));
     window.frames_.on = false;
@@ -36,15 +36,15 @@ const longer = { timeout: 600_000 };
 test('every experiment runs beside the page, within ten seconds, with the figures that Node has, bit for bit', longer, async () => {
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
-    await page.click('.experiments-entry');
     for (const name of NAMES) {
-      await show(page, name);
-      assert.ok((await page.locator('.network .camera').count()) >= 2, `${name}: the network is drawn before it runs`);
-      await page.waitForSelector('.outcome .note');
       const began = Date.now();
       const expected = sightline.experimentCsv(sightline.runExperiment(name));
       const inNode = Date.now() - began;
-      const { took, longest } = await run(page);
+      // What is shown for the first time runs by itself, as the paper has it.
+      const { took, longest } = await run(page, async () => {
+        await (name === NAMES[0] ? page.click('.experiments-entry') : show(page, name));
+        assert.ok((await page.locator('.network .camera').count()) >= 2, `${name}: the network is drawn before it runs`);
+      });
       console.log(`${name}: ${(took / 1000).toFixed(1)} s on the page, ${(inNode / 1000).toFixed(1)} s in Node, longest frame ${longest.toFixed(0)} ms`);
       // Ten seconds; on a machine that is busy otherwise, not much more than the same in Node.
       assert.ok(took < Math.max(10_000, 1.6 * inNode), `${name} took ${took} ms, ${inNode} ms in Node`);
@@ -73,7 +73,7 @@ test('inputs change the network and date the figures, a run can be cancelled, th
   const { page, errors, close } = await open({ width: 1366, height: 768 });
   try {
     await page.click('.experiments-entry');
-    await show(page, 'kang');
+    await idle(page);
     const cameras = () => page.locator('.network .camera').count();
     const five = await cameras();
     await page.selectOption('select[name=photos]', '2');
@@ -125,6 +125,7 @@ test('plates of one\'s own go from readings to coordinates, from files and from 
     const readings = Buffer.from(sightline.experimentCsv(sightline.runExperiment('film'))['film-readings.csv']);
     await page.click('.experiments-entry');
     await show(page, 'film');
+    await idle(page);
     const take = async (bytes) => {
       const chooser = page.waitForEvent('filechooser');
       await page.click('.choose-readings');
@@ -193,8 +194,7 @@ test('the pages speak Korean and fit a phone', longer, async () => {
     await page.getByRole('button', { name: 'Language: switch to Korean' }).click();
     await page.click('.experiments-entry');
     for (const name of ['film', 'lee-structure']) {
-      await show(page, name);
-      await run(page);
+      await run(page, () => show(page, name));
       const text = await page.textContent('.experiment');
       const left = text.match(/\b(photos?|points?|standard|errors?|control|network|residuals?|paper|run|free|mean)\b/gi);
       assert.equal(left, null, name);

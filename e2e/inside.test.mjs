@@ -89,7 +89,7 @@ test('it speaks Korean, fits a phone, and opens from an experiment', { timeout: 
     await page.evaluate(() => localStorage.setItem('sightline.language', 'ko'));
     await page.reload();
     await page.evaluate(() => (location.hash = '#experiments/kim'));
-    await page.click('.action .run');
+    await page.waitForSelector('.outcome .keys', { timeout: 120_000 });
     await page.click('.action [data-action=inside]', { timeout: 120_000 });
     await page.waitForSelector('.steps-taken [data-step-number]', { timeout: 120_000 });
     for (const tab of ['matrices', 'datum', 'errors', 'weights']) {

@@ -185,6 +185,7 @@ test('plans and experiments can be stopped', { timeout: 600_000 }, async () => {
 
     await page.click('.mark');
     await page.click('.experiments-entry');
+    await idle(page);
     hold();
     await page.click('.action .run');
     await cancel(page, 'Running the experiment');

@@ -3,7 +3,8 @@
 //! The five photos of one of the paper's networks are put on film that shrank differently along and across, seen through
 //! a lens with radial distortion, and read on a machine with an origin and turn of its own. The readings go back
 //! through the three plane transformations, with and without the distortion table; each time the same bundle follows.
-//! The paper prints neither its readings nor the table: both are made up here, of the usual size.
+//! The paper prints neither its readings nor the table: both are made up here, of the usual size. Figures of a reduction are root mean squares
+//! over several draws of the readings: with one draw, chance decides whether the affine transformation looks worse than the similarity.
 
 use std::fmt::Write;
 
@@ -11,7 +12,7 @@ use super::kang;
 use super::outcome::{Assumption, Cell, Chart, Drawing, Experiment, Figure, Series, Table};
 use super::{ExperimentOptions, Progress, step};
 use crate::adjust::adjust;
-use crate::adjustment::{AdjustOptions, ResidualPlace};
+use crate::adjustment::{AdjustOptions, ResidualPlace, StatisticsChoice};
 use crate::error::Result;
 use crate::film::comparator::{Observed, Reading, Setup, Upwards, observations};
 use crate::film::distortion::{self, OddPolynomial};
@@ -53,13 +54,18 @@ const SHRINKAGE: [f64; 3] = [0.99962, 0.99987, 1.1e-4];
 const TURN: f64 = 0.021;
 const ORIGIN: [f64; 2] = [163.42, 118.75];
 
-/// One way of reduction and what the bundle made of it.
-struct Outcome {
+/// Draws of the readings that the figures are root mean squares of. Fewer leave the order of the reductions to chance.
+const DRAWS: u64 = 10;
+
+/// One way of reduction and what the bundle made of it: mean squares, of which the draws are added one by one.
+struct Reduction {
     kind: &'static str,
     corrected: bool,
     marks_sigma0: f64,
     sigma0: f64,
     rms: [f64; 3],
+    /// Of all draws together.
+    redundancy: usize,
 }
 
 pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment> {
@@ -68,38 +74,46 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
     let radii = DISTORTION.map(|row| row[0]);
     let displacements = DISTORTION.map(|row| row[1] / 1000.0);
     let table = distortion::fit(&radii, &displacements, 3, false)?;
-    let readings = readings(&exact, &table, options);
-
-    let mut outcomes = Vec::new();
-    let mut fits = Vec::new();
-    let mut opened = None;
-    for (kind, name) in KINDS {
-        let setup = setup(kind, options);
-        let observed = observations(&exact.cameras[0], &setup, &readings)?;
-        for corrected in [false, true] {
-            step(progress, outcomes.len(), 6)?;
-            let project = reduced(&network, &observed, corrected.then_some(&table))?;
-            outcomes.push(solve(&network, &project, &observed, name, corrected)?);
-            if kind == Kind::Affine && corrected {
-                opened = Some(project);
+    let mut reductions: Vec<_> =
+        KINDS.iter().flat_map(|(_, name)| [false, true].map(|corrected| Reduction::new(name, corrected))).collect();
+    let steps = reductions.len() * DRAWS as usize;
+    let (mut first, mut fits, mut opened, mut done) = (Vec::new(), Vec::new(), None, 0);
+    for draw in 0..DRAWS {
+        let drawn = readings(&exact, &table, options, draw);
+        for ((kind, name), both) in KINDS.into_iter().zip(reductions.chunks_mut(2)) {
+            let observed = observations(&exact.cameras[0], &setup(kind, options), &drawn)?;
+            for reduction in both {
+                step(progress, done, steps)?;
+                done += 1;
+                let project = reduced(&network, &observed, reduction.corrected.then_some(&table))?;
+                reduction.add(&network, &project, &observed)?;
+                if draw == 0 && kind == Kind::Affine && reduction.corrected {
+                    opened = Some(project);
+                }
+            }
+            if draw == 0 {
+                fits.push((name, observed));
             }
         }
-        fits.push((name, observed));
+        if draw == 0 {
+            first = drawn;
+        }
     }
     Ok(Experiment {
         name: "film".into(),
         drawings: drawings(options),
-        figures: figures(&outcomes, &table),
+        figures: figures(&reductions, &table),
         tables: vec![
-            outcome_table(&outcomes),
+            reduction_table(&reductions),
             residual_table(&fits),
             parameter_table(&fits),
             distortion_table(&table),
-            readings_table(&readings),
+            readings_table(&first),
         ],
         charts: vec![chart(&table)],
         assumptions: vec![
             Assumption::of_kind("readings_made_up"),
+            Assumption::new("film_draws", "", DRAWS as f64, None),
             Assumption::of_kind("distortion_made_up"),
             Assumption::new("film_scale_along", "", SHRINKAGE[0], None),
             Assumption::new("film_scale_across", "", SHRINKAGE[1], None),
@@ -150,13 +164,13 @@ fn setup(kind: Kind, options: &ExperimentOptions) -> Setup {
     }
 }
 
-/// What the machine reads of the exact photo coordinates.
-fn readings(exact: &Project, table: &OddPolynomial, options: &ExperimentOptions) -> Vec<Reading> {
+/// What the machine reads of the exact photo coordinates, with errors of a draw of their own.
+fn readings(exact: &Project, table: &OddPolynomial, options: &ExperimentOptions, draw: u64) -> Vec<Reading> {
     let sigma = options.image_sigma_um.unwrap_or(3.0) / 1000.0;
     let (s, c) = TURN.sin_cos();
     let mut readings = Vec::new();
     for (index, photo) in exact.photos.iter().enumerate() {
-        let mut noise = Noise::new(options.seed, index as u64);
+        let mut noise = Noise::new(options.seed.wrapping_add(draw), index as u64);
         let mut read = |mark: &str, [x, y]: [f64; 2], sigma: f64| {
             // Every plate lies a little differently, and shrank by the same.
             let turn = f64::from(index as u32) * 0.003;
@@ -197,33 +211,45 @@ fn reduced(network: &Network, observed: &Observed, table: Option<&OddPolynomial>
     Ok(project)
 }
 
-fn solve(
-    network: &Network,
-    project: &Project,
-    observed: &Observed,
-    kind: &'static str,
-    corrected: bool,
-) -> Result<Outcome> {
-    let adjustment = adjust(
-        project,
-        &AdjustOptions { residuals: ResidualPlace::Corrected, ..AdjustOptions::default() },
-        &mut |_| true,
-    )?;
-    let ties = network.points.iter().filter(|p| p.role == Role::Tie);
-    let off = ties.filter_map(|p| {
-        let found = adjustment.points.iter().find(|q| q.id == p.id)?;
-        Some([0, 1, 2].map(|k| found.xyz[k] - p.xyz[k]))
-    });
-    let off: Vec<_> = off.collect();
-    let n = off.len().max(1) as f64;
-    let fits: Vec<f64> = observed.inner_orientations.iter().filter_map(|i| i.transformation.sigma0).collect();
-    Ok(Outcome {
-        kind,
-        corrected,
-        marks_sigma0: (fits.iter().map(|s| s * s).sum::<f64>() / fits.len().max(1) as f64).sqrt() * 1000.0,
-        sigma0: adjustment.sigma0.unwrap_or(f64::NAN),
-        rms: [0, 1, 2].map(|k| (off.iter().map(|d| d[k] * d[k]).sum::<f64>() / n).sqrt()),
-    })
+impl Reduction {
+    fn new(kind: &'static str, corrected: bool) -> Self {
+        Self { kind, corrected, marks_sigma0: 0.0, sigma0: 0.0, rms: [0.0; 3], redundancy: 0 }
+    }
+
+    /// Adjusts a draw and adds its squares to the means.
+    fn add(&mut self, network: &Network, project: &Project, observed: &Observed) -> Result<()> {
+        let options = AdjustOptions {
+            residuals: ResidualPlace::Corrected,
+            statistics: StatisticsChoice::None,
+            ..AdjustOptions::default()
+        };
+        let adjustment = adjust(project, &options, &mut |_| true)?;
+        let ties = network.points.iter().filter(|p| p.role == Role::Tie);
+        let off = ties.filter_map(|p| {
+            let found = adjustment.points.iter().find(|q| q.id == p.id)?;
+            Some([0, 1, 2].map(|k| found.xyz[k] - p.xyz[k]))
+        });
+        let off: Vec<_> = off.collect();
+        let fits: Vec<f64> =
+            observed.inner_orientations.iter().filter_map(|i| i.transformation.sigma0).map(|s| 1000.0 * s).collect();
+        self.marks_sigma0 += mean_square(&fits) / DRAWS as f64;
+        self.sigma0 += adjustment.sigma0.map_or(f64::NAN, |sigma0| sigma0 * sigma0) / DRAWS as f64;
+        self.redundancy += adjustment.redundancy;
+        for (k, square) in self.rms.iter_mut().enumerate() {
+            *square += mean_square(&off.iter().map(|d| d[k]).collect::<Vec<_>>()) / DRAWS as f64;
+        }
+        Ok(())
+    }
+
+    /// S0 with its standard error, S0 / √(2 r) of the redundancy r of all draws.
+    fn s0(&self) -> [f64; 2] {
+        let sigma0 = self.sigma0.sqrt();
+        [sigma0, sigma0 / (2.0 * self.redundancy as f64).sqrt()]
+    }
+}
+
+fn mean_square(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64
 }
 
 /// Residuals at the marks of the first photo, kind by kind.
@@ -275,29 +301,39 @@ fn distortion_table(polynomial: &OddPolynomial) -> Table {
     table
 }
 
-fn outcome_table(outcomes: &[Outcome]) -> Table {
+fn reduction_table(reductions: &[Reduction]) -> Table {
     let mut table = Table::new(
         "reductions",
-        &["kind", "distortion_corrected", "marks_sigma0|µm|1", "sigma0||2", "rms_x|mm|4", "rms_y|mm|4", "rms_z|mm|4"],
+        &[
+            "kind",
+            "distortion_corrected",
+            "marks_sigma0|µm|2",
+            "s0||3",
+            "s0_sigma||3",
+            "rms_x|mm|4",
+            "rms_y|mm|4",
+            "rms_z|mm|4",
+        ],
     );
-    for o in outcomes {
-        let mut row: Vec<Cell> = vec![o.kind.into(), if o.corrected { "yes" } else { "no" }.into()];
-        row.extend([o.marks_sigma0, o.sigma0].map(Cell::from));
-        row.extend(o.rms.map(Cell::from));
+    for r in reductions {
+        let mut row: Vec<Cell> = vec![r.kind.into(), if r.corrected { "yes" } else { "no" }.into()];
+        row.push(r.marks_sigma0.sqrt().into());
+        row.extend(r.s0().map(Cell::from));
+        row.extend(r.rms.map(|square| Cell::from(square.sqrt())));
         table.rows.push(row);
     }
     table
 }
 
-fn figures(outcomes: &[Outcome], table: &OddPolynomial) -> Vec<Figure> {
-    let label = |o: &Outcome| format!("{}{}", o.kind, if o.corrected { "-corrected" } else { "" });
-    let mut list: Vec<_> = outcomes
+fn figures(reductions: &[Reduction], table: &OddPolynomial) -> Vec<Figure> {
+    let label = |r: &Reduction| format!("{}{}", r.kind, if r.corrected { "-corrected" } else { "" });
+    let mut list: Vec<_> = reductions
         .iter()
-        .flat_map(|o| {
+        .flat_map(|r| {
             [
                 // The paper's adjustment assumes, and asks for, 1.
-                Figure::new(format!("sigma0/{}", label(o)), "", o.sigma0, o.corrected.then_some(1.0)),
-                Figure::new(format!("marks_sigma0/{}", label(o)), "µm", o.marks_sigma0, None),
+                Figure::new(format!("sigma0/{}", label(r)), "", r.s0()[0], r.corrected.then_some(1.0)),
+                Figure::new(format!("marks_sigma0/{}", label(r)), "µm", r.marks_sigma0.sqrt(), None),
             ]
         })
         .collect();

@@ -125,19 +125,24 @@ pub fn drawings(options: &ExperimentOptions) -> Vec<Drawing> {
     vec![Drawing::of("planes", &network(options))]
 }
 
-/// The network with its true values.
-pub fn network(options: &ExperimentOptions) -> Network {
-    let camera = |index: usize| {
-        let [x0, y0, k1, k2, k3, p1, p2] = INTERIOR[index];
+/// The paper's interior orientation of both photos in mm, with the principal distance that it does not print.
+fn papers_interior() -> [Interior; 2] {
+    INTERIOR.map(|[x0, y0, k1, k2, k3, p1, p2]| {
         let mm = PITCH_MM;
         let mut interior = Interior::brown(PRINCIPAL_DISTANCE_MM);
         let values = [x0 * mm, y0 * mm, k1 / mm.powi(2), k2 / mm.powi(4), k3 / mm.powi(6), p1 / mm, p2 / mm];
         FREE[1..].iter().zip(values).for_each(|(parameter, value)| interior.set(*parameter, value));
-        Camera {
-            pixel_pitch: Some([mm; 2]),
-            free: FREE.to_vec(),
-            ..Camera::new(format!("{}", index + 1), 2592, 1944, interior)
-        }
+        interior
+    })
+}
+
+/// The network with its true values.
+pub fn network(options: &ExperimentOptions) -> Network {
+    let interiors = papers_interior();
+    let camera = |index: usize| Camera {
+        pixel_pitch: Some([PITCH_MM; 2]),
+        free: FREE.to_vec(),
+        ..Camera::new(format!("{}", index + 1), 2592, 1944, interiors[index])
     };
     let station = |index: usize| {
         let [omega, phi, kappa, x, y, z] = PAPER[index][1];
@@ -376,14 +381,17 @@ fn orientation_table(orientations: &[Vec<[f64; 6]>; 2]) -> Table {
     table
 }
 
+/// Found beside the paper's, which prints no principal distance.
 fn interior_table(adjustment: &Adjustment) -> Table {
-    let mut table = Table::new("interior", &["photo", "parameter", "value||10", "sigma||10"]);
-    for camera in &adjustment.cameras {
+    let mut table = Table::new("interior", &["photo", "parameter", "value||10", "*value||10", "sigma||10"]);
+    for (camera, paper) in adjustment.cameras.iter().zip(papers_interior()) {
         for parameter in FREE {
+            let printed = (parameter != Parameter::C).then(|| paper.get(parameter)).flatten();
             table.rows.push(vec![
                 camera.camera.id.as_str().into(),
                 parameter.name().into(),
                 camera.camera.interior.get(parameter).into(),
+                printed.into(),
                 camera.sigma.get(&parameter).copied().into(),
             ]);
         }

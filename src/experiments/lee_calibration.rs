@@ -100,7 +100,12 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
         name: "lee-calibration".into(),
         drawings: drawings(options),
         figures,
-        tables: vec![report::photos_table(&all, &fewer), report::parameters_table(&all, &fewer), estimators],
+        tables: vec![
+            report::photos_table(&all, &fewer),
+            report::parameters_table(&all, &fewer),
+            report::two_ray_table(&all, &fewer),
+            estimators,
+        ],
         charts: report::distortion_charts(&all, &fewer),
         assumptions: vec![
             Assumption::new("station_distance", "mm", DISTANCE_MM, 2800.0),

@@ -90,7 +90,7 @@ pub fn run(options: &ExperimentOptions, progress: Progress) -> Result<Experiment
         drawings: drawings(options)?,
         figures: figures(&outcomes),
         tables: vec![errors, gains],
-        charts: vec![chart(&outcomes)],
+        charts: charts(&outcomes),
         assumptions: vec![
             Assumption::new("base_distance", "mm", DISTANCE, 5500.0),
             Assumption::new("ray_on_wall", "mm", ray_on_wall(options), None),
@@ -296,16 +296,17 @@ fn figures(outcomes: &[Outcome]) -> Vec<Figure> {
     list
 }
 
-/// The paper's figure 8.
-fn chart(outcomes: &[Outcome]) -> Chart {
-    let mut series = Vec::new();
-    for (d, (label, _)) in DATUMS.into_iter().enumerate() {
-        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+/// The paper's figure 8, a chart for each axis.
+fn charts(outcomes: &[Outcome]) -> Vec<Chart> {
+    let of_axis = |(k, axis): (usize, &str)| {
+        let mut series = Vec::new();
+        for (d, (label, _)) in DATUMS.into_iter().enumerate() {
             let ours = (0..3).map(|i| [i as f64, outcomes[2 * i + d].errors[k]]).collect();
             let paper = (0..3).map(|i| [i as f64, PAPER[i][d][k]]).collect();
             series.push(Series::new(format!("s{axis}/{label}"), ours));
             series.push(Series { paper: true, ..Series::new(format!("s{axis}/{label}"), paper) });
         }
-    }
-    Chart::new("standard_errors", "network", "standard_error|mm", series).named(NETWORKS)
+        Chart::new(format!("standard_errors/{axis}"), "network", "standard_error|mm", series).named(NETWORKS)
+    };
+    ["x", "y", "z"].into_iter().enumerate().map(of_axis).collect()
 }

@@ -121,6 +121,30 @@ pub fn parameters_table(all: &Adjustment, fewer: &Adjustment) -> Table {
     table
 }
 
+/// Points that two photos of either run determine, with their standard errors: the root mean square over all points rests on them.
+pub fn two_ray_table(all: &Adjustment, fewer: &Adjustment) -> Table {
+    let mut table = Table::new("two_rays", &["point", "run", "rays", "sx|mm|3", "sy|mm|3", "sz|mm|3"]);
+    for (run, adjustment) in [("all", all), ("reduced", fewer)] {
+        for point in adjustment.points.iter().filter(|point| point.rays == 2) {
+            let mut row: Vec<Cell> = vec![point.id.as_str().into(), run.into(), point.rays.into()];
+            row.extend([0, 1, 2].map(|k| Cell::from(point.sigma.map(|sigma| sigma[k]))));
+            table.rows.push(row);
+        }
+    }
+    table
+}
+
+/// N of 1 : N with the median over the points in the place of the root mean square, which a few weak points decide.
+fn median_relative(adjustment: &Adjustment) -> Option<f64> {
+    let median = |k: usize| {
+        let mut all: Vec<_> = adjustment.points.iter().filter_map(|point| Some(point.sigma?[k])).collect();
+        all.sort_by(f64::total_cmp);
+        all.get(all.len() / 2).copied()
+    };
+    let mean = (median(0)? + median(1)? + median(2)?) / 3.0;
+    Some(adjustment.precision.as_ref()?.largest_dimension / mean)
+}
+
 pub fn figures(all: &Adjustment, fewer: &Adjustment) -> Vec<Figure> {
     let pixel_um = PITCH_MM * 1000.0;
     let mut list = Vec::new();
@@ -142,6 +166,8 @@ pub fn figures(all: &Adjustment, fewer: &Adjustment) -> Vec<Figure> {
         }
         let paper = (label == "reduced").then_some(46_400.0);
         list.push(Figure::new(format!("relative/{label}"), "1 : N", precision.relative.unwrap_or(f64::NAN), paper));
+        let median = median_relative(adjustment).unwrap_or(f64::NAN);
+        list.push(Figure::new(format!("relative_median/{label}"), "1 : N", median, None));
         for (parameter, truth) in PLANTED {
             let id = format!("error_{}/{label}", parameter.name());
             list.push(Figure::new(id, "σ", recovered(adjustment, parameter, truth)[2], None));

@@ -62,6 +62,11 @@ impl Experiments {
         self.ran.with(|all| all.get(name).cloned())
     }
 
+    /// Whether it has not run yet and nothing was varied.
+    fn is_untouched(self, name: &str) -> bool {
+        self.ran(name).is_none() && self.options(name) == ExperimentOptions::default()
+    }
+
     /// What the last run gave, where it was run on what is chosen now.
     pub fn current(self, name: &str) -> Option<Arc<Ran>> {
         self.ran(name).filter(|ran| ran.options == self.options(name))
@@ -76,11 +81,19 @@ pub fn from_hash(hash: &str) -> Option<&'static str> {
 }
 
 impl Desk {
-    /// Shows an experiment.
+    /// Shows an experiment with its figures: what has never run is run as the paper has it, in place of another that is still running.
     pub fn show_experiment(self, name: &'static str) {
+        let is_running =
+            || self.job.with_untracked(|job| job.as_ref().is_some_and(|job| job.kind == JobKind::Experiment));
+        if is_running() && self.experiments.shown.get_untracked() != name {
+            self.cancel();
+        }
         self.experiments.shown.set(name);
         self.step.set(Step::Experiments);
         page::set_hash(&format!("{}/{name}", Step::Experiments.name()));
+        if self.job.with_untracked(Option::is_none) && untrack(|| self.experiments.is_untouched(name)) {
+            self.run_experiment();
+        }
     }
 
     /// Runs the experiment that is shown, in a worker.

@@ -134,6 +134,7 @@ declare! { experiments {
     t_reductions: "What the bundle makes of each reduction";
     t_photos: "Residuals photo by photo";
     t_parameters: "Camera parameters";
+    t_two_rays: "Points seen in two photos only";
     t_estimators: "Centres against the truth, best first";
     t_standard_errors: "Standard errors";
     t_free_gain: "Gain of the free network";
@@ -144,6 +145,7 @@ declare! { experiments {
     c_errors(n): "Standard errors with {n} {n:photo|photos}";
     c_improvement(d): "Improvement at {d} m";
     c_mixed: "Standard errors of mixed distances";
+    c_standard_errors(axis): "Standard errors {axis}";
     c_pairwise: "Errors with 3 photos: pair by pair and bundle";
     c_distortion: "Radial distortion";
     c_distortion_error: "Radial distortion, ours minus planted";
@@ -167,6 +169,10 @@ declare! { experiments {
     datum: "datum";
     parameters: "additional parameters";
     relative: "relative accuracy";
+    relative_median: "relative accuracy, median point";
+    papers_instrument(mm): "With the paper’s instrument (control sigma {mm} mm)";
+    rays: "rays";
+    photos_of_run: "photos";
     relative_column: "relative accuracy 1 :";
     method: "method";
     largest: "largest";
@@ -223,6 +229,7 @@ declare! { experiments {
     a_pairwise:
         "The paper's models formed pair by pair had random errors that did not follow the distance. With random image errors alone ours grow with the distance like the bundle's: the method by itself is not irregular. It becomes so where the second orientation of a shallow object is taken for the first.";
     a_sigma0_draws(n): "S₀ is the root mean square of {n} draws of the noise, each network's own, with its σ; the paper has one set of readings.";
+    a_film_draws(n): "Figures of a reduction are root mean squares over {n} draws of the readings; which reduction is better in a single draw is partly chance.";
     a_gain_misprint(ours, paper): "The paper's table 5 prints {paper} % for Z in network I, its tables 3 and 4 give {ours} %: taken for a misprint, and compared with {ours} %.";
     a_readings: "The readings are made up: plates of the usual kind, read to the σ above. The paper prints none.";
     a_distortion: "The distortion table is made up, of the usual size: the paper shows it as a drawing only.";

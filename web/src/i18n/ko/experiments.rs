@@ -127,6 +127,7 @@ translate! { Korean experiments {
     t_reductions: "보정 방법별 광속조정 결과";
     t_photos: "사진별 잔차";
     t_parameters: "카메라 매개변수";
+    t_two_rays: "사진 두 장에만 찍힌 점";
     t_estimators: "참값과 비교한 표적 중심, 좋은 순";
     t_standard_errors: "표준오차";
     t_free_gain: "자유망의 향상률";
@@ -137,6 +138,7 @@ translate! { Korean experiments {
     c_errors(n): "사진 {n}매의 표준오차";
     c_improvement(d): "{d} m에서의 향상률";
     c_mixed: "여러 거리를 섞은 망의 표준오차";
+    c_standard_errors(axis): "표준오차 {axis}";
     c_pairwise: "사진 3매의 오차: 모델 쌍과 광속조정";
     c_distortion: "방사왜곡";
     c_distortion_error: "방사왜곡, 여기 − 심은 값";
@@ -160,6 +162,10 @@ translate! { Korean experiments {
     datum: "기준계";
     parameters: "부가매개변수";
     relative: "상대정확도";
+    relative_median: "상대정확도(중앙값)";
+    papers_instrument(mm): "논문의 장비로 실행(기준점 σ {mm} mm)";
+    rays: "광선 수";
+    photos_of_run: "사진";
     relative_column: "상대정확도 1 :";
     method: "방법";
     largest: "최대";
@@ -216,6 +222,7 @@ translate! { Korean experiments {
     a_pairwise:
         "논문에서 공면조건 모델 쌍의 오차는 거리와 무관하게 불규칙했습니다. 우연오차만 있으면 여기서는 광속조정처럼 거리에 따라 커집니다. 방법 자체는 불규칙하지 않습니다. 깊이가 얕은 피사체의 두 번째 상호표정 해를 택하면 불규칙해집니다.";
     a_sigma0_draws(n): "S₀는 망마다 따로 뽑은 잡음 {n}회의 제곱평균제곱근이며 그 σ를 함께 보입니다. 논문의 값은 한 번의 측정에서 나온 것입니다.";
+    a_film_draws(n): "보정 방법별 값은 측정값 잡음을 {n}회 뽑아 얻은 제곱평균제곱근입니다. 한 번만 뽑으면 어느 방법이 나은지가 우연에 좌우됩니다.";
     a_gain_misprint(ours, paper): "논문의 표 5에는 망 I의 Z가 {paper} %로 적혀 있으나 표 3과 표 4에서는 {ours} %가 됩니다. 오식으로 보고 {ours} %와 비교합니다.";
     a_readings: "읽음값은 여기서 만들었습니다. 보통의 건판을 위의 σ로 읽은 것입니다. 논문에는 없습니다.";
     a_distortion: "왜곡 보정표는 보통 크기로 만들었습니다. 논문에는 그림만 있습니다.";

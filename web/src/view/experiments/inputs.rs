@@ -78,7 +78,24 @@ pub fn Inputs(name: &'static str) -> impl IntoView {
         <div class="fields inputs">
             {own}
             {fields.iter().map(|field| view! { <Number experiment=name field=*field/> }).collect_view()}
+            {(name == "kim").then(|| view! { <PapersInstrument/> })}
         </div>
+    }
+}
+
+/// Kim's total station is specified with 2 mm + 2 ppm; the standard input is what its coordinates must have been better than.
+#[component]
+fn PapersInstrument() -> impl IntoView {
+    const SIGMA_MM: f64 = 2.0;
+    let desk = expect_context::<Desk>();
+    let run = move |_| {
+        desk.experiments.vary("kim", |options| options.control_sigma_mm = Some(SIGMA_MM));
+        desk.run_experiment();
+    };
+    view! {
+        <button class="button" data-action="papers-instrument" disabled=move || desk.job.with(Option::is_some) on:click=run>
+            {move || words::papers_instrument(format::editable(SIGMA_MM))}
+        </button>
     }
 }
 

@@ -17,8 +17,8 @@ use crate::format;
 use crate::i18n::Text;
 use crate::i18n::experiments as words;
 use crate::i18n::{inside, text};
-use crate::store::Desk;
 use crate::store::inside::Network;
+use crate::store::{Desk, JobKind};
 use drawing::NetworkDrawing;
 use inputs::Inputs;
 use outcome::Outcome;
@@ -48,7 +48,7 @@ pub fn Experiments() -> impl IntoView {
                     <button
                         data-experiment=name
                         aria-current=move || (shown.get() == name).then_some("page")
-                        disabled=move || desk.job.with(Option::is_some)
+                        disabled=move || desk.job.with(|job| job.as_ref().is_some_and(|job| job.kind != JobKind::Experiment))
                         on:click=move |_| desk.show_experiment(name)
                     >
                         {title}

@@ -122,6 +122,8 @@ pub fn label(id: &str) -> String {
         "photo" => words::photo(),
         "photos" => words::photos(),
         "point" => words::point(),
+        "rays" => words::rays(),
+        "run" => words::photos_of_run(),
         "points" => words::points(),
         "count" => words::count(),
         "found" => words::found(),
@@ -196,6 +198,7 @@ pub fn figure(figure: &Figure) -> String {
         "monte_carlo_over_s" => return words::monte_carlo(of),
         "qx" | "qy" | "qz" | "m0" => words::fall_of(label(id)),
         "relative" => words::relative().to_owned(),
+        "relative_median" => words::relative_median().to_owned(),
         "centre_rms" => words::centre_rms().to_owned(),
         "object_rms" => words::object_rms().to_owned(),
         "visible" => words::visible().to_owned(),
@@ -243,6 +246,7 @@ pub fn table(id: &str) -> String {
         "reductions" => words::t_reductions(),
         "photos" => words::t_photos(),
         "parameters" => words::t_parameters(),
+        "two_rays" => words::t_two_rays(),
         "estimators" => words::t_estimators(),
         "standard_errors" => words::t_standard_errors(),
         "free_gain" => words::t_free_gain(),
@@ -261,6 +265,7 @@ pub fn chart(chart: &Chart) -> String {
     match chart.id.split_once('/') {
         Some(("errors", n)) => words::c_errors(n),
         Some(("improvement", distance)) => words::c_improvement(distance),
+        Some(("standard_errors", axis)) => words::c_standard_errors(axis.to_uppercase()),
         Some((way, photo)) => words::c_way(label(way.trim_start_matches("way_")), photo),
         None => match chart.id.as_str() {
             "mixed" => words::c_mixed().to_owned(),
@@ -269,7 +274,6 @@ pub fn chart(chart: &Chart) -> String {
             "distortion_error" => words::c_distortion_error().to_owned(),
             "sensor_centres" => words::c_sensor_centres().to_owned(),
             "sensor_objects" => words::c_sensor_objects().to_owned(),
-            "standard_errors" => words::t_standard_errors().to_owned(),
             other => other.to_owned(),
         },
     }
@@ -284,6 +288,7 @@ pub fn assumption(a: &Assumption) -> String {
         "overall_means" => words::a_overall_means().to_owned(),
         "pairwise_draws" => words::a_pairwise().to_owned(),
         "sigma0_draws" => words::a_sigma0_draws(ours),
+        "film_draws" => words::a_film_draws(ours),
         "gain_misprint" => words::a_gain_misprint(format::fixed(a.ours.unwrap_or_default(), 1), paper),
         "readings_made_up" => words::a_readings().to_owned(),
         "distortion_made_up" => words::a_distortion().to_owned(),
