@@ -86,7 +86,7 @@ test('21 photos become a calibration', { skip: folder ? false : 'skipped, no dat
       return page.inputValue('[name=target-diameter]');
     };
     assert.equal(await diameter('-5'), '');
-    assert.match(await notice(page), /no diameter/);
+    assert.match(await notice(page), /not a diameter/);
     assert.equal(await diameter('0.02'), '0.02');
     await adjust(page);
     const freed = (await parameter(page, 'C4040Z', 'c')).value;

@@ -41,7 +41,7 @@ test('a point that was moved stands first in the comparison, and nothing else mo
     assert.ok(ratios[0] > 0 && ratios.slice(1).every((ratio) => ratio <= ratios[0]), `${ratios.slice(0, 5)}`);
     const words = await page.textContent('[data-compared=figures]');
     assert.ok(words.includes(after.toFixed(3)) && words.includes(before.toFixed(3)), words);
-    assert.match(await page.textContent('[data-compared=alignment]'), /same control points|laid upon this one/);
+    assert.match(await page.textContent('[data-compared=alignment]'), /same control points|was transformed to this one/);
     assert.ok((await page.locator('.compared tr[data-parameter]').count()) > 2);
     // A row chooses its point everywhere.
     await page.locator('.compared-points tr[data-key="11"]').click();
@@ -77,7 +77,7 @@ test('a cancelled adjustment leaves the last result with its iterations, and say
       });
     await cancelled();
     await idle(page);
-    assert.match(await notice(page), /Cancelled\. The result from before stays as it was/);
+    assert.match(await notice(page), /Cancelled\. The previous result is unchanged/);
     assert.deepEqual(await iterations(), before);
     assert.equal(await page.locator('[data-step=results] .stale').count(), 0);
     await go(page, 'results');
@@ -88,7 +88,7 @@ test('a cancelled adjustment leaves the last result with its iterations, and say
     await page.press('[name=unmodelled]', 'Tab');
     await cancelled();
     await idle(page);
-    assert.match(await notice(page), /of the project as it was then/);
+    assert.match(await notice(page), /belongs to an earlier state of the project/);
     await page.locator('.bar h1').click();
     await page.keyboard.press('Control+z');
     assert.equal(await page.locator('[data-step=results] .stale').count(), 0);

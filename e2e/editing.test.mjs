@@ -47,7 +47,7 @@ test('control, distances, projection centres and observed parameters are edited 
     assert.equal(now.distances[0].sigma, 0.02);
     const photo = now.photos.find((p) => p.id === centred);
     assert.deepEqual([photo.position, photo.sigma_position], [[10, 20, 30], [0.5, null, 0.75]]);
-    await page.getByRole('button', { name: 'Observe this projection centre no more' }).click();
+    await page.getByRole('button', { name: 'Stop observing this projection centre' }).click();
     await type(page, `[aria-label="${first.id} σ X"]`, '');
     now = await project(page);
     assert.equal(now.photos.find((p) => p.id === centred).sigma_position ?? null, null);

@@ -94,7 +94,7 @@ test('a list is answered on the step where it is dropped: unit, columns, one sta
     await drop(page, [scratch('hall-5.txt', 'Punkt;Y;X;H;Code\nP7;52,84;31,25;4,5;ST\n')]);
     await page.waitForSelector('[data-remembered]');
     assert.equal(await column(page, 1).inputValue(), 'X');
-    await page.getByRole('button', { name: 'Read it afresh' }).click();
+    await page.getByRole('button', { name: 'Recognise again' }).click();
     await page.waitForFunction(() => !document.querySelector('[data-remembered]'));
     assert.equal(await column(page, 1).inputValue(), 'Y');
     assert.deepEqual(errors, []);

@@ -119,7 +119,7 @@ test('lists of three epochs: displacements, thresholds and velocities; what is c
     await monitoring(page);
     const files = [0, 0.4, 0.8].map((by, k) => scratch(`wall 2026-0${k + 3}-15.csv`, list(31 + k, moved({ P2: by, P5: by / 8 }))));
     await epochs(page, files.slice(0, 1), 1);
-    assert.match(await page.textContent('.epochs-setup'), /At least two epochs/);
+    assert.match(await page.textContent('.epochs-setup'), /at least two epochs/);
     await epochs(page, files.slice(1), 3);
     await field(page, 'reference', 'R1, R2, R3, R4, R5, R6, R7, R8');
     assert.equal(await page.locator('[data-common][aria-pressed=true]').count(), 8);

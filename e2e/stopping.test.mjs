@@ -98,7 +98,7 @@ test('every long job has a cancel, and nothing is the worse for it', { timeout: 
     await page.click('[data-photo="sample-5"]');
     hold();
     await page.click('[data-photo="sample-2"]');
-    await cancelLasting(page, 'A photo is being read');
+    await cancelLasting(page, 'Reading a photo');
 
     await page.click('[data-action=detect]');
     await cancel(page, 'Detecting');
@@ -110,12 +110,12 @@ test('every long job has a cancel, and nothing is the worse for it', { timeout: 
     await page.click('[data-action=match]');
     await cancel(page, 'Matching');
     await choosePoint(page, '11');
-    await cancelLasting(page, 'Photos are being oriented, to show where points should be');
+    await cancelLasting(page, 'Orienting photos to predict point positions');
     await save(page);
     await cancel(page, 'Saving');
 
     await go(page, 'report');
-    await cancelLasting(page, 'The report is being made');
+    await cancelLasting(page, 'Writing the report');
     assert.match(await page.textContent('.note.bad'), /stopped/);
     release();
     await go(page, 'results');
@@ -128,11 +128,11 @@ test('every long job has a cancel, and nothing is the worse for it', { timeout: 
     await cancel(page, 'Writing the report');
     await go(page, 'results');
     await page.click('[data-shown=plots]');
-    await cancelLasting(page, 'Plots are being drawn');
+    await cancelLasting(page, 'Drawing plots');
 
     await page.click('.mark');
     await page.click('[data-open="print"]');
-    await cancelLasting(page, 'Targets are being drawn');
+    await cancelLasting(page, 'Drawing targets');
     // Not on the start page, where photos begin a project.
     await go(page, 'photos');
     await drop(page, [scratch(photo.slice(7), Buffer.concat([entries[photo], Buffer.from('another')]))]);
@@ -176,7 +176,7 @@ test('plans and experiments can be stopped', { timeout: 600_000 }, async () => {
     assert.equal(await page.locator('.stations tbody tr').count(), count);
     await page.fill('input[name="precision"]', '0.04');
     await page.press('input[name="precision"]', 'Enter');
-    await cancelLasting(page, 'The plan is being computed');
+    await cancelLasting(page, 'Computing the plan');
     release();
     await page.fill('input[name="precision"]', '0.05');
     await page.press('input[name="precision"]', 'Enter');

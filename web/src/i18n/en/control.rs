@@ -30,13 +30,13 @@ declare! { control {
     unit_of_length: "unit of length";
     unit_of_these: "in";
     choose_unit: "choose…";
-    which_unit: "Say in which unit these coordinates are: a sheet of 1 m must not become one of 1 mm.";
+    which_unit: "Choose the unit of these coordinates: a wrong one changes the scale, e.g. by 1000.";
     unit_question(from, to, after):
         "The numbers are in {from}. Convert them to {to} (1000 {from} become {after} {to}), or were they in {to} all along?";
     unit_convert: "Convert the numbers";
     unit_relabel: "Only the unit was wrong";
     unit_unknown(unit): "\"{unit}\" is not a known unit of length. Choose the unit of the numbers.";
-    unit_unknown_question(from, to): "\"{from}\" is not a known unit, and nothing can be converted from it. Are the numbers in {to}?";
+    unit_unknown_question(from, to): "\"{from}\" is not a known unit, so nothing can be converted. Are the numbers in {to}?";
     unit_is_right: "Yes, change the unit";
     read_separator(separator): "Fields are separated by {separator}.";
     separator_comma: "commas";
@@ -50,19 +50,19 @@ declare! { control {
     read_ignored(columns): "Not used: {columns}.";
     read_remarks(headings): "Not understood in the heading: {headings}.";
     ask_decimal: "Which number is meant?";
-    ask_axes: "The table has no heading that tells the axes. Which coordinate comes first?";
+    ask_axes: "The table has no heading for the axes. Which coordinate comes first?";
     axes_xy: "X, east";
     axes_yx: "Y, north";
     in_unit(unit): "in {unit}";
     observed_centres: "Observed projection centres";
     observed_centres_hint: "as from GNSS; used under the control datum";
-    forget_centre: "Observe this projection centre no more";
+    forget_centre: "Stop observing this projection centre";
     observe: "Observe";
     datum: "Datum";
     datum_control: "Control points";
-    datum_control_means: "The result sits in the control system, and errors of control enter the shape.";
+    datum_control_means: "The result is in the control system; errors of control points distort the shape.";
     datum_minimal: "Minimal constraints";
-    datum_minimal_means: "Seven coordinates are held: fixes position, rotation and scale only. Standard errors depend on which seven.";
+    datum_minimal_means: "Holds seven coordinates, which fix position, rotation and scale only. Standard errors depend on which seven.";
     datum_free: "Free network";
-    datum_free_means: "Inner constraints over all points give the smallest mean sigma; control only gives the start.";
+    datum_free_means: "Inner constraints over all points give the smallest mean standard error; control points only give initial values.";
 } }

@@ -7,21 +7,21 @@ declare! { experiments {
     // The pages
     experiments: "Experiments";
     experiments_words:
-        "Three papers from Korea, run again: their networks simulated and adjusted here, their figures beside ours.";
+        "Three papers from Korea, repeated: their networks are simulated and adjusted here, and compared with the printed figures.";
     running: "Running the experiment";
     run: "Run";
     run_again: "Run again";
     open_as_project: "Open as a project";
     not_run_yet: "Run the experiment to see its figures. It takes a few seconds in the background; the page stays usable.";
-    inputs_changed: "The inputs have changed since the last run: run again to see the figures that belong to them.";
+    inputs_changed: "The inputs have changed since the last run. Run again to update the figures.";
     ran_in(seconds): "run in {seconds} s";
-    vary: "What may be varied";
+    vary: "Inputs";
     network: "Network";
     drawing_shown: "network drawn";
     plan: "plan";
     elevation: "elevation";
-    assumed: "Assumed here";
-    assumed_aside: "not printed in the paper, or printed otherwise";
+    assumed: "Assumptions";
+    assumed_aside: "not in the paper, or different from it";
     ours: "ours";
     paper: "paper";
     paper_of(what): "{what}, paper";
@@ -38,17 +38,17 @@ declare! { experiments {
     kang_source:
         "Kang, J. M. and Yeu, B. M. (1985), A Study on the 3 Dimensional Precision Analysis of Objects by means of Multiple Close Range Photogrammetry.";
     film: "Film";
-    film_question: "What do fiducial marks and a distortion table make of comparator readings?";
-    film_source: "The way of Kang and Yeu (1985), figures 3-2 and 3-3, on readings made up here.";
+    film_question: "How well do fiducial marks and a distortion table correct comparator readings?";
+    film_source: "The method of Kang and Yeu (1985), figures 3-2 and 3-3, on simulated readings.";
     lee_calibration: "Lee 1996, calibration";
-    lee_calibration_question: "How well does a camera calibrate itself, from the pixels on?";
+    lee_calibration_question: "How well does a camera calibrate itself, starting from pixels?";
     lee_source:
         "Lee, J. D. (1996), Effective Application of Close-Range Photogrammetry with Digital Images in Industrial Precise Measurement.";
     lee_structure: "Lee 1996, structure";
-    lee_structure_question: "What do convergent photos and a free network give?";
+    lee_structure_question: "What do convergent photos and a free network improve?";
     sensor: "Sensor or JPEG";
-    sensor_question: "What do centres and coordinates lose between the sensor and a camera's JPEG?";
-    sensor_source: "An experiment of our own: one exposure each, rendered through lens and colour filters with the noise of its photons, then taken through the steps of a camera. Six photos, self-calibrated in a free network, against the true centres and coordinates.";
+    sensor_question: "How much accuracy do centres and coordinates lose between the sensor and a camera's JPEG?";
+    sensor_source: "Our own experiment: each exposure is rendered through lens and colour filters with photon noise, then processed as a camera does it. Six photos, self-calibrated in a free network, compared with the true centres and coordinates.";
     step_sites: "RAW";
     step_demosaiced: "demosaiced";
     step_sharpened: "sharpened";
@@ -59,26 +59,26 @@ declare! { experiments {
     error_over_sigma: "error / σ";
     object_rms: "coordinate errors, rms";
     object_sigma: "stated σ, rms";
-    over_sites: "over RAW";
-    visible: "centres in sight";
-    t_sensor_steps: "What every step costs";
+    over_sites: "ratio to RAW";
+    visible: "visible centres";
+    t_sensor_steps: "Cost of each processing step";
     c_sensor_centres: "Errors of the centres";
     c_sensor_objects: "Errors and stated standard errors of the coordinates";
-    a_sharpening(v): "Sharpening adds {v} % of the difference to the binomial mean of 3 × 3 pixels.";
+    a_sharpening(v): "Sharpening adds {v} % of the difference from the binomial mean of 3 × 3 pixels.";
     kim: "Kim, Hwang & Yun 2015";
-    kim_question: "How near does a pair of photos come, from DLT to intersected points?";
+    kim_question: "How accurate is a pair of photos, from DLT to intersected points?";
     kim_source:
         "Kim, H. G., Hwang, J. S. and Yun, H. S. (2015), Accuracy Analysis of 3D Position of Close-range Photogrammetry Using Direct Linear Transformation and Self-calibration Bundle Adjustment with Additional Parameters.";
 
     // Plates of one's own
-    plates: "Plates of your own";
+    plates: "Your own plates";
     plates_words:
-        "Describe camera, fiducial marks and distortion table, one a line; then take readings: photo, mark or point, x, y in the machine's millimetres.";
+        "Describe camera, fiducial marks and distortion table, one per line; then add readings: photo, mark or point, x, y in the machine's millimetres.";
     plates_description: "description of camera and plates";
     plates_files: "Readings from files…";
     plates_scans: "Measured in the scans";
     plates_scans_words:
-        "In scanned photos: point at marks and points under Targets, name the marks as above under Point names, then return here.";
+        "For scanned photos: measure fiducial marks and points under Targets, name the marks as above under Point names, then return here.";
     plates_reduced(photos, observations):
         "{photos} {photos:photo|photos} reduced, {observations} {observations:observation|observations}.";
 
@@ -93,23 +93,23 @@ declare! { experiments {
     in_image_sigma: "σ of image coordinates, µm";
     in_control_sigma: "σ of control coordinates, mm";
     in_pixel_noise: "noise of the pixels, % of full scale";
-    in_rounds: "rounds of Monte Carlo";
-    in_seed: "seed of the noise";
-    in_method: "centres adjusted";
-    in_left_out: "photos left out of the second run";
-    left_out_hint: "numbers, separated by blanks";
+    in_rounds: "Monte Carlo runs";
+    in_seed: "noise seed";
+    in_method: "centres to adjust";
+    in_left_out: "photos excluded from the second run";
+    left_out_hint: "numbers, separated by spaces";
 
     // What a name in a cell, on an axis or after a figure says
     all: "all";
-    reduced: "without the photos left out";
+    reduced: "with photos excluded";
     control: "control";
     free: "free network";
     observed: "observed";
     unknown: "unknown";
     yes: "yes";
     no: "no";
-    greatest: "greatest";
-    least: "least";
+    greatest: "maximum";
+    least: "minimum";
     mean: "mean";
     standard_deviation: "standard deviation";
     rms: "rms";
@@ -126,16 +126,16 @@ declare! { experiments {
     // What identifiers of tables and charts say
     t_single: "60 networks at one distance";
     t_mixed: "16 networks of mixed distances";
-    t_improvement: "Fall of M₀ and Mₛ against two photos";
+    t_improvement: "Decrease of M₀ and Mₛ compared with two photos";
     t_pairwise: "Models pair by pair (coplanarity) and the bundle";
     t_fiducials: "Residuals at the fiducial marks";
     t_transformations: "Parameters of the transformations";
     t_distortion: "Distortion table and odd polynomial";
-    t_reductions: "What the bundle makes of each reduction";
-    t_photos: "Residuals photo by photo";
+    t_reductions: "Bundle adjustment after each correction method";
+    t_photos: "Residuals by photo";
     t_parameters: "Camera parameters";
     t_two_rays: "Points seen in two photos only";
-    t_estimators: "Centres against the truth, best first";
+    t_estimators: "Centres compared with the truth, best first";
     t_standard_errors: "Standard errors";
     t_free_gain: "Gain of the free network";
     t_check_points: "Check points, photogrammetry minus survey";
@@ -148,15 +148,15 @@ declare! { experiments {
     c_standard_errors(axis): "Standard errors {axis}";
     c_pairwise: "Errors with 3 photos: pair by pair and bundle";
     c_distortion: "Radial distortion";
-    c_distortion_error: "Radial distortion, ours minus planted";
-    c_way(axis, photo): "{axis} of photo {photo} over the iterations";
+    c_distortion_error: "Radial distortion, ours minus true value";
+    c_way(axis, photo): "{axis} of photo {photo} by iteration";
 
     // Axes, columns, lines, figures
     photo: "photo";
     point: "point";
     points: "points";
     photos: "photos";
-    count: "compared";
+    count: "number compared";
     found: "found";
     overlap_type: "type (overlap)";
     standard_error: "standard error";
@@ -188,7 +188,7 @@ declare! { experiments {
     corrected: "lens corrected";
     bundle_sigma0: "σ₀ of the bundle";
     marks_sigma0: "σ₀ of the marks";
-    planted: "planted (the paper's)";
+    planted: "true value (the paper's)";
     error: "error";
     element: "element";
     dlt: "DLT";
@@ -196,65 +196,66 @@ declare! { experiments {
     statistic: "statistic";
     total: "total";
     iteration: "iteration";
-    iterations: "iterations until nothing moves by 0.1 mm";
+    iterations: "iterations until no change exceeds 0.1 mm";
     check_points: "check points";
-    base_fall(base): "fall of M₀ with B/D from 0.2 to {base}";
-    fall_of(what): "fall of {what}";
-    m0_mean(n): "{n} {n:photo|photos} against 2, mean fall of M₀";
-    m0_up_to(n): "{n} {n:photo|photos} against 2, greatest fall of M₀";
-    m0_least: "least fall of M₀ over types";
-    m0_greatest: "greatest fall of M₀ over types";
-    monte_carlo(axis): "Monte Carlo scatter against S{axis}";
+    base_fall(base): "decrease of M₀ with B/D from 0.2 to {base}";
+    fall_of(what): "decrease of {what}";
+    m0_mean(n): "{n} {n:photo|photos} compared with 2, mean decrease of M₀";
+    m0_up_to(n): "{n} {n:photo|photos} compared with 2, maximum decrease of M₀";
+    m0_least: "minimum decrease of M₀ over types";
+    m0_greatest: "maximum decrease of M₀ over types";
+    monte_carlo(axis): "Monte Carlo scatter compared with S{axis}";
     residual_axis(axis): "residual {axis}";
     rms_sigma(axis): "rms σ{axis}";
-    error_of(what): "error of {what} in its σ";
+    error_of(what): "error of {what}, in σ";
     gain_of(axis): "gain of the free network in {axis}";
     centre_rms: "centre errors, rms";
     distortion_sigma0: "σ₀ of the polynomial";
-    pair_unaided: "pairs, best fit, one draw";
-    pair_draws: "pairs, axes parallel, 4 draws";
-    bundle_draws: "bundle, 4 draws";
+    pair_unaided: "pairs, best fit, one run";
+    pair_draws: "pairs, parallel axes, 4 runs";
+    bundle_draws: "bundle, 4 runs";
     pair_of(axis): "pairs {axis}";
     bundle_of(axis): "bundle {axis}";
-    pair_rms_draws: "pairs rms, 4 draws";
-    bundle_rms_draws: "bundle rms, 4 draws";
+    pair_rms_draws: "pairs rms, 4 runs";
+    bundle_rms_draws: "bundle rms, 4 runs";
     pair_unaided_rms: "pairs best fit rms";
-    pair_unaided_rms_draws: "pairs best fit rms, 4 draws";
-    reduced_of(what): "{what}, photos left out";
+    pair_unaided_rms_draws: "pairs best fit rms, 4 runs";
+    reduced_of(what): "{what}, photos excluded";
 
     // Assumptions, as sentences
-    a_base_line_centre: "The base line's centre faces the mean of the points: the paper does not print where it lies.";
+    a_base_line_centre: "The centre of the base line faces the mean of the points: the paper does not state its position.";
     a_overall_means:
-        "\"About 15, 35 and up to 50 %\" is read over the distances of the paper's figures 4-6 to 4-9, 1.4 to 4.0 m: the means of 3 and 4 photos, the greatest fall with 5. At 7.0 m more photos gain more.";
+        "\"About 15, 35 and up to 50 %\" is taken over the distances of the paper's figures 4-6 to 4-9, 1.4 to 4.0 m: means for 3 and 4 photos, maximum decrease for 5. At 7.0 m more photos improve more.";
     a_pairwise:
         "The paper's models formed pair by pair had random errors that did not follow the distance. With random image errors alone ours grow with the distance like the bundle's: the method by itself is not irregular. It becomes so where the second orientation of a shallow object is taken for the first.";
-    a_sigma0_draws(n): "S₀ is the root mean square of {n} draws of the noise, each network's own, with its σ; the paper has one set of readings.";
     a_film_draws(n): "Figures of a reduction are root mean squares over {n} draws of the readings; which reduction is better in a single draw is partly chance.";
-    a_gain_misprint(ours, paper): "The paper's table 5 prints {paper} % for Z in network I, its tables 3 and 4 give {ours} %: taken for a misprint, and compared with {ours} %.";
-    a_readings: "The readings are made up: plates of the usual kind, read to the σ above. The paper prints none.";
-    a_distortion: "The distortion table is made up, of the usual size: the paper shows it as a drawing only.";
-    a_film_along(v): "The film shrank to {v} along its run.";
-    a_film_across(v): "The film shrank to {v} across it.";
+        "In the paper, the errors of models formed pair by pair were irregular with distance. With random image errors alone, ours grow with distance as those of the bundle do: the method itself is not irregular. It becomes irregular if the second solution of the relative orientation of a shallow object is chosen.";
+    a_sigma0_draws(n): "S₀ is the root mean square of {n} simulated sets of noise for each network, with its σ; the paper has one set of readings.";
+    a_gain_misprint(ours, paper): "The paper's table 5 prints {paper} % for Z in network I; its tables 3 and 4 give {ours} %. This is treated as a misprint and compared with {ours} %.";
+    a_readings: "The readings are simulated: plates of the usual kind, read with the σ above. The paper prints none.";
+    a_distortion: "The distortion table is simulated with the usual size: the paper shows it only as a drawing.";
+    a_film_along(v): "The film shrank to {v} along its length.";
+    a_film_across(v): "The film shrank to {v} across its width.";
     a_station_distance(v, paper):
-        "Stations {v} mm away; the paper says about {paper} mm, from where this camera sees 1.9 × 1.3 m of the 2.0 × 1.5 m field and fewer targets than the 100 to 119 a photo of its table 1. Farther away it sees more of them, though still not as many.";
-    a_field_depth(v): "Targets at depths over {v} mm: the paper says \"three-dimensional\" and no more.";
-    a_station_directions: "Stations on an arc at ±10°, ±30°, ±50°: the paper draws them without figures.";
+        "Stations are {v} mm away. At the paper's distance of about {paper} mm, this camera sees 1.9 × 1.3 m of the 2.0 × 1.5 m field and fewer targets than the 100 to 119 per photo of its table 1. Farther away it sees more, but still fewer than that.";
+    a_field_depth(v): "Targets have depths within {v} mm: the paper only says \"three-dimensional\".";
+    a_station_directions: "Stations are on an arc at ±10°, ±30°, ±50°: the paper draws them without figures.";
     a_psf(v): "Lens blur of {v} px (standard deviation).";
-    a_pixel_noise(v): "Pixel noise of {v} % of full scale, constant and by photons.";
-    a_centroid: "Intensity centroids are adjusted, the paper's better weighting; other centres can be chosen above.";
+    a_pixel_noise(v): "Pixel noise of {v} % of full scale, a constant part and photon noise.";
+    a_centroid: "Intensity centroids are adjusted, the better weighting in the paper; other centres can be chosen above.";
     a_base_distance(v, paper):
-        "Base line {v} mm from the wall; the paper says about {paper} mm, from where this camera sees 3.7 × 2.5 m of the 6.3 × 3.5 m wall. At 7.4 m network I has the paper's 374 equations, but the photos of II miss the upper and lower rows. Standard errors grow with the distance.";
+        "The base line is {v} mm from the wall. At the paper's distance of about {paper} mm, this camera sees 3.7 × 2.5 m of the 6.3 × 3.5 m wall. At 7.4 m network I has the paper's 374 equations, but the photos of II miss the upper and lower rows. Standard errors grow with distance.";
     a_ray_on_wall(v):
-        "Ours are two to three times the paper's. A ray is uncertain by {v} mm on the wall here, and six of them leave 0.4 of that at best. With 3 µm the paper's 0.273 mm of network I takes 21 rays, or a camera at 4.6 m, from where a photo holds less than a third of the wall; its 374 equations ask for 30 of the 38 targets in every photo. Its standard errors and its equations are not of one geometry: compare order and gains, not sizes.";
+        "Our standard errors are two to three times the paper's. Here a ray has an uncertainty of {v} mm on the wall, and six rays reduce it to 0.4 of that at best. With 3 µm, the paper's 0.273 mm for network I needs 21 rays, or a camera at 4.6 m, where a photo covers less than a third of the wall; its 374 equations need 30 of the 38 targets in every photo. The paper's standard errors and equations do not belong to one geometry: compare order and gains, not sizes.";
     a_outer(v):
-        "Outer stations of network I {v} mm from the middle: not printed. From 5 000 to 7 500 mm the order III, I, II in depth is the same.";
-    a_relief(v): "Targets on pillars stand {v} mm before the wall: not printed.";
+        "Outer stations of network I are {v} mm from the middle: not in the paper. From 5 000 to 7 500 mm the order III, I, II in depth is the same.";
+    a_relief(v): "Targets on pillars are {v} mm in front of the wall: not in the paper.";
     a_observed:
-        "The additional parameters are observed with the sigmas of the first experiment's calibration; in the paper they are unknown. The table has both: in network II four control points then add to the calibration what the free datum does without.";
-    a_principal_distance(v): "Principal distance {v} mm: the paper prints none. The image scale is then about 1 : 1 100.";
+        "The additional parameters are observed with the standard errors of the first experiment's calibration; in the paper they are unknown. The table has both: if they are unknown, four control points in network II improve the calibration, and the free datum lacks this.";
+    a_principal_distance(v): "Principal distance {v} mm: not in the paper. The image scale is then about 1 : 1 100.";
     a_survey(v):
-        "Surveyed coordinates are off by {v} mm (1σ): better than the total station's 2 mm + 2 ppm, as within one room and from one set-up.";
+        "Surveyed coordinates have errors of {v} mm (1σ): better than the total station's 2 mm + 2 ppm, since they are measured in one room from one set-up.";
     a_diameter(v): "Targets of {v} mm.";
     a_control_places:
-        "The 65 control points lie on two planes through the check points: the paper prints the 15 check points only.";
+        "The 65 control points lie on two planes through the check points: the paper prints only the 15 check points.";
 } }

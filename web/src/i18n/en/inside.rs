@@ -6,7 +6,7 @@ use crate::i18n::declare;
 declare! { inside {
     inside: "Inside the adjustment";
     sentence(n, u, r): "{n} observations, {u} unknowns, redundancy {r}. Every number is the engine's.";
-    sentence_before: "The matrices, steps, datum and tests of an adjustment.";
+    sentence_before: "Matrices, steps, datum and tests of an adjustment.";
     equations: "Equations and matrices";
     datum: "Datum";
     errors: "Gross errors";
@@ -14,9 +14,9 @@ declare! { inside {
     network: "Network";
     lab: "Lab net (5 photos, 14 points)";
     this_project: "This project";
-    save_matrices: "Save the matrices";
-    computing: "The adjustment is being laid open";
-    nothing: "This network cannot be adjusted yet; the message above or the step Adjustment says why. Choose the lab net to look around.";
+    save_matrices: "Save matrices";
+    computing: "Computing the matrices";
+    nothing: "This network cannot be adjusted yet. The message above or the step Adjustment gives the reason. Choose the lab net to look around.";
     observation: "Observation";
     observed(axis): "observed {axis}";
     computed(axis): "computed {axis}";
@@ -25,21 +25,21 @@ declare! { inside {
     weight: "weight 1/σ²";
     redundancy_number: "redundancy number r";
     shows(seen, absorbed):
-        "{seen} % of an error of this observation shows in its own residual; the unknowns absorb the other {absorbed} %.";
+        "{seen} % of an error in this observation appears in its own residual; the unknowns absorb the other {absorbed} %.";
     row_of(row, rows): "row {row} of {rows}";
-    find: "Find: photo point axis, as 2 7 x";
+    find: "Find: photo point axis, e.g. 2 7 x";
     choose_observation:
         "Click a cell of A, or type the name of an observation: its equation appears here with the numbers of this network.";
-    uvw_are: "U, V, W: the point seen from the projection centre, along the camera's axes. Δ: distortion and eccentricity.";
+    uvw_are: "U, V, W: vector from the projection centre to the point, along the camera axes. Δ: distortion and eccentricity.";
     derivatives: "Partial derivatives: the row of A";
     not_zero(n, all): "{n} of {all} are not zero";
     unknown: "unknown";
     analytic: "analytic";
     numerical: "numerical";
     moved_by_sigma: "by 1 σ";
-    moved_title: "How far an error of one σ of this observation moves the unknown";
+    moved_title: "Change of the unknown caused by an error of 1 σ in this observation";
     derivative_units:
-        "Per unit of the unknown; rotations per radian. The last column is how far an error of 1 σ in this observation moves the unknown.";
+        "Per unit of the unknown; rotations per radian. The last column is the change of the unknown caused by an error of 1 σ in this observation.";
     matrices: "Matrices";
     design_matrix: "design matrix";
     normal_matrix: "= AᵀPA, normal matrix";
@@ -48,7 +48,7 @@ declare! { inside {
     zoom_in: "Zoom in";
     zoom_out: "Zoom out";
     whole: "Show the whole matrix";
-    point_at: "Point at a cell to read it, click to choose it; the wheel zooms.";
+    point_at: "Point at a cell to read it; click to select it; the wheel zooms.";
     share_of_largest: "size, as a share of the largest entry of the column";
     eliminated(kept, others):
         "N is block diagonal in the points, so they are eliminated first: {kept} unknowns are solved together in S, {others} follow point by point.";
@@ -61,18 +61,18 @@ declare! { inside {
     rotation: "rotation";
     correction: "dx";
     value: "value";
-    some_unknowns(most): "About {most} around the chosen column are listed.";
+    some_unknowns(most): "About {most} around the selected column are listed.";
     rotations_are:
-        "dx is the change by the last step. Rotations are small turns about the camera's own axes and have no value of their own.";
+        "dx is the change in the last step. Rotations are small rotations about the camera axes and have no value of their own.";
     back: "Back";
     step: "Step";
     run_all: "Run to the end";
-    start_moved: "start values off by";
-    start_values: "start values";
+    start_moved: "initial values off by";
+    start_values: "initial values";
     step_of(length, unit): "step {length} {unit}";
-    ellipses_at_one_scale: "Ellipses of 1 σ, all at one scale";
+    ellipses_at_one_scale: "Ellipses of 1 σ, all at the same scale";
     ellipse_size: "size";
-    hold_by_click: "Click three points under Minimal constraints to hold others.";
+    hold_by_click: "Click three points under Minimal constraints to hold those instead.";
     hold_more(points): "Held: {points}. Three points are needed.";
     held_points(points): "Held: {points}.";
     datum_control: "Control points";
@@ -88,24 +88,24 @@ declare! { inside {
     to_within(part): "to {part}";
     redundancy_and_sigma(r, sigma0): "redundancy {r}, σ₀ {sigma0}";
     of_image(part): "{part} of it from image coordinates";
-    not_seen: "What the photos do not see";
+    not_seen: "Motions that change no observation";
     motions_of(n): "{n} motions of the whole network";
     changes_nothing(seen): "No observation changes: |A g| ≤ {seen} for a movement of 1.";
     shift_x: "shift X";
     shift_y: "shift Y";
     shift_z: "shift Z";
-    rotation_x: "turn X";
-    rotation_y: "turn Y";
-    rotation_z: "turn Z";
+    rotation_x: "rotation X";
+    rotation_y: "rotation Y";
+    rotation_z: "rotation Z";
     scale: "scale";
     error_in: "error in (photo point axis)";
     second_error: "second error, of the same size";
     no_second: "none";
     size_of_error(size): "size of the error: {size} σ";
     found_it(w, over, limit):
-        "The test sees it: w = {w}. In all {over} {over:observation is|observations are} over the limit of {limit}.";
+        "The test detects it: w = {w}. In total {over} {over:observation exceeds|observations exceed} the limit of {limit}.";
     missed_it(w, over, limit):
-        "The test does not see it: w = {w}. In all {over} {over:observation is|observations are} over the limit of {limit}.";
+        "The test does not detect it: w = {w}. In total {over} {over:observation exceeds|observations exceed} the limit of {limit}.";
     least_squares: "least squares";
     snooping: "data snooping";
     detectable: "minimal detectable bias";
@@ -118,12 +118,12 @@ declare! { inside {
     critical(w): "limit {w}";
     at_detectable(w): "{w}: expected at the minimal detectable bias";
     point_moves: "its point moves";
-    in_own_sigma: "… in its own σ";
+    in_own_sigma: "… in σ of the point";
     others_move: "other points move, rms";
     weight_factor: "weight factor of the observation";
-    weakened: "observations weakened or rejected";
-    weights_title: "Standard errors of a group";
-    weights_hint: "Scale the standard errors and see what follows. The variance components estimate by what they should be multiplied.";
+    weakened: "observations downweighted or rejected";
+    weights_title: "Standard errors of each group";
+    weights_hint: "Scale the standard errors and see the effect. The variance components estimate the factor by which to multiply them.";
     image_sigma: "σ of image coordinates";
     control_sigma: "σ of control coordinates";
     image_residuals: "image residuals, rms";
@@ -131,15 +131,15 @@ declare! { inside {
     component_of(group): "variance component, {group}";
     not_estimated: "not estimated: too little redundancy";
     target_size: "Target size and eccentricity";
-    target_size_hint: "The centre of an ellipse is not the image of the circle's centre. The bias grows with the square of the diameter.";
+    target_size_hint: "The centre of an ellipse is not the image of the circle's centre. This bias grows with the square of the diameter.";
     largest_diameter(d): "largest diameter {d}, in the unit of the project";
-    no_planes: "Neither normals nor neighbouring points tell how these targets are turned: no bias can be computed.";
+    no_planes: "Neither normals nor neighbouring points give the orientation of these targets, so no bias can be computed.";
     diameter: "diameter";
     rms_bias: "bias, rms";
     largest_bias: "largest";
     in_sigma: "largest / σ";
     lessons: "Lessons";
-    lessons_hint: "Each takes about ten minutes, acts on the screens beside it and asks for numbers that stand there. Progress is kept in this browser.";
+    lessons_hint: "Each takes about ten minutes, uses the screens next to it and asks for numbers shown there. Progress is stored in this browser.";
     minutes(n): "{n} min";
     answered_of(n, all): "{n} of {all} questions answered";
     open_lesson: "Open a lesson file…";
@@ -151,9 +151,9 @@ declare! { inside {
     next: "Next";
     answer: "Your answer";
     check: "Check";
-    right: "Right.";
-    not_right: "Not yet.";
-    not_a_number: "Type a number, as 0.85.";
+    right: "Correct.";
+    not_right: "Not correct yet.";
+    not_a_number: "Type a number, e.g. 0.85.";
     print_summary: "Print the summary";
     state_link: "Link to this state of the lesson";
     of_the_lesson: "Network of the lesson";

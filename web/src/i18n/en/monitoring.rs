@@ -5,10 +5,10 @@ use crate::i18n::declare;
 
 declare! { monitoring {
     monitoring: "Monitoring";
-    monitoring_words: "What has moved between epochs of one object, by how much, and how certain that is.";
+    monitoring_words: "Which points of an object moved between epochs, by how much, and how significant it is.";
     sentence: "Displacements between epochs, tested against stable reference points.";
     sample: "Open the sample with three epochs";
-    sample_words: "A dam face, simulated: targets moved by 3 and by 10 standard errors, one reference point is not stable.";
+    sample_words: "A simulated dam face: targets moved by 3 and by 10 standard errors, and one reference point is not stable.";
     simulated: "simulated";
     comparing: "Comparing epochs";
     compare: "Compare";
@@ -18,16 +18,16 @@ declare! { monitoring {
 
     // Epochs
     new_epoch: "New epoch";
-    new_epoch_words: "A new project with the names, control, scale bars, roles and cameras of this one; it needs photos only.";
-    next_epoch_photos(name): "Epoch of {name}: names, control, scale bars, roles and cameras are kept. Drop the photos of this epoch.";
+    new_epoch_words: "A new project with the names, control points, scale bars, roles and cameras of this one; only photos are needed.";
+    next_epoch_photos(name): "Epoch of {name}: names, control points, scale bars, roles and cameras are kept. Drop the photos of this epoch.";
     compare_with(name): "Compare with {name}";
-    first_is_gone(name): "Epoch 0, {name}, is not kept in this browser, or has no current adjustment: add its project file here.";
+    first_is_gone(name): "Epoch 0, {name}, is not stored in this browser or has no current adjustment. Add its project file here.";
     epochs: "Epochs";
     add_files: "Add files";
     add_project: "Add a project of this browser";
     choose_project: "Choose a project";
     files_words: "Project files, lists of points with standard errors (NAME, X, Y, Z, sX, sY, sZ) and covariance matrices can be dropped here.";
-    two_needed: "At least two epochs are needed. The first one is epoch 0: all others are compared with it.";
+    two_needed: "Add at least two epochs. The first one is epoch 0; all others are compared with it.";
     number: "No.";
     name: "Name";
     date: "Date";
@@ -40,13 +40,13 @@ declare! { monitoring {
     unit: "Unit";
     temperature: "Temperature °C";
     own_scale: "Own scale";
-    details_hint: "σ₀ and redundancy of a list are those of the adjustment behind it; without them its standard errors count as exact.";
+    details_hint: "σ₀ and redundancy of a list are those of its adjustment; without them, its standard errors count as exact.";
     control_kept: "Control measured anew in each epoch";
     raise(name): "Move {name} up";
     remove(name): "Remove {name}";
     date_refused(typed): "“{typed}” is not a date. Write it as 2026-03-14 or 2026-03-14T09:30.";
     number_refused(typed): "“{typed}” is not a positive number.";
-    not_taken: "Not taken as epochs";
+    not_taken: "Not accepted as epochs";
     not_adjusted: "This project has not been adjusted: open it, adjust it, and add it again.";
     adjusted_before: "This project has changed since its last adjustment: open it, adjust it again, and add it again.";
     not_compared: "The epochs were not compared.";
@@ -58,7 +58,7 @@ declare! { monitoring {
     ignored_points: "Ignored points";
     names_hint: "Names, separated by commas";
     common_points: "Common points";
-    common_words: "Press a name to make it a reference point or to take it back.";
+    common_words: "Press a name to make it a reference point; press again to undo.";
     significance: "Error probability of each test, %";
     correction: "Correction for the number of points";
     holm: "Holm";
@@ -78,14 +78,14 @@ declare! { monitoring {
     thresholds: "Thresholds of displacement";
     warning: "Warning";
     alarm: "Alarm";
-    thresholds_refused: "A threshold is a positive length, and the warning is not above the alarm.";
-    percent_refused(typed): "“{typed}” is not a percentage of this range.";
+    thresholds_refused: "Thresholds must be positive lengths, and the warning at most the alarm.";
+    percent_refused(typed): "“{typed}” is not a percentage in the permitted range.";
     groups: "Groups that move as one";
     add_group: "Add a group";
     group_name(n): "Group {n}";
     rigid: "rigid body";
     similarity: "rigid body and scale";
-    affine: "homogeneous strain too";
+    affine: "homogeneous strain as well";
 
     // Verdict
     largest: "Largest displacement";
@@ -93,7 +93,7 @@ declare! { monitoring {
     detectable_median: "Detectable, median";
     at_power(p, a): "power {p} %, α {a}";
     out_of_date: "Epochs or options have changed";
-    out_of_date_words: "There are no numbers until the epochs are compared again.";
+    out_of_date_words: "No numbers are shown until the epochs are compared again.";
     against_first: "Against 0";
     is_reference: "epoch 0";
     n_moved(n): "{n} moved";
@@ -115,8 +115,8 @@ declare! { monitoring {
     elimination_aside: "Ω of the removed point, T of the rest";
     second_opinion: "Second opinion";
     second_opinion_aside: "L1 datum: smallest sum of displacements";
-    all_stable: "All reference points are stable in it.";
-    unstable_are(names): "Not stable in it: {names}.";
+    all_stable: "All reference points are stable in this datum.";
+    unstable_are(names): "Not stable in this datum: {names}.";
     notes: "Notes";
 
     // Notes of the engine
@@ -129,7 +129,7 @@ declare! { monitoring {
     in_datum: "datum";
     out_of_datum: "out";
     detectable: "Detect.";
-    detectable_means(p): "Detect.: displacement that is found with power {p} %. Stable means that nothing larger is proven.";
+    detectable_means(p): "Detect.: displacement that is detected with power {p} %. Stable means that no larger displacement is proven.";
     later_name(id): "later {id}";
     length: "Length";
     judgement: "Result";
@@ -138,17 +138,17 @@ declare! { monitoring {
     scale_change: "Scale";
     strain: "Strain";
     fit: "Fit";
-    fit_yes: "moves as the model says";
-    fit_no: "does not move as the model says";
+    fit_yes: "fits the model";
+    fit_no: "does not fit the model";
     group_missing(names): "Not in both epochs: {names}.";
-    left_out: "Left out";
+    left_out: "Not compared";
 
     // Picture
     oblique: "Home";
     top: "Top";
     front: "Front";
     side: "Side";
-    picture: "Displacements with their error ellipses, seen along the chosen direction";
+    picture: "Displacements and error ellipses, seen along the chosen direction";
     exaggeration: "Displacements";
     ellipses(percent): "ellipses {percent} %";
     legend_moved: "moved";

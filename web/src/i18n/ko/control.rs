@@ -18,7 +18,7 @@ translate! { Korean control {
     fixed: "고정";
     distances: "거리";
     distance_same_point: "거리에는 서로 다른 두 점이 필요합니다.";
-    distance_no_point: "양 끝은 이 프로젝트의 점이어야 합니다.";
+    distance_no_point: "양 끝점은 이 프로젝트의 점이어야 합니다.";
     distance_length: "길이를 양수로 입력하십시오. 예: 1250.4";
     distance_sigma: "이 길이의 표준오차를 양수로 입력하십시오. 예: 0.02";
     add_distance: "추가";
@@ -29,7 +29,7 @@ translate! { Korean control {
     unit_of_length: "길이 단위";
     unit_of_these: "단위";
     choose_unit: "고르기…";
-    which_unit: "이 좌표의 단위를 고르십시오. 1 m 판이 1 mm 판이 되어서는 안 됩니다.";
+    which_unit: "이 좌표의 단위를 고르십시오. 단위가 틀리면 축척이 예컨대 1000배 달라집니다.";
     unit_question(from, to, after):
         "수의 단위는 {from}입니다. {to}{to:으로|로} 환산하겠습니까(1000 {from} → {after} {to}), 아니면 처음부터 {to}였습니까?";
     unit_convert: "수를 환산";
@@ -47,7 +47,7 @@ translate! { Korean control {
     read_columns(columns): "머리글에 따른 열: {columns}.";
     read_columns_assumed(columns): "머리글이 없어 가정한 열: {columns}.";
     read_ignored(columns): "쓰지 않는 열: {columns}.";
-    read_remarks(headings): "머리글에서 이해하지 못한 것: {headings}.";
+    read_remarks(headings): "머리글에서 해석하지 못한 것: {headings}.";
     ask_decimal: "어느 수입니까?";
     ask_axes: "축을 알려 주는 머리글이 없습니다. 어느 좌표가 먼저입니까?";
     axes_xy: "X(동)";
@@ -55,11 +55,11 @@ translate! { Korean control {
     in_unit(unit): "단위 {unit}";
     observed_centres: "관측된 투영중심";
     observed_centres_hint: "GNSS 등. 기준점 기준계에서 사용";
-    forget_centre: "이 투영중심을 더 이상 관측값으로 쓰지 않기";
-    observe: "관측값으로";
+    forget_centre: "이 투영중심의 관측 해제";
+    observe: "관측값으로 추가";
     datum: "기준계";
     datum_control: "기준점";
-    datum_control_means: "결과가 기준점 좌표계에 놓이며, 기준점 오차가 형상에 들어갑니다.";
+    datum_control_means: "결과가 기준점 좌표계에 놓이며, 기준점 오차가 형상을 변형시킵니다.";
     datum_minimal: "최소구속";
     datum_minimal_means: "좌표 7개만 고정합니다. 형상은 왜곡되지 않으나 표준오차는 선택한 7개에 따라 달라집니다.";
     datum_free: "자유망";

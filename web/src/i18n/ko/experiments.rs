@@ -14,13 +14,13 @@ translate! { Korean experiments {
     not_run_yet: "실행하면 수치가 나타납니다. 배경에서 몇 초 걸리며 그동안 페이지를 계속 쓸 수 있습니다.";
     inputs_changed: "마지막 실행 뒤에 입력이 바뀌었습니다. 다시 실행하면 새 입력의 수치가 나타납니다.";
     ran_in(seconds): "{seconds} s에 실행";
-    vary: "바꿀 수 있는 값";
+    vary: "입력값";
     network: "망";
     drawing_shown: "그린 망";
     plan: "평면";
     elevation: "입면";
-    assumed: "여기서 가정한 것";
-    assumed_aside: "논문에 없거나 다르게 적힌 것";
+    assumed: "가정";
+    assumed_aside: "논문에 없거나 논문과 다른 것";
     ours: "여기";
     paper: "논문";
     paper_of(what): "{what}, 논문";
@@ -39,12 +39,12 @@ translate! { Korean experiments {
     film_question: "지표와 왜곡 보정표는 좌표측정기의 읽음값을 얼마나 바로잡는가?";
     film_source: "강준묵·유복모 (1985) 그림 3-2, 3-3의 절차를 여기서 만든 읽음값에 적용합니다.";
     lee_calibration: "이진덕 1996, 자체검정";
-    lee_calibration_question: "카메라는 화소에서 출발하여 스스로를 얼마나 잘 검정하는가?";
+    lee_calibration_question: "카메라는 화소에서 시작하여 얼마나 정확하게 자체검정되는가?";
     lee_source: "이진덕 (1996), 산업정밀측정에서 수치영상을 이용한 근접사진측량의 효율적 응용.";
     lee_structure: "이진덕 1996, 구조물";
-    lee_structure_question: "수렴 촬영과 자유망은 무엇을 더해 주는가?";
+    lee_structure_question: "수렴 촬영과 자유망으로 무엇이 좋아지는가?";
     sensor: "센서와 JPEG";
-    sensor_question: "센서에서 카메라의 JPEG까지 가는 동안 중심과 좌표는 무엇을 잃는가?";
+    sensor_question: "센서에서 카메라의 JPEG까지 가는 동안 중심과 좌표의 정확도는 얼마나 떨어지는가?";
     sensor_source: "자체 실험: 렌즈와 색 필터를 거쳐 광자 잡음과 함께 렌더링한 한 번의 노출을 카메라의 처리 단계마다 측정합니다. 사진 6매를 자유망에서 자체검정하여 참 중심, 참 좌표와 비교합니다.";
     step_sites: "RAW";
     step_demosaiced: "색 보간";
@@ -58,7 +58,7 @@ translate! { Korean experiments {
     object_sigma: "제시된 σ, RMS";
     over_sites: "RAW 대비";
     visible: "보이는 중심";
-    t_sensor_steps: "단계마다 드는 대가";
+    t_sensor_steps: "처리 단계별 정확도 저하";
     c_sensor_centres: "중심의 오차";
     c_sensor_objects: "좌표의 오차와 제시된 표준오차";
     a_sharpening(v): "선명화는 3 × 3 화소 이항 평균과의 차이를 {v} % 더합니다.";
@@ -68,7 +68,7 @@ translate! { Korean experiments {
 
     // Plates of one's own
     plates: "내 건판으로";
-    plates_words: "카메라, 지표, 왜곡 보정표를 한 줄에 하나씩 적고 읽음값(사진, 지표 또는 점, x, y, 기계 좌표 mm)을 가져오십시오.";
+    plates_words: "카메라, 지표, 왜곡 보정표를 한 줄에 하나씩 적고 읽음값(사진, 지표 또는 점, x, y, 측정기 좌표 mm)을 추가하십시오.";
     plates_description: "카메라와 건판 설명";
     plates_files: "파일에서 읽음값…";
     plates_scans: "스캔에서 측정한 값";
@@ -141,7 +141,7 @@ translate! { Korean experiments {
     c_standard_errors(axis): "표준오차 {axis}";
     c_pairwise: "사진 3매의 오차: 모델 쌍과 광속조정";
     c_distortion: "방사왜곡";
-    c_distortion_error: "방사왜곡, 여기 − 심은 값";
+    c_distortion_error: "방사왜곡, 여기 − 참값";
     c_way(axis, photo): "사진 {photo}의 {axis} 수렴";
 
     // Axes, columns, lines, figures
@@ -181,7 +181,7 @@ translate! { Korean experiments {
     corrected: "왜곡 보정";
     bundle_sigma0: "광속조정 σ₀";
     marks_sigma0: "지표 σ₀";
-    planted: "심은 값(논문 값)";
+    planted: "참값(논문 값)";
     error: "오차";
     element: "요소";
     dlt: "DLT";
@@ -234,14 +234,14 @@ translate! { Korean experiments {
     a_station_directions: "촬영점은 ±10°, ±30°, ±50°의 호 위에 있습니다. 논문에는 수치 없이 그림만 있습니다.";
     a_psf(v): "렌즈 번짐은 {v} px(표준편차)입니다.";
     a_pixel_noise(v): "화소 잡음은 최댓값의 {v} %입니다(일정 성분과 광자 성분).";
-    a_centroid: "논문에서 더 나은 밝기값 경중률의 도심을 조정합니다. 위에서 다른 중심을 고를 수 있습니다.";
+    a_centroid: "논문에서 결과가 더 좋은 밝기값 중심을 조정합니다. 위에서 다른 중심을 고를 수 있습니다.";
     a_base_distance(v, paper):
         "기선은 벽에서 {v} mm 떨어져 있습니다. 논문의 약 {paper} mm에서는 이 카메라가 6.3 × 3.5 m 벽의 3.7 × 2.5 m만 봅니다. 7.4 m이면 망 I의 방정식이 논문과 같은 374개이지만 망 II의 사진이 위아래 줄을 보지 못합니다. 표준오차는 거리에 따라 커집니다.";
     a_ray_on_wall(v):
         "계산값은 논문의 두세 배입니다. 이 거리에서 광선 하나는 벽에서 {v} mm의 불확실성을 가지며, 여섯 광선이면 기껏해야 그 0.4배입니다. 3 µm로 망 I의 0.273 mm를 얻으려면 광선 21개, 또는 4.6 m 거리가 필요한데, 4.6 m에서는 사진 한 매에 벽의 3분의 1도 들어오지 않습니다. 반면 방정식 374개에는 사진마다 38점 중 30점이 보여야 합니다. 논문의 표준오차와 방정식 수는 한 기하에서 나올 수 없으므로 크기보다 순서와 개선율을 비교하십시오.";
     a_outer(v): "망 I의 바깥 촬영점은 중앙에서 {v} mm 떨어져 있습니다. 논문에 없습니다. 5 000~7 500 mm에서 깊이 정확도의 순서 III, I, II는 같습니다.";
     a_relief(v): "기둥의 표적은 벽보다 {v} mm 앞에 있습니다. 논문에 없습니다.";
-    a_observed: "부가매개변수는 첫 실험의 검정 표준오차를 지닌 관측값입니다. 논문에서는 미지수입니다. 표에 둘 다 있습니다. 미지수로 두면 망 II에서는 기준점 네 개가 검정을 도와 자유망이 불리해집니다.";
+    a_observed: "부가매개변수는 첫 실험의 검정 표준오차를 가진 관측값입니다. 논문에서는 미지수입니다. 표에 둘 다 있습니다. 미지수로 두면 망 II에서는 기준점 네 개가 검정을 개선하므로 자유망이 불리해집니다.";
     a_principal_distance(v): "주점거리는 {v} mm입니다. 논문에 없습니다. 사진축척은 약 1 : 1 100입니다.";
     a_survey(v): "측량 좌표의 오차는 {v} mm(1σ)입니다. 한 실내에서 한 번 설치하여 재므로 토털스테이션의 2 mm + 2 ppm보다 작게 두었습니다.";
     a_diameter(v): "표적 지름은 {v} mm입니다.";

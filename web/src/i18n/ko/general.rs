@@ -23,7 +23,7 @@ translate! { Korean general {
     version(version): "버전 {version}";
     units(unit): "{unit}, 도, 표준오차 1σ";
     in_photos(n): "사진 {n}매";
-    worker_lost(detail): "계산이 중단되어 작업자를 교체했습니다({detail}). 잃은 자료는 없습니다. 다시 시도하고, 메모리가 부족하면 사진 수나 크기를 줄이십시오.";
+    worker_lost(detail): "계산이 중단되어 작업자를 다시 시작했습니다({detail}). 잃은 자료는 없습니다. 다시 시도하고, 메모리가 부족하면 사진 수나 크기를 줄이십시오.";
 
     // Keys
     keys_title: "단축키";
@@ -51,15 +51,15 @@ translate! { Korean general {
     key_edit: "셀에 입력";
 
     // Open questions
-    questions: "확인할 문제";
-    question_of(n, all): "문제 {n} / {all}";
+    questions: "질문";
+    question_of(n, all): "질문 {n} / {all}";
     is_this(point): "이 표적이 점 {point}입니까?";
     which_is_this: "이 표적은 어느 점입니까?";
     no: "아니요";
     other: "다른 점";
     next_question: "다음";
     answer_them: "답하기";
-    no_questions: "확인할 문제가 없습니다.";
+    no_questions: "열린 질문이 없습니다.";
 
     // Tables
     observations_table: "관측값";
@@ -83,7 +83,7 @@ translate! { Korean general {
     rename_many: "이름 바꾸기…";
     merge: "합치기";
     split: "나누기";
-    join_cameras: "한 카메라로";
+    join_cameras: "카메라 합치기";
     fill_down: "아래로 채우기";
     delete_rows: "삭제";
     paste: "붙여넣기";
@@ -119,5 +119,5 @@ translate! { Korean general {
     change_split(point, new): "점 {point}에서 점 {new}{new:을|를} 나눔";
     change_points_renamed(n): "{n}점의 이름 변경";
     change_cameras_joined(n, into): "카메라 {n}대를 {into}{into:으로|로} 합침";
-    change_question(photo): "사진 {photo}의 문제에 답함";
+    change_question(photo): "사진 {photo}의 질문에 답함";
 } }

@@ -8,7 +8,7 @@ translate! { Korean interchange {
     opened_from(format): "{format} 파일에서 열었음";
     read_from(format, files): "{format}에서 읽음: {files}";
     more_files(files, more): "{files} 외 {more}개";
-    assumed: "가정한 것";
+    assumed: "가정";
     not_kept: "가져오지 않은 것";
     converted: "변환한 카메라 모형";
     assumed_sigma: "파일에 영상 관측값의 표준오차가 없어 모두 1 px로 두었습니다.";
@@ -21,7 +21,7 @@ translate! { Korean interchange {
     conversion(camera, from, to, max, rms): "{camera}: {from} → {to}, 최대 {max} px, RMS {rms} px.";
     conversion_large: "0.05 px를 넘습니다. 잔차와 좌표에 나타날 수 있습니다.";
     cameras_read(cameras, files): "{files}에서 카메라 {cameras}대를 장비에 보관했습니다.";
-    no_camera_fits(size): "열린 프로젝트에 {size} px 카메라가 없어 이 캘리브레이션을 제안하지 않습니다.";
+    no_camera_fits(size): "열린 프로젝트에 {size} px 카메라가 없어 이 검정을 제안하지 않습니다.";
     several_networks(list): "망 여러 개를 함께 놓았습니다: {list}. 하나씩 여십시오. 아무것도 열지 않았습니다.";
     another_project: "함께 놓은 다른 프로젝트를 열었습니다. 이 파일은 따로 여십시오.";
     conversion_asked(list): "{list} 이 차이를 받아들이고 열까요?";
@@ -33,7 +33,7 @@ translate! { Korean interchange {
     files_for_others: "다른 프로그램용 파일";
     files_sentence: "소수점은 마침표입니다. 현재 결과가 있으면 조정된 값을 씁니다.";
     files_stale: "결과가 최신이 아니므로 조정 전 값을 씁니다. 조정된 값을 쓰려면 먼저 조정하십시오.";
-    calibrated_camera: "캘리브레이션된 카메라";
+    calibrated_camera: "검정된 카메라";
     whole_network: "망 전체";
     points: "점";
     cad: "CAD";
@@ -45,7 +45,7 @@ translate! { Korean interchange {
     ros_means: "camera_info, YAML";
     kalibr_means: "camchain, YAML";
     mrcal_means: "cameramodel";
-    agisoft_means: "Metashape용 캘리브레이션, XML";
+    agisoft_means: "Metashape용 카메라 검정, XML";
     micmac_means: "AutoCal, XML";
     colmap_camera_means: "cameras.txt";
     colmap_means: "카메라, 영상, 점(텍스트)";
@@ -54,14 +54,14 @@ translate! { Korean interchange {
     bal_means: "Bundle Adjustment in the Large, 텍스트 한 개";
     meshroom_means: "AliceVision의 scene.sfm";
     metashape_means: "카메라와 마커, XML";
-    opencv_points_means: "캘리브레이션용 사진별 영상점과 대상점, YAML";
+    opencv_points_means: "카메라 검정용 사진별 영상점과 대상점, YAML";
     tables_means: "점, 카메라, 사진, 관측값과 표준오차, 잔차";
     tabs_means: "같은 내용, 탭 구분";
     control_means: "주어진 좌표와 표준오차";
     vstars_means: "점과 표준오차";
     dxf_means: "레이어별 점, 선, 점 이름";
     ply_means: "점, 타원체, 카메라";
-    gltf_means: "3D 보기 장면";
+    gltf_means: "3차원 보기 장면";
     prepare: "준비";
     preparing: "준비 중";
     download: "내려받기";
@@ -69,7 +69,7 @@ translate! { Korean interchange {
     prepare_format(format): "{format} 준비";
     exact: "카메라 모형을 변환 없이 그대로 씁니다.";
     converted_covariance: "매개변수의 공분산을 함께 씁니다.";
-    no_place(list): "이 형식에 담을 수 없는 것: {list}.";
+    no_place(list): "이 형식이 지원하지 않는 것: {list}.";
     write_anyway: "이 차이로 준비";
 }}
 

@@ -39,7 +39,7 @@ translate! { Korean monitoring {
     unit: "단위";
     temperature: "온도 °C";
     own_scale: "자체 축척";
-    details_hint: "목록의 σ₀와 잉여도는 그 목록을 낸 조정의 값입니다. 없으면 표준오차를 참값으로 봅니다.";
+    details_hint: "목록의 σ₀와 잉여도는 그 목록을 낸 조정의 값입니다. 없으면 표준오차를 정확한 값으로 봅니다.";
     control_kept: "시기마다 새로 측정한 기준점";
     raise(name): "{name} 위로";
     remove(name): "{name} 제거";
@@ -52,7 +52,7 @@ translate! { Korean monitoring {
 
     options: "설정";
     reference_points: "기준점";
-    reference_means: "안정하다고 가정하는 점이며 이 가정을 검정합니다. 비워 두면 프로젝트의 기준점, 없으면 데이텀 점, 그것도 없으면 모든 공통점을 씁니다.";
+    reference_means: "안정하다고 가정하는 점이며 이 가정을 검정합니다. 비워 두면 프로젝트의 기준점, 없으면 기준계 점, 그것도 없으면 모든 공통점을 씁니다.";
     ignored_points: "제외할 점";
     names_hint: "이름을 쉼표로 구분";
     common_points: "공통점";
@@ -78,9 +78,9 @@ translate! { Korean monitoring {
     alarm: "경보";
     thresholds_refused: "관리 기준은 양의 길이이며, 주의 기준은 경보 기준보다 클 수 없습니다.";
     percent_refused(typed): "“{typed}”{typed:은|는} 이 범위의 백분율이 아닙니다.";
-    groups: "함께 움직이는 그룹";
-    add_group: "그룹 추가";
-    group_name(n): "그룹 {n}";
+    groups: "함께 움직이는 묶음";
+    add_group: "묶음 추가";
+    group_name(n): "묶음 {n}";
     rigid: "강체";
     similarity: "강체와 축척";
     affine: "균일 변형률 포함";
@@ -110,9 +110,9 @@ translate! { Korean monitoring {
     elimination: "후진 제거";
     elimination_aside: "제거한 점의 Ω, 나머지의 T";
     second_opinion: "제2 판정";
-    second_opinion_aside: "L1 데이텀: 변위의 합이 최소";
-    all_stable: "이 데이텀에서도 기준점이 모두 안정합니다.";
-    unstable_are(names): "이 데이텀에서 불안정: {names}.";
+    second_opinion_aside: "L1 기준계: 변위의 합이 최소";
+    all_stable: "이 기준계에서도 기준점이 모두 안정합니다.";
+    unstable_are(names): "이 기준계에서 불안정: {names}.";
     notes: "참고";
 
 
@@ -120,7 +120,7 @@ translate! { Korean monitoring {
     moved: "변위";
     stable: "안정";
     not_tested: "검정 안 함";
-    in_datum: "데이텀";
+    in_datum: "기준계";
     out_of_datum: "제외";
     detectable: "검출";
     detectable_means(p): "검출: 검정력 {p} %로 찾을 수 있는 변위. ‘안정’은 그보다 큰 변위가 증명되지 않았다는 뜻입니다.";
@@ -132,8 +132,8 @@ translate! { Korean monitoring {
     scale_change: "축척";
     strain: "변형률";
     fit: "적합";
-    fit_yes: "모델대로 움직임";
-    fit_no: "모델대로 움직이지 않음";
+    fit_yes: "모형과 일치함";
+    fit_no: "모형과 일치하지 않음";
     group_missing(names): "두 시기에 모두 있지는 않은 점: {names}.";
     left_out: "비교하지 않은 점";
 
@@ -158,10 +158,10 @@ translate! { Korean monitoring {
     per_month: "월당(30.44일), 직선, 1σ";
     velocity_moves(id, v, s, unit): "점 {id}의 속도는 월 {v} ± {s} {unit}로 유의합니다.";
     velocity_still(id, v, s, unit): "점 {id}의 속도는 유의하지 않습니다: 월 {v} ± {s} {unit}.";
-    velocity_none: "속도를 구하려면 날짜가 있는 시기가 셋 이상, 같은 안정 기준점의 데이텀에 있어야 합니다.";
+    velocity_none: "속도를 구하려면 날짜가 있는 시기가 셋 이상, 같은 안정 기준점의 기준계에 있어야 합니다.";
     three_needed: "시간에 따른 점을 보려면 시기가 셋 있어야 합니다.";
-    series_datum(names): "모든 시기의 데이텀: {names}.";
-    series_no_datum: "모든 시기에 안정한 기준점이 4점보다 적어, 각 변위는 그 쌍의 데이텀으로 나타냅니다.";
+    series_datum(names): "모든 시기의 기준계: {names}.";
+    series_no_datum: "모든 시기에 안정한 기준점이 4점보다 적어, 각 변위는 그 쌍의 기준계로 나타냅니다.";
     state_warning: "주의";
     state_alarm: "경보";
     without_date: "날짜 없음";
