@@ -121,7 +121,7 @@ test('points are typed, and what is wrong in them is told', async () => {
     await page.click('[data-look="space"]');
     await page.waitForSelector('.plan-view[data-view="space"] .station-at');
     await page.click('tr[data-station="1"] .id');
-    assert.match(await page.textContent('[data-unseen]'), /Sees every point|Not seen/);
+    assert.match(await page.textContent('[data-unseen]'), /Sees every point|Does not see/);
     assert.deepEqual(errors, []);
   } finally {
     await close();

@@ -29,7 +29,7 @@ test('a camera holds what its photos tell of red and blue, and gives it back', {
       assert.ok(Math.abs(number(pixels)) < 4 * number(sigma) + 0.0005, words);
     }
     await page.click('[data-action=hold-colours]');
-    const holds = () => page.waitForFunction(() => /holds differences/.test(document.querySelector('.apart')?.textContent));
+    const holds = () => page.waitForFunction(() => /uses differences/.test(document.querySelector('.apart')?.textContent));
     await holds();
     await go(page, 'adjust');
     await page.$$eval('details', (all) => all.forEach((one) => (one.open = true)));

@@ -29,7 +29,7 @@ test('a calibration is kept, survives a reload, and is held, observed or a start
     assert.match(await page.textContent('.bar p'), /0 cameras/);
     const camera = await page.getAttribute('[data-keep]', 'data-keep');
     await page.click('[data-keep]');
-    assert.match(await notice(page), /is kept on this computer/);
+    assert.match(await notice(page), /is stored on this computer/);
     assert.equal(await page.locator('[data-known-camera] .calibration').count(), 1);
     // The same once more is not kept twice.
     await page.click('[data-keep]');

@@ -106,7 +106,7 @@ test('a file of another day with the name of a measured photo replaces nothing b
     // Replaced: its measurements go with it, and undoing brings back the photo that waits for its own file.
     await drop(page, [scratch('DSC_0001.JPG', png(9))]);
     await asked(page);
-    await answer(page, 'Replace, remove measurements');
+    await answer(page, 'Replace, delete measurements');
     await idle(page);
     now = await saved(page);
     assert.equal(now.photos.length, 2);
@@ -125,7 +125,7 @@ test('a file of another day with the name of a measured photo replaces nothing b
     await drop(page, [scratch('DSC_0001.JPG', measured)]);
     await page.waitForSelector('.problems li');
     await idle(page);
-    assert.match(await page.textContent('.problems'), /the same content as/);
+    assert.match(await page.textContent('.problems'), /same content as/);
     assert.equal(await tiles(page), 2);
     assert.deepEqual(errors, []);
   } finally {

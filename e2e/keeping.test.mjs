@@ -78,7 +78,7 @@ test('projects are listed, renamed, duplicated, downloaded, deleted and got back
     // Opening another asks nothing: the first is kept, and that is said.
     await drop(page, [scratch('two.json', named('Two'))]);
     await page.waitForFunction(() => document.querySelector('.project-name')?.value === 'Two');
-    assert.match(await notice(page), /One is kept on this computer/);
+    assert.match(await notice(page), /One is stored on this computer/);
     await written(page);
     await page.click('.mark');
     await waitFor(['One', 'Two']);
@@ -150,7 +150,7 @@ test('a browser that keeps nothing says so, and asks before anything is lost', {
   try {
     await context.route('**/storage.js', (route) => route.abort());
     await afresh(page);
-    await page.waitForFunction(() => /keeps nothing here/.test(document.querySelector('.foot .storage')?.textContent));
+    await page.waitForFunction(() => /stores nothing here/.test(document.querySelector('.foot .storage')?.textContent));
     // A sample that nobody has worked on is no work.
     await sample(page);
     await drop(page, [scratch('other.json', named('Other'))]);

@@ -97,7 +97,7 @@ test('a new build comes whole, when it is agreed to, or not at all', { timeout: 
     await page.waitForSelector('.notice:has-text("new version")', { timeout: 30_000 });
     const answered = await page.evaluate(async () => (await fetch('./index.html')).text());
     assert.ok(!answered.includes('<title>Sightline 2'));
-    await Promise.all([page.waitForNavigation(), page.getByRole('button', { name: 'Reload with it' }).click()]);
+    await Promise.all([page.waitForNavigation(), page.getByRole('button', { name: 'Reload to update' }).click()]);
     await page.waitForSelector('.sample');
     assert.ok((await page.evaluate(async () => (await fetch('./index.html')).text())).includes('<title>Sightline 2'));
   } finally {
@@ -215,7 +215,7 @@ test('a page that cannot be kept says that it loads only with the network', { ti
   const { address, stop } = await host(folder);
   const { page, close } = await open({ address, width: 1366, height: 768 });
   try {
-    await page.waitForFunction(() => /loads only with the network/.test(document.querySelector('.foot .storage')?.textContent), undefined, { timeout: 30_000 });
+    await page.waitForFunction(() => /needs a network to load/.test(document.querySelector('.foot .storage')?.textContent), undefined, { timeout: 30_000 });
   } finally {
     await close();
     await stop();

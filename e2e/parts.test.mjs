@@ -17,7 +17,7 @@ test('the page stands before the engine is there, and its first part is small', 
     await page.reload();
     // What can be done without the engine: a room beside the path, whose part is not waited for either, until it is asked for.
     await page.click('[data-open=plan]');
-    await page.getByRole('heading', { name: 'Begin a plan' }).waitFor();
+    await page.getByRole('heading', { name: 'Start a plan' }).waitFor();
     const came = () => page.evaluate(() => performance.getEntriesByType('resource').filter(({ responseEnd }) => responseEnd > 0).map(({ name }) => name));
     assert.ok(!(await came()).some((name) => name.endsWith('sightline-worker_bg.wasm')));
     release();

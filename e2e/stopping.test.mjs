@@ -171,7 +171,7 @@ test('plans and experiments can be stopped', { timeout: 600_000 }, async () => {
     hold();
     for (const action of ['next', 'make']) {
       await page.click(`[data-action="${action}"]`);
-      await cancel(page, 'Looking for photos');
+      await cancel(page, 'Computing stations');
     }
     assert.equal(await page.locator('.stations tbody tr').count(), count);
     await page.fill('input[name="precision"]', '0.04');

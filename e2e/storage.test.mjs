@@ -144,7 +144,7 @@ test('photos that do not fit are told, and stay in use', { timeout: 600_000 }, a
     await room(2_500_000);
     // It stands there for as long as it is so, whatever else is told.
     await storageLine(page, '\\d photos? (is|are) not copied .*\\(no room\\).*saved with photos');
-    await page.waitForFunction(() => /saved \S+( [AP]M)?, \d photos? not/.test(document.querySelector('.project span')?.textContent));
+    await page.waitForFunction(() => /saved \S+( [AP]M)?, without \d photos?/.test(document.querySelector('.project span')?.textContent));
     // What cannot be written is tried every few seconds, and takes no more room for that.
     await room(0);
     await rename(page, `Without room ${'x'.repeat(20_000)}`);
@@ -200,7 +200,7 @@ for (const [kind, prelude] of [['files', ''], ['database', 'delete StorageManage
       await session.send('Storage.clearDataForOrigin', { origin: new URL(url).origin, storageTypes: 'all' });
       await rename(page, 'After');
       await page.waitForFunction(() => /cleared its storage/.test(document.querySelector('.notices')?.textContent ?? ''), undefined, { timeout: 30_000 });
-      assert.match(await notice(page), /photos and all/);
+      assert.match(await notice(page), /stored again with its photos/);
       await written(page);
       // The way out: everything is in the file, photos from where they came.
       const saved = unzipped(Object.values(await downloads(page, 1, () => save(page)))[0]);
@@ -276,7 +276,7 @@ test('a private window keeps what it can, and says that it may go', { timeout: 6
   try {
     await sample(page);
     await written(page);
-    await storageLine(page, 'may clear it|keeps nothing');
+    await storageLine(page, 'may clear it|stores nothing');
     await rename(page, 'Private');
     await written(page);
     await afresh(page);
@@ -413,7 +413,7 @@ test('a copy whose card could not be written is listed by its own name', { timeo
 });
 
 /** What is done to the journal, and what has to be told. */
-const harms = [['bit', /repaired, and nothing is lost/], ['length', /repaired, and nothing is lost/], ['sector', /was damaged/], ['first', null], ['tail', null]];
+const harms = [['bit', /repaired; no data are lost/], ['length', /repaired; no data are lost/], ['sector', /was damaged/], ['first', null], ['tail', null]];
 for (const [kind, address] of [['files', () => undefined], ['database', plainHttp]]) {
   test(`a damaged journal (${kind}) is mended or told, what can be read of it is open, and the damaged one can be downloaded`, { timeout: 600_000 }, async () => {
     for (const [harm, known] of harms) {

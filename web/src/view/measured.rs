@@ -98,14 +98,14 @@ mod tests {
         let [english, korean] = told(&picture);
         assert_eq!(
             english,
-            "This photo: sharpened by 80 % (radius 1.0 px), undone where that hides targets; 3 % over-exposed, left out of the fits; \
-             4 % without light, where nothing shows; JPEG compression is visible (block borders 34 % stronger) and counts as noise; \
-             noise 2.1 grey levels, shared by neighbouring pixels, which makes the standard errors 1.3 times as large."
+            "This photo: sharpened by 80 % (radius 1.0 px), reversed where it hides targets; 3 % saturated, excluded from the fits; \
+             4 % black, without detections; JPEG compression is visible (block borders 34 % stronger) and counts as noise; \
+             noise 2.1 grey levels, correlated between neighbouring pixels, which makes the standard errors 1.3 times as large."
         );
         assert_eq!(
             korean,
-            "이 사진: 선명화 80 %(반경 1.0 px), 이 때문에 표적이 가려지는 곳은 되돌려 측정함; 밝은 쪽 포화 3 %, 적합에서 제외함; \
-             어두운 쪽 포화 4 %, 그곳에서는 아무것도 보이지 않음; JPEG 압축 흔적이 보임(블록 경계 차이 34 % 큼), 잡음으로 계산함; \
+            "이 사진: 선명화 80 %(반경 1.0 px), 이 때문에 표적이 가려지는 곳에서는 되돌림; 포화 3 %, 적합에서 제외함; \
+             검정 4 %, 검출 없음; JPEG 압축 흔적이 보임(블록 경계 차이 34 % 큼), 잡음으로 계산함; \
              잡음 2.1 계조, 이웃 화소끼리 상관되어 표준오차가 1.3배로 커짐."
         );
     }
@@ -117,8 +117,8 @@ mod tests {
         assert_eq!(
             told(&laboratory),
             [
-                "This photo: noise 1.5 grey levels, from which the standard errors follow.",
-                "이 사진: 잡음 1.5 계조, 표준오차는 이 잡음에 따른 값임."
+                "This photo: noise 1.5 grey levels, used for the standard errors.",
+                "이 사진: 잡음 1.5 계조, 표준오차 계산에 사용함."
             ]
         );
         // A picture that is not softened may have been compressed all the same; a drawing has no noise.
@@ -134,10 +134,10 @@ mod tests {
         assert_eq!(
             told(&PictureReport { white_noise_assumed: true, ..compressed }),
             [
-                "This photo: JPEG compression is visible (block borders 8 % stronger), which the standard errors of this method do \
-                 not count: they are too small (measure with least squares).",
-                "이 사진: JPEG 압축 흔적이 보이나(블록 경계 차이 8 % 큼) 이 방법의 표준오차에는 반영되지 않아 실제보다 작음(최소제곱 정합으로 \
-                 측정 바람).",
+                "This photo: JPEG compression is visible (block borders 8 % stronger); with this method the standard errors \
+                 ignore it and are too small (use least squares).",
+                "이 사진: JPEG 압축 흔적이 보이나(블록 경계 차이 8 % 큼) 이 방법의 표준오차에는 반영되지 않아 실제보다 작음(최소제곱 정합을 \
+                 쓰십시오).",
             ]
         );
         assert_eq!(told(&PictureReport::default()), ["", ""]);
@@ -147,7 +147,7 @@ mod tests {
     fn a_raw_is_told_how_much_of_it_is_over_exposed() {
         let measured = Measured { format: "DNG".into(), bits: 12, colour: Some(Colour::Green), ..Measured::default() };
         let told = |clipped_bright| sentence(&measured, &PictureReport { clipped_bright, ..PictureReport::default() });
-        assert!(told(0.12).ends_with(". 12 % over-exposed, left out of the fits."), "{}", told(0.12));
-        assert!(!told(0.001).contains("over-exposed"));
+        assert!(told(0.12).ends_with(". 12 % saturated, excluded from the fits."), "{}", told(0.12));
+        assert!(!told(0.001).contains("saturated"));
     }
 }

@@ -5,10 +5,10 @@ use crate::i18n::declare;
 
 declare! { printing {
     targets_to_print: "Targets to print";
-    targets_to_print_words: "Ring codes, dots, scale bars and calibration fields on paper, true to scale, as PDF and SVG. Offline.";
+    targets_to_print_words: "Coded rings, dots, scale bars and calibration fields on paper, true to scale, as PDF and SVG. Works offline.";
     sheets_sentence(codes, dots, bars, sheets):
         "{codes} ring {codes:code|codes}, {dots} plain {dots:dot|dots} and {bars} scale-bar {bars:pair|pairs} on {sheets} {sheets:sheet|sheets}.";
-    nothing_yet: "Nothing is drawn yet.";
+    nothing_yet: "No sheets yet.";
     save_svg: "Save SVG";
     save_pdf(sheets): "Save PDF, {sheets} {sheets:sheet|sheets}";
     save_lists: "Save diameters and distances";
@@ -17,23 +17,23 @@ declare! { printing {
     schneider(bits): "Schneider / AICON, {bits} bit";
     metashape(bits): "Metashape circular, {bits} bit";
     how_many: "How many";
-    numbers: "Or these numbers";
-    numbers_hint: "as 1-20, 35";
+    numbers: "Or code numbers";
+    numbers_hint: "e.g. 1-20, 35";
     family_has(all): "The family has {all} codes.";
     family_at_distance(count, distance): "{count} of them differ by at least {distance} sectors in every rotation";
     printed_distance(distance, hidden):
-        "The codes on these sheets differ by at least {distance} sectors: with {hidden} {hidden:sector|sectors} misread or hidden none passes for another.";
+        "The codes on these sheets differ by at least {distance} sectors: with {hidden} {hidden:sector|sectors} misread or occluded, no code is read as another.";
     dot_diameter: "Dot diameter";
-    ground: "Ground";
+    ground: "Background";
     ground_paper: "white, black dots";
     ground_retro: "black, white dots (retro)";
     also_on_sheets: "Also on the sheets";
     plain_dots: "Plain dots";
-    jittered: "Dots off the grid, at random";
+    jittered: "Dots shifted from the grid at random";
     bar_pairs: "Scale-bar pairs";
     bar_length: "Distance of a pair";
     calibration_field: "Calibration field with its coordinates";
-    field_sheets: "Sheets across × up";
+    field_sheets: "Sheets, across × down";
     cut_marks: "Cut marks";
     small_print: "Number and family in small print";
     paper: "Paper";
@@ -43,18 +43,18 @@ declare! { printing {
     previous_sheet: "Previous sheet";
     next_sheet: "Next sheet";
     preview: "Preview of the sheet";
-    ruler_of_print: "The ruler of the print";
+    ruler_of_print: "Ruler check";
     one_is_enough: "one sheet is enough";
-    ruler_across: "100 mm across measure";
-    ruler_down: "100 mm down measure";
+    ruler_across: "Measured length of 100 mm across";
+    ruler_down: "Measured length of 100 mm down";
     as_across: "as across";
-    reading_sigma: "Accuracy of the reading";
-    not_measured: "Print a sheet at 100 %, without fitting to the page, and measure its rulers: what they measure goes into diameters, printed distances and nominal coordinates.";
+    reading_sigma: "σ of the reading";
+    not_measured: "Print a sheet at 100 %, without fitting to the page, and measure its rulers. The measured lengths correct diameters, printed distances and nominal coordinates.";
     print_scale(across, down, sigma, diameter):
-        "Print scale {across} across, {down} down, ± {sigma}: dots are {diameter} mm. Diameters, printed distances and nominal coordinates carry it; bars mounted by hand are measured on the bar.";
-    which_diameter: "Which diameter";
+        "Print scale {across} across, {down} down, ± {sigma}: dots are {diameter} mm. Diameters, printed distances and nominal coordinates include it; measure bars mounted by hand on the bar itself.";
+    which_diameter: "Choosing the diameter";
     camera_words(c, width, height): "c {c} px, {width} × {height} px";
-    camera_assumed: "no camera in the project: a 24 megapixel camera with 28 mm is assumed";
+    camera_assumed: "no camera in the project: 24 megapixels and 28 mm are assumed";
     col_distance: "distance";
     col_pixel: "pixel";
     col_least: "at least";
@@ -62,8 +62,8 @@ declare! { printing {
     col_dot: "dot in the photo";
     straight_on: "0°";
     at_slant: "60°";
-    advice_words: "A dot needs at least 8 px across, best 15. Seen under 60° it is half as wide.";
+    advice_words: "A dot needs at least 8 px in diameter, preferably 15. At 60° it is half as wide.";
     too_small: "too small";
     just_so: "small at 60°";
-    print_hint: "Print without \"fit to page\". The PDF asks for that by itself.";
+    print_hint: "Print without \"fit to page\". The PDF has this setting.";
 } }

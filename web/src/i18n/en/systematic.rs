@@ -16,7 +16,7 @@ declare! { systematic {
     position(camera, px): "Camera {camera}: all photos have the same pattern of residuals, up to {px} px";
     position_body: "Cause: a smooth deformation of the image that no parameter of a camera model describes.";
     photo(photos, px): "The interior orientation of {photos} differs from the other photos, up to {px} px";
-    photo_body: "Cause: zoomed, refocused, cropped or of another image size.";
+    photo_body: "Cause: changed zoom or focus, cropping, or another image size.";
     every_photo(camera, px): "Camera {camera}: the interior orientation changes from photo to photo, up to {px} px";
     every_photo_body: "Cause: zoom or autofocus.";
     estimate(parameters): "Estimate {parameters}.";
@@ -24,7 +24,7 @@ declare! { systematic {
     other_model(models): "This lens needs another camera model: {models}.";
     hold_still: "Hold camera and object still, expose briefly or with flash, or use a camera with a global shutter.";
     own_camera: "Give these photos a camera of their own.";
-    per_photo: "Fix zoom and focus for the photos, or estimate an interior orientation per photo.";
-    inspect: "Look for a window in front of the lens, an uneven sensor or film, or targets measured off centre.";
-    not_noise: "This is a systematic error, not noise: the standard errors of the result do not contain it.";
+    per_photo: "Fix zoom and focus when photographing, or estimate an interior orientation per photo.";
+    inspect: "Check for a window in front of the lens, an uneven sensor or film, or targets measured off centre.";
+    not_noise: "This is a systematic error, not noise: the standard errors of the result do not include it.";
 } }

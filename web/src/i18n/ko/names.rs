@@ -7,7 +7,7 @@ translate! { Korean names {
     // Identities
     identities: "점 이름";
     identities_sentence(named, points, single): "점 {points}개에 관측 {named}개. 한 사진에만 있는 점 {single}개.";
-    open_marks: "측정점 파일 열기…";
+    open_marks: "측정값 파일 열기…";
     matching: "정합 중";
     matched(found, doubtful): "비코드 표적 관측 {found}개를 정합했습니다. 의심스러운 표적 {doubtful}개는 이름 없이 두었습니다.";
     control: "기준점";
@@ -32,15 +32,15 @@ translate! { Korean names {
     named_of(named, targets): "표적 {targets}개 중 {named}개 식별";
     name_this_target: "이 표적의 점번호";
     take_name: "적용";
-    marks: "측정점";
-    snap_radius: "흡착 반경";
-    snapped_sentence(good, all): "측정점 {all}개 가운데 {good}개가 측정된 중심에 놓입니다.";
+    marks: "측정값";
+    snap_radius: "스냅 반경";
+    snapped_sentence(good, all): "측정값 {all}개 가운데 {good}개가 측정된 중심과 일치합니다.";
     take_marks(n): "{n}개 적용";
-    why_not: "적용하지 않는 까닭";
+    why_not: "이유";
     unsnapped_no_detection: "이 사진에서 표적을 검출하지 않음";
     unsnapped_no_target: "반경 안에 표적 없음";
     unsnapped_contested(points): "{points}{points:과|와} 같은 표적에 비슷하게 가까움";
-    unsnapped_twice: "이 사진에 두 번 표시됨";
+    unsnapped_twice: "이 사진에서 두 번 측정됨";
     remove_point: "점 지우기";
     remove_observation: "관측 지우기";
     take_part_short: "포함";
@@ -67,7 +67,7 @@ translate! { Korean names {
     // Measuring by hand
     measuring_by_hand: "수동 측정";
     point_by_point: "점별 측정";
-    point_by_point_how: "클릭할 때마다 점을 측정하고 그 점이 보일 다음 사진으로 넘어갑니다 (M)";
+    point_by_point_how: "클릭할 때마다 점을 측정하고, 그 점이 보일 다음 사진으로 넘어갑니다 (M)";
     click_next_point: "다음 점을 클릭하십시오.";
     click_point_here(point): "이 사진에서 점 {point}{point:을|를} 클릭하십시오.";
     point_is_measured_here(point): "점 {point}{point:은|는} 이 사진에서 이미 측정했습니다.";
@@ -92,7 +92,7 @@ translate! { Korean names {
     layer_epipolar: "에피폴라선";
     layer_residuals: "잔차";
     layer_pixels: "화소 격자와 밝기값";
-    residual_factor: "잔차 벡터의 확대 배율";
+    residual_factor: "잔차 확대 배율";
     times(n): "{n}배";
     brightness: "밝기";
     picture_contrast: "대비";

@@ -18,9 +18,9 @@ translate! { Korean photos {
     photo_failed(photo, reason): "사진 {photo}: {reason}";
     no_photo_files: "사진 파일이 없습니다. 이 프로젝트의 사진을 놓으십시오.";
     photo_file_missing(file): "{file} 파일이 없습니다. 보려면 이 페이지에 놓으십시오.";
-    not_taken: "받지 않은 파일";
+    not_taken: "추가하지 않은 파일";
     duplicate_of(file): "이미 있는 {file} 파일과 내용이 같습니다";
-    same_name_as(photo): "이 프로젝트의 사진 {photo}{photo:과|와} 이름이 같습니다. 고르기 전에는 연결하지 않습니다";
+    same_name_as(photo): "이 프로젝트의 사진 {photo}{photo:과|와} 이름이 같습니다. 선택해야만 연결합니다";
     photos_differ(n, names):
         "이 프로젝트의 사진과 이름은 같지만 내용이 다른 파일 {n}개: {names}. 새 사진으로 추가하겠습니까, 아니면 프로젝트의 사진을 바꾸고 그 사진의 측정값을 삭제하겠습니까?";
     photos_unrecorded(n, names):
@@ -28,18 +28,18 @@ translate! { Korean photos {
     same_photos: "같은 사진";
     add_as_new: "새 사진으로 추가";
     replace_photos: "바꾸고 측정값 삭제";
-    developed_of(file): "센서 값을 담은 {file} 파일과 같은 촬영이므로 그 파일에서 측정합니다";
-    raw_of(file): "이미 있는 {file} 파일과 같은 촬영입니다. RAW 파일에서는 센서 값을 그대로 측정합니다";
+    developed_of(file): "{file}{file:과|와} 같은 노출이며, 센서 값이 있는 그 파일에서 측정합니다";
+    raw_of(file): "이미 있는 {file}{file:과|와} 같은 노출입니다. RAW 파일에서는 센서 값을 그대로 측정합니다";
     measure_raw: "RAW 파일에서 측정";
     measure_developed: "현상된 사진에서 측정";
     unreadable(detail): "브라우저가 파일을 읽지 못했습니다: {detail}";
     cameras: "카메라";
     camera: "카메라";
     camera_named(name): "카메라 {name}";
-    camera_of_their_own: "따로 새 카메라";
+    camera_of_their_own: "새 카메라";
     picked_photos(n): "고른 사진 {n}매";
     take_part: "조정에 포함";
-    remove_from_project: "프로젝트에서 빼기";
+    remove_from_project: "프로젝트에서 제거";
     make_and_model: "제조사, 모델";
     focal_length: "초점거리";
     film_equivalent(mm): "35 mm 환산 {mm} mm";

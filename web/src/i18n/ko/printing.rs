@@ -16,7 +16,7 @@ translate! { Korean printing {
     schneider(bits): "Schneider / AICON, {bits}비트";
     metashape(bits): "Metashape 원형, {bits}비트";
     how_many: "개수";
-    numbers: "또는 번호 지정";
+    numbers: "또는 코드 번호";
     numbers_hint: "예: 1-20, 35";
     family_has(all): "이 계열에는 코드가 {all}개 있습니다.";
     family_at_distance(count, distance): "그중 {count}개는 어떻게 돌려도 {distance}구획 이상 다릅니다";
@@ -42,16 +42,16 @@ translate! { Korean printing {
     previous_sheet: "이전 장";
     next_sheet: "다음 장";
     preview: "인쇄 미리보기";
-    ruler_of_print: "인쇄물의 자";
+    ruler_of_print: "자 확인";
     one_is_enough: "한 장이면 됩니다";
-    ruler_across: "가로 100 mm를 재면";
-    ruler_down: "세로 100 mm를 재면";
+    ruler_across: "가로 100 mm의 실측값";
+    ruler_down: "세로 100 mm의 실측값";
     as_across: "가로와 같음";
-    reading_sigma: "읽기 정확도";
+    reading_sigma: "읽기 σ";
     not_measured: "한 장을 크기 맞춤 없이 100 %로 인쇄하고 자를 재십시오. 잰 값이 지름, 인쇄된 거리, 공칭좌표에 반영됩니다.";
     print_scale(across, down, sigma, diameter):
         "인쇄 축척 가로 {across}, 세로 {down}, ± {sigma}. 점 지름은 {diameter} mm입니다. 지름, 인쇄된 거리, 공칭좌표에 반영되며, 손으로 붙인 막대는 막대에서 잽니다.";
-    which_diameter: "지름 고르기";
+    which_diameter: "지름 선택";
     camera_words(c, width, height): "c {c} px, {width} × {height} px";
     camera_assumed: "프로젝트에 카메라가 없어 28 mm, 2400만 화소로 가정";
     col_distance: "거리";

@@ -28,12 +28,12 @@ translate! { Korean projects {
     sample_name: "예제";
     opening_sample: "예제 촬영·측정·조정 중";
     busy: "진행 중인 작업이 끝날 때까지 기다리거나 먼저 취소하십시오.";
-    waits_at_identities(file): "{file}: 측정점 파일입니다. 점 이름 단계에서 확인하십시오.";
-    waits_at_control(file): "{file}: 기준점 파일입니다. 기준점·축척 단계에서 확인하십시오.";
-    marks_or_control(file): "{file}{file:은|는} 측정점(사진, 점, u, v)으로도 기준점(점번호, X, Y, Z)으로도 읽을 수 있습니다. 어느 쪽입니까?";
+    waits_at_identities(file): "{file}: 영상 측정값 파일입니다. 점 이름 단계에서 가져오십시오.";
+    waits_at_control(file): "{file}: 기준점 파일입니다. 기준점·축척 단계에서 가져오십시오.";
+    marks_or_control(file): "{file}{file:은|는} 영상 측정값(사진, 점, u, v)으로도 기준점(점번호, X, Y, Z)으로도 읽을 수 있습니다. 어느 쪽입니까?";
     is_empty: "빈 파일입니다";
     file_empty(file): "{file}: 빈 파일입니다.";
-    is_no_list: "측정점(사진, 점, u, v)도 기준점(점번호, X, Y, Z)도 들어 있지 않습니다";
+    is_no_list: "영상 측정값(사진, 점, u, v)도 기준점(점번호, X, Y, Z)도 들어 있지 않습니다";
     unsaved_here: "저장하지 않은 변경이 있습니다.";
     unsaved_in(name): "{name}에 저장하지 않은 변경이 있습니다.";
     save_first: "사진과 함께 저장한 뒤 열기";
@@ -56,7 +56,7 @@ translate! { Korean projects {
 
     // What this browser keeps
     recent_projects: "최근 프로젝트";
-    on_this_computer: "이 컴퓨터에 마지막 상태로 보관";
+    on_this_computer: "이 컴퓨터에 보관";
     project: "프로젝트";
     column_photos: "사진";
     column_points: "점";
@@ -82,7 +82,7 @@ translate! { Korean projects {
     other_is_kept(name): "{name}{name:은|는} 이 컴퓨터에 보관되어 있으며 시작 화면에 있습니다.";
     held_elsewhere: "프로젝트가 다른 창에서 열려 있습니다. 그 창에서 하거나 그 창을 먼저 닫으십시오.";
     kept_as_copy(name, copy): "여기의 마지막 변경이 저장되기 전에 다른 창에서 {name}{name:을|를} 넘겨받았습니다. 변경은 별도의 프로젝트 {copy}에 보관했습니다.";
-    storage_ended: "이 브라우저의 저장소가 다시 시작되지 않음";
+    storage_ended: "이 브라우저의 저장소를 다시 시작할 수 없음";
     list_unreadable(detail): "프로젝트 목록을 읽지 못했습니다({detail}). 프로젝트는 그대로 보관되어 있습니다. 페이지를 새로 고치거나 다른 창을 닫으십시오.";
     unreadable_project: "읽을 수 없는 프로젝트";
     journal_mended: "보관된 이 프로젝트에서 비트 하나가 바뀌어 있었습니다. 복구했으며 잃은 것은 없습니다. 손상된 파일은 시작 화면에서 내려받을 수 있습니다.";
@@ -108,7 +108,7 @@ translate! { Korean projects {
     kept_by_newer(version): "더 새로운 Sightline에서 보관한 프로젝트입니다(형식 {version}). 페이지를 새로 고쳐 그 버전을 받으십시오.";
     storage_cleared(n): "브라우저가 저장소를 비웠습니다. 프로젝트 {n}개가 목록에서 사라졌습니다. 저장한 파일에서 여십시오.";
     cleared_under_page: "페이지가 열려 있는 동안 브라우저가 저장소를 비웠습니다. 이 프로젝트는 사진까지 지금 상태로 다시 보관했으며, 다른 프로젝트는 사라졌습니다. 저장소는 다시 비워질 수 있으니 파일로도 저장하십시오.";
-    cleared_with_photos(n): "페이지가 열려 있는 동안 브라우저가 저장소를 비웠습니다. 이 프로젝트는 지금 상태로 다시 보관했습니다. 사라진 사진 {n}장은 다시 끌어다 놓으십시오. 저장소는 다시 비워질 수 있으니 파일로도 저장하십시오.";
+    cleared_with_photos(n): "페이지가 열려 있는 동안 브라우저가 저장소를 비웠습니다. 이 프로젝트는 다시 보관했습니다. 사라진 사진 {n}매는 다시 끌어다 놓으십시오. 저장소는 다시 비워질 수 있으니 파일로도 저장하십시오.";
     held_by_windows: "브라우저가 저장소를 비웠지만 다른 창이 아직 그 파일을 열어 두고 있습니다. 다른 창을 닫으십시오. 그때까지 프로젝트는 이 페이지에만 있으니 파일로 저장하십시오.";
     space_used(used, all): "{all} 중 {used} 사용";
     lasts: "공간이 부족해도 보관됨";
@@ -118,7 +118,7 @@ translate! { Korean projects {
     no_network: "네트워크 없음. 이 페이지의 모든 기능은 그대로 작동합니다.";
     no_network_nor_copy: "네트워크 없음. 열려 있는 것은 작동하지만, 네트워크가 돌아올 때까지 페이지를 다시 열 수 없습니다.";
     needs_network: "페이지를 열려면 네트워크 필요";
-    another_build: "호스트에 다른 버전의 Sightline이 올라와 이 버전의 나머지를 받을 수 없습니다. 페이지를 새로 고치십시오. 프로젝트는 그대로 남습니다.";
+    another_build: "서버에 다른 버전의 Sightline이 올라와 이 버전의 나머지를 받을 수 없습니다. 페이지를 새로 고치십시오. 프로젝트는 그대로 남습니다.";
     reload_page: "새로 고침";
     not_on_clipboard: "브라우저가 클립보드 복사를 허용하지 않았습니다. 셀을 선택해 키보드로 복사하거나 표를 내보내십시오.";
     update_ready: "Sightline의 새 버전이 준비되었습니다. 프로젝트는 그대로 남습니다.";

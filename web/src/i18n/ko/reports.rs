@@ -12,9 +12,9 @@ translate! { Korean reports {
     print_or_pdf: "인쇄·PDF 저장";
     save_html: "HTML 저장";
     writing_report: "보고서 작성 중";
-    report_settings: "보고서 구성";
+    report_settings: "보고서 내용";
     report_preview: "인쇄할 보고서";
-    report_sections: "구성";
+    report_sections: "항목";
     section_summary: "요약";
     section_uncertainty: "불확도 (GUM)";
     section_observations: "관측값과 미지수";
@@ -22,7 +22,7 @@ translate! { Korean reports {
     section_control: "기준점, 검사점, 축척";
     section_lengths: "길이 측정 오차 (VDI/VDE 2634)";
     section_statistics: "통계와 검정";
-    section_left_out: "제외한 것과 그 까닭";
+    section_left_out: "제외한 관측값";
     section_settings: "설정과 입력 자료";
     section_all_observations: "전체 영상 관측값";
     report_language: "보고서 언어";
@@ -33,7 +33,7 @@ translate! { Korean reports {
     date_of_report: "날짜 (비우면 오늘)";
     free_text: "본문";
     choose_logo: "로고 고르기…";
-    remove_logo: "로고 빼기";
+    remove_logo: "로고 삭제";
     logo_kind: "로고는 PNG나 JPEG 파일입니다.";
     logo_size: "그림이 1 MB보다 큽니다. 더 작은 그림을 로고로 고르십시오.";
     statements: "정확도 표기";

@@ -33,7 +33,7 @@ translate! { Korean targets {
     method_least_squares: "최소제곱 정합";
     method_ellipse: "경계 타원 적합";
     method_intensity: "밝기 중심";
-    method_gradient: "기울기 중심";
+    method_gradient: "기울기 가중 중심";
     diameter: "지름";
     diameter_from: "최소 지름, 픽셀";
     diameter_to: "최대 지름, 픽셀";
@@ -45,7 +45,7 @@ translate! { Korean targets {
     rotation: "회전";
     contrast: "대비";
     edge_width: "경계 폭";
-    code_not_read: "코드를 읽지 못한 까닭";
+    code_not_read: "코드를 읽지 못한 이유";
     code_all_set: "링이 끊김 없이 이어져 있음";
     code_no_code: "이 종류에 없는 비트 배열";
     code_disturbed: "링 위나 옆에 다른 것이 있음";
@@ -57,33 +57,33 @@ translate! { Korean targets {
     inner_rim: "안쪽 테두리, 중심 간 거리";
     inner_rim_centred: "두 중심이 일치함";
     inner_rim_off: "두 중심의 차이가 표준오차보다 큼. 바깥 테두리를 씀";
-    picture_sharpened(percent, radius): "선명화 {percent} %(반경 {radius} px), 이 때문에 표적이 가려지는 곳은 되돌려 측정함";
-    picture_overexposed(percent): "밝은 쪽 포화 {percent} %, 적합에서 제외함";
-    picture_black(percent): "어두운 쪽 포화 {percent} %, 그곳에서는 아무것도 보이지 않음";
+    picture_sharpened(percent, radius): "선명화 {percent} %(반경 {radius} px), 이 때문에 표적이 가려지는 곳에서는 되돌림";
+    picture_overexposed(percent): "포화 {percent} %, 적합에서 제외함";
+    picture_black(percent): "검정 {percent} %, 검출 없음";
     picture_compressed(percent): "JPEG 압축 흔적이 보임(블록 경계 차이 {percent} % 큼), 잡음으로 계산함";
     picture_compressed_uncounted(percent):
-        "JPEG 압축 흔적이 보이나(블록 경계 차이 {percent} % 큼) 이 방법의 표준오차에는 반영되지 않아 실제보다 작음(최소제곱 정합으로 측정 바람)";
-    picture_noise(noise): "잡음 {noise} 계조, 표준오차는 이 잡음에 따른 값임";
+        "JPEG 압축 흔적이 보이나(블록 경계 차이 {percent} % 큼) 이 방법의 표준오차에는 반영되지 않아 실제보다 작음(최소제곱 정합을 쓰십시오)";
+    picture_noise(noise): "잡음 {noise} 계조, 표준오차 계산에 사용함";
     picture_shared_noise(noise, factor): "잡음 {noise} 계조, 이웃 화소끼리 상관되어 표준오차가 {factor}배로 커짐";
     picture_sentence(what): "이 사진: {what}.";
     measured_on_sites(format, colour, pattern, bits):
         "{format}, {bits}비트: 센서의 {colour} 화소({pattern})만을 보간 없이 하나하나 써서 측정했습니다.";
     measured_between_sites(format, colour, pattern, bits):
-        "{format}, {bits}비트: 이 방법에는 영상이 필요하므로 {colour} 화소({pattern}) 사이를 보간한 영상에서 측정했습니다.";
+        "{format}, {bits}비트: 이 방법에는 보간된 영상이 필요하므로 {colour} 화소({pattern}) 사이를 보간하여 측정했습니다.";
     measured_noise(read, gain): "사진에서 추정한 잡음: 빛이 없을 때 {read}, 분산은 빛 한 단위마다 {gain}씩 커집니다.";
     measured_light_noise(gain): "사진에서 추정한 잡음: 분산은 빛 한 단위마다 {gain}씩 커집니다. 빛이 없을 때의 잡음은 이 사진에서 알 수 없습니다.";
     measured_read_noise(read): "사진에서 추정한 잡음: 밝기와 무관하게 {read}.";
-    measured_overexposed(percent): "밝은 쪽 포화 {percent} %, 적합에서 제외했습니다.";
+    measured_overexposed(percent): "포화 {percent} %, 적합에서 제외했습니다.";
     measured_hot(count): "핫픽셀 {count}개는 제외했습니다.";
     measured_corrections(names):
         "파일에 렌즈 보정({names})이 적혀 있으나 여기서는 적용하지 않았습니다. 보정된 영상에서 검정한 카메라는 이와 다른 카메라입니다.";
-    unread_corrections: "파일에 든 렌즈 보정 목록을 읽을 수 없어 어떤 보정인지 알 수 없습니다. 그 보정은 적용하지 않았습니다.";
+    unread_corrections: "파일에 든 렌즈 보정 목록을 읽을 수 없습니다. 그 보정은 적용하지 않았습니다.";
     corrections_made(names):
-        "제조사 기록에 따르면 카메라가 다음을 보정했습니다: {names}. 이때의 왜곡은 렌즈의 왜곡이 아니라 보정하고 남은 왜곡입니다. 검정과 측정을 같은 설정으로 하십시오. 보정량은 줌과 초점에 따라 달라집니다.";
-    corrections_without_distortion(names): "제조사 기록에 따르면 카메라가 다음을 보정했습니다: {names}. 왜곡은 그 가운데 없습니다.";
+        "카메라 메타데이터에 따르면 다음을 보정했습니다: {names}. 이때의 왜곡은 렌즈의 왜곡이 아니라 보정하고 남은 왜곡이며, 줌과 초점에 따라 달라집니다. 검정과 측정을 같은 설정으로 하십시오.";
+    corrections_without_distortion(names): "카메라 메타데이터에 따르면 다음을 보정했습니다: {names}. 왜곡은 보정하지 않았습니다.";
     corrections_of_developed(names):
-        "제조사 기록은 이 파일에서 현상한 영상에 다음을 보정하도록 정하고 있습니다: {names}. 여기서는 적용하지 않았습니다. 보정된 영상에서 검정한 카메라는 이와 다른 카메라입니다.";
-    corrections_off(names): "보정하지 않았다고 적힌 항목: {names}.";
+        "카메라 메타데이터는 이 파일에서 현상한 영상에 다음 보정을 요구합니다: {names}. 여기서는 적용하지 않았습니다. 보정된 영상에서 검정한 카메라는 이와 다른 카메라입니다.";
+    corrections_off(names): "메타데이터에 보정하지 않았다고 적힌 항목: {names}.";
     correction_of(what, tag): "{what}({tag})";
     correction_auto(what, tag): "{what}(아는 렌즈일 때, {tag})";
     aberration_distortion: "왜곡";
@@ -98,19 +98,19 @@ translate! { Korean targets {
     site_yellow: "황색";
     site_white: "무필터";
     site_emerald: "에메랄드";
-    colours_apart: "색별 측정";
-    colours_apart_hint: "렌즈는 적색과 청색을 녹색보다 조금 크거나 작게 맺습니다. 표적을 세 색에서 모두 측정하면 그 차이(배율 색수차)를 알 수 있습니다.";
+    colours_apart: "배율 색수차";
+    colours_apart_hint: "렌즈는 적색과 청색을 녹색보다 조금 크거나 작게 맺습니다. 표적을 세 채널에서 모두 측정하면 그 차이를 알 수 있습니다.";
     measure_colours: "적색과 청색 측정";
     measuring_colours: "적색과 청색 측정 중…";
-    hold_colours: "카메라에 고정";
+    hold_colours: "카메라에 사용";
     hold_colours_again: "이 값으로 바꾸기";
-    forget_colours: "다른 색에 대한 값 삭제";
-    lens_colour: "색";
+    forget_colours: "카메라에서 삭제";
+    lens_colour: "채널";
     colour_difference: "차이";
-    colours_hold_means(camera): "카메라 {camera}에 이 차이를 넣을 수 있습니다. 적색이나 청색에서 측정한 사진에 대해 매개변수에 더하며, 조정에서 고정합니다.";
-    colours_are_held(camera): "카메라 {camera}에 다른 색에 대한 차이가 있습니다. 적색이나 청색에서 측정한 사진에 대해 매개변수에 더하며, 조정에서 고정합니다.";
+    colours_hold_means(camera): "카메라 {camera}에 이 차이를 쓸 수 있습니다. 적색이나 청색에서 측정한 사진에 대해 매개변수에 더하고 고정합니다.";
+    colours_are_held(camera): "카메라 {camera}에 다른 채널에 대한 차이를 씁니다. 적색이나 청색에서 측정한 사진에 대해 매개변수에 더하고 고정합니다.";
     apart_at_corner(colour, pixels, sigma, count): "{colour}: 모서리에서 녹색 대비 {pixels} px(표준오차 {sigma} px), 표적 {count}개";
-    apart_too_few(colour, count): "{colour}: 두 색에서 함께 측정된 표적이 {count}개뿐이라 알 수 없습니다";
+    apart_too_few(colour, count): "{colour}: 두 채널에서 함께 측정된 표적이 {count}개뿐이라 추정할 수 없습니다";
     apart_outwards: "바깥쪽 px";
     apart_radius(pixels): "반경 {pixels} px까지";
     rejected_here: "이 사진에서 기각";
