@@ -192,7 +192,7 @@ test('what cannot be compared is a sentence that says what to do, in both langua
       [(name, xyz) => [name, xyz], true, /times those of the first epoch: give both in one unit/i, 0.001],
       [(name, [x, y, z]) => [name, [-x, y, z]], true, /mirror image of the first: exchange two of its axes/i],
       [(name, xyz) => [names[(names.indexOf(name) * 5 + 3) % names.length], xyz], true, /check that the same names mean the same points/i],
-      [(name, xyz) => [`Q${name}`, xyz], true, /no point in common.*give at least four points the same names/i],
+      [(name, xyz) => [`Q${name}`, xyz], true, /no common point.*give at least four points the same names/i],
       [(name, xyz) => [name, xyz], false, /no standard errors.*give sigma for its points/i],
     ];
     for (const [change, sigmas, wanted, unit] of cases) {

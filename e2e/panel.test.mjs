@@ -79,7 +79,7 @@ test('8 photos become coordinates', { skip: folder ? false : 'skipped, no data',
     await page.waitForSelector('.paper[data-ready=true]', { timeout: 60_000 });
     await page.fill('[name=limit-constant]', '0.1');
     await page.press('[name=limit-constant]', 'Tab');
-    await page.waitForFunction(() => document.querySelector('.paper').shadowRoot.querySelector('[data-section=lengths]')?.textContent.includes('All of them keep the limit'));
+    await page.waitForFunction(() => document.querySelector('.paper').shadowRoot.querySelector('[data-section=lengths]')?.textContent.includes('All of them are within the limit'));
     if (!unreadable) await printed(page, { figures: [...shown, '0.1 mm'], points: printedPoints(printable, decimals), without: ['Features'] });
     assert.deepEqual(errors, []);
   } finally {

@@ -12,8 +12,8 @@ const fonts = spawnSync('fc-list', [':lang=ko'], { encoding: 'utf8' });
 export const unreadable = spawnSync('pdftotext', ['-v']).status !== 0 ? 'skipped, no pdftotext' : fonts.status === 0 && !fonts.stdout.trim() ? 'skipped, no Korean font' : false;
 
 const SECTIONS = {
-  en: ['Summary', 'Uncertainty of the coordinates', 'Observations and unknowns', 'Cameras', 'Network', 'Photos', 'Points', 'Control, check points and scale', 'Length measurement errors', 'Statistics and tests', 'Residuals by photo', 'Left out, and why', 'Features', 'Settings and inputs'],
-  ko: ['요약', '좌표의 불확도', '관측값과 미지수', '카메라', '관측망', '사진', '점', '기준점, 검사점, 축척', '길이측정오차', '통계와 검정', '사진별 잔차', '제외한 것과 그 까닭', '형상', '설정과 입력 자료'],
+  en: ['Summary', 'Uncertainty of the coordinates', 'Observations and unknowns', 'Cameras', 'Network', 'Photos', 'Points', 'Control, check points and scale', 'Length measurement errors', 'Statistics and tests', 'Residuals by photo', 'Rejected observations', 'Features', 'Settings and inputs'],
+  ko: ['요약', '좌표의 불확도', '관측값과 미지수', '카메라', '관측망', '사진', '점', '기준점, 검사점, 축척', '길이측정오차', '통계와 검정', '사진별 잔차', '제외한 관측값', '형상', '설정과 입력 자료'],
 };
 /** Width and height in points. */
 const SIZES = { a4: [595, 842], letter: [612, 792] };

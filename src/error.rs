@@ -15,13 +15,13 @@ pub use degeneracy::Degeneracy;
 pub use picture_kind::PictureKind;
 pub use reason::{Expected, Lack, Names, Number, PhotoModelerPart, Reason, Thing};
 
-/// Most characters of a user's text that a sentence quotes.
+/// Maximum number of characters of a quoted user text.
 const QUOTED: usize = 120;
 
 /// Result of every fallible function of the engine.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// Where in the user's material something is wrong. Empty fields are unknown or do not apply.
+/// Where in the user's data the error is. Empty fields are unknown or do not apply.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Place {
@@ -86,11 +86,11 @@ impl Place {
     }
 }
 
-/// Why a rank defect exists, in the network's own words.
+/// Cause of a rank defect of the normal equations.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "cause", rename_all = "snake_case")]
 pub enum Defect {
-    /// Nothing fixes position, attitude and scale: `missing` of 7 are undetermined.
+    /// Position, attitude and scale are not fixed: `missing` of 7 parameters are undetermined.
     NoDatum {
         /// Number of undetermined datum parameters.
         missing: usize,
@@ -105,7 +105,7 @@ pub enum Defect {
         /// Photos concerned.
         photos: Vec<String>,
     },
-    /// Groups of photos share too little to be tied together.
+    /// Groups of photos have too few common points to be connected.
     NotTied {
         /// The groups, each a list of photos.
         groups: Vec<Vec<String>>,
@@ -117,7 +117,7 @@ pub enum Defect {
         /// Names of the parameters.
         parameters: Vec<String>,
     },
-    /// A null space that has no simpler description: what takes part in it.
+    /// A null space without a simpler description: the unknowns in it.
     Combination {
         /// Points taking part.
         points: Vec<String>,
@@ -126,22 +126,22 @@ pub enum Defect {
         /// Camera parameters taking part, as `camera.parameter`.
         parameters: Vec<String>,
     },
-    /// All photos were taken from one place: there is no depth and no principal distance.
+    /// All photos were taken from one place: depth and principal distance are undetermined.
     OneStation {
         /// The photos.
         photos: Vec<String>,
     },
 }
 
-/// What is wrong with a picture's file.
+/// Damage of an image file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Damage {
     /// The file ends before the picture does.
     EndsEarly,
-    /// No picture is in it.
+    /// The file contains no picture.
     NoPicture,
-    /// Its header makes no sense.
+    /// Its header is damaged.
     Header,
     /// Its palette is missing.
     NoPalette,
@@ -152,18 +152,18 @@ pub enum Damage {
         /// Height in pixels.
         height: u32,
     },
-    /// No row of the picture is sure to be whole.
+    /// No row of the picture is certain to be intact.
     NoWholeRow,
-    /// These rows are damaged, and all were wanted.
+    /// These rows are damaged, and all rows are required.
     Rows {
         /// First row, from 0.
         first: u32,
         /// Last row.
         last: u32,
     },
-    /// The decoder gave up.
+    /// The decoder failed.
     Decoder {
-        /// What it says.
+        /// Message of the decoder.
         message: String,
     },
 }
@@ -172,9 +172,9 @@ pub enum Damage {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "code", rename_all = "snake_case")]
 pub enum Error {
-    /// The file is of no format the engine reads.
+    /// The file format is not supported.
     UnknownImageFormat {
-        /// What it is recognised as, if as anything.
+        /// Recognised kind of file, if any.
         recognised: Option<PictureKind>,
         /// Place.
         at: Place,
@@ -186,16 +186,16 @@ pub enum Error {
         /// Place.
         at: Place,
     },
-    /// The decoders of a format are a file of their own, and it could not be loaded.
+    /// The decoder of a format is a separate file that could not be loaded.
     DecoderMissing {
         /// The format.
         format: String,
-        /// What kept it from being loaded.
+        /// Why it could not be loaded.
         message: String,
         /// Place.
         at: Place,
     },
-    /// The picture is larger or smaller than the engine works on.
+    /// The size of the picture is not supported.
     ImageSize {
         /// Width in pixels.
         width: u64,
@@ -206,14 +206,14 @@ pub enum Error {
         /// Place.
         at: Place,
     },
-    /// A document, option or file holds something that is not allowed there.
+    /// A document, option or file contains a value that is not allowed there.
     Invalid {
-        /// What is wrong with it and what is expected.
+        /// What is wrong and what is expected.
         reason: Reason,
         /// Place.
         at: Place,
     },
-    /// Something is named that does not exist.
+    /// A name that does not exist.
     Unknown {
         /// Kind of thing.
         kind: Thing,
@@ -231,7 +231,7 @@ pub enum Error {
         /// Place.
         at: Place,
     },
-    /// The project has nothing to work on.
+    /// The project lacks the data for the computation.
     Empty {
         /// What is missing.
         what: Lack,
@@ -245,19 +245,19 @@ pub enum Error {
         /// Cameras without a principal distance.
         cameras: Vec<String>,
     },
-    /// The network does not determine what is to be estimated.
+    /// The network does not determine all estimated parameters.
     RankDefect {
         /// The causes, most elementary first.
         defects: Vec<Defect>,
     },
-    /// So few control points agree with each other and with the photos that it cannot be told which of them are wrong.
+    /// Too few control points agree with each other and with the photos to decide which of them are wrong.
     ControlDisagrees {
         /// Control points that agree.
         agreeing: Vec<String>,
-        /// Control points whose measurements were all set aside, since they disagree.
+        /// Control points whose measurements were all rejected.
         disagreeing: Vec<String>,
     },
-    /// Initial orientation found no way in.
+    /// The initial orientation failed.
     CannotOrient {
         /// Why there are no initial values.
         reason: Degeneracy,
@@ -366,7 +366,7 @@ impl Defect {
     }
 }
 
-/// What to do with a file of a format that is not read: a RAW keeps the sensor's samples as DNG.
+/// Remedy for a file of an unsupported format: convert a RAW file to DNG, which keeps the sensor's samples.
 fn remedy(kind: &PictureKind) -> &'static str {
     if kind.is_raw() {
         "convert it to DNG (Adobe DNG Converter, dnglab), which keeps the sensor's samples"
@@ -375,7 +375,7 @@ fn remedy(kind: &PictureKind) -> &'static str {
     }
 }
 
-/// The beginning of a text that a sentence quotes: someone's file may be one line of megabytes.
+/// Beginning of a quoted text: a file may be one line of megabytes.
 pub fn shortened(text: &str) -> String {
     match text.char_indices().nth(QUOTED) {
         None => text.to_owned(),
@@ -414,13 +414,13 @@ impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::EndsEarly => f.write_str("the file ends early"),
-            Self::NoPicture => f.write_str("it has no picture in it"),
+            Self::NoPicture => f.write_str("it contains no picture"),
             Self::Header => f.write_str("its header is damaged"),
             Self::NoPalette => f.write_str("its palette is missing"),
             Self::ClaimsTooMuch { width, height } => {
                 write!(f, "its header claims {width} x {height} pixels, more than its bytes can hold")
             }
-            Self::NoWholeRow => f.write_str("no row of it is sure to be whole"),
+            Self::NoWholeRow => f.write_str("no row of it is certain to be intact"),
             Self::Rows { first, last } => write!(f, "rows {first} to {last} are damaged"),
             Self::Decoder { message } => f.write_str(message),
         }
@@ -448,12 +448,12 @@ impl fmt::Display for Defect {
             ),
             Self::NotTied { groups } => {
                 let names = groups.iter().map(|g| listed(g)).collect::<Vec<_>>().join(" | ");
-                write!(f, "groups of photos are not tied to each other ({names}): measure common points")
+                write!(f, "groups of photos are not connected ({names}): measure common points")
             }
             Self::ParameterUndetermined { camera, parameters } => write!(
                 f,
-                "camera {camera}: the network does not determine {}: hold it, observe it with a sigma, or add convergent \
-                 and rolled photos",
+                "camera {camera}: the network does not determine {}: hold it, observe it with a standard error, or \
+                 add convergent photos and photos rotated by 90°",
                 listed(parameters)
             ),
             Self::Combination { points, photos, parameters } => {
@@ -467,7 +467,7 @@ impl fmt::Display for Defect {
             }
             Self::OneStation { photos } => write!(
                 f,
-                "all photos were taken from one place ({}): they show neither depth nor principal distance; take photos from \
+                "all photos were taken from one place ({}): they give neither depth nor principal distance; take photos from \
                  other places, or give control points",
                 listed(photos)
             ),
@@ -479,10 +479,10 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnknownImageFormat { recognised: Some(kind), .. } => {
-                write!(f, "this is a {kind} file, which is not read here: {}", remedy(kind))?;
+                write!(f, "this is a {kind} file, which is not supported: {}", remedy(kind))?;
             }
             Self::UnknownImageFormat { .. } => {
-                f.write_str("not a picture the engine reads: JPEG, PNG, TIFF or BMP of 8 or 16 bits are expected")?;
+                f.write_str("not a supported image: JPEG, PNG, TIFF or BMP of 8 or 16 bits is expected")?;
             }
             Self::BrokenImage { reason, .. } => {
                 write!(f, "the picture cannot be decoded ({reason}): copy it again from the camera")?;
@@ -490,11 +490,11 @@ impl fmt::Display for Error {
             Self::DecoderMissing { format, message, .. } => {
                 write!(
                     f,
-                    "the decoder of {format} files could not be loaded ({message}): it is fetched when the first such file comes, which needs the network once"
+                    "the decoder of {format} files could not be loaded ({message}): it is downloaded with the first such file, which needs a network connection once"
                 )?;
             }
             Self::ImageSize { width, height, limit, .. } => {
-                write!(f, "the picture has {width} x {height} pixels; from 1 to {limit} pixels are worked on")?;
+                write!(f, "the picture has {width} x {height} pixels; from 1 to {limit} pixels are supported")?;
             }
             Self::Invalid { reason, .. } => reason.fmt(f)?,
             Self::Unknown { kind, name, .. } => write!(f, "there is no {kind} \"{name}\"")?,

@@ -73,11 +73,11 @@ fn what_is_written_is_read_again() {
 #[test]
 fn what_is_no_equipment_or_damaged_is_told_with_its_place() {
     let told = |text: &str| Equipment::read(text).unwrap_err().to_string();
-    assert!(told("1 2 3").contains("no equipment"));
-    assert!(told("{\"format\":\"sightline\",\"version\":1}").contains("no equipment"));
+    assert!(told("1 2 3").contains("not a Sightline equipment file"));
+    assert!(told("{\"format\":\"sightline\",\"version\":1}").contains("not a Sightline equipment file"));
     let text = equipment().write().unwrap();
     assert!(told(&text.replace("\"version\": 1", "\"version\": 7")).contains('7'));
-    assert!(told(&text[..text.len() / 2]).contains("no equipment"));
+    assert!(told(&text[..text.len() / 2]).contains("not a Sightline equipment file"));
     type Fault = fn(&mut Equipment);
     let faults: [(Fault, &str); 11] = [
         (|e| e.cameras.push(e.cameras[0].clone()), "D5600"),

@@ -17,9 +17,9 @@ pub enum Degeneracy {
     },
     /// The object points lie on a line, or coincide.
     Collinear,
-    /// The object points lie in a plane, or so nearly that their noise decides.
+    /// The object points lie in a plane, or so nearly that noise dominates.
     Coplanar,
-    /// The rays meet at a smaller angle than can be intersected.
+    /// The rays intersect at too small an angle.
     NearParallel {
         /// Largest angle between two of the rays, in radians.
         angle: f64,
@@ -36,7 +36,7 @@ pub enum Degeneracy {
 impl fmt::Display for Degeneracy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::TooFew { needed, given } => write!(f, "{given} points or rays where {needed} are needed"),
+            Self::TooFew { needed, given } => write!(f, "{given} points or rays, but {needed} are needed"),
             Self::Collinear => f.write_str("the points lie on a line"),
             Self::Coplanar => f.write_str("the points lie in a plane"),
             Self::NearParallel { angle } => {

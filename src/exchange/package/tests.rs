@@ -103,7 +103,7 @@ fn foreign_archives_and_bombs_are_refused() {
     assert!(read(b"GIF89a").is_err());
     let detail = |bytes: &[u8]| read(bytes).unwrap_err().to_string();
     assert!(detail(&archive(&[("word/document.xml", b"<x/>")])).contains("no project.json"));
-    assert!(detail(&archive(&[("project.json", b"{\"format\": \"other\"}")])).contains("not a document of Sightline"));
+    assert!(detail(&archive(&[("project.json", b"{\"format\": \"other\"}")])).contains("not a Sightline document"));
     assert!(
         detail(&archive(&[("project.json", b"{\"format\": \"sightline\", \"version\": 2}")])).contains("version 2")
     );

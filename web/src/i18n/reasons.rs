@@ -35,7 +35,7 @@ pub fn reason(reason: &Reason) -> String {
         }
         R::BoardSize { given, needed } => {
             return format!(
-                "{given}을(를) 주었습니다. 여기에는 {needed} 이상이 필요하고, 판의 원은 모두 10000개까지입니다"
+                "주어진 값은 {given}입니다. 여기에는 {needed} 이상이 필요하고, 판의 원은 모두 10000개까지입니다"
             );
         }
         R::BoardPitch => "판의 원 간격은 0보다 커야 합니다",
@@ -52,19 +52,19 @@ pub fn reason(reason: &Reason) -> String {
         R::NoVersion => "문서에 버전이 없습니다",
         R::DamagedDocument { message } => return format!("문서가 손상되었습니다: {message}"),
         R::OneFile { given } => return format!("이 형식은 파일 하나입니다. {given}개를 주었습니다"),
-        R::InteriorModel => "사진별 내부표정은 카메라와 같은 모델이어야 합니다",
+        R::InteriorModel => "사진별 내부표정은 카메라와 같은 모형이어야 합니다",
         R::TargetDiameter => "표적 지름은 0보다 커야 합니다",
         R::TargetNormal => "표적의 법선은 방향이므로 세 성분이 모두 0일 수 없습니다",
         R::ImageSigma => "영상 관측값의 표준오차는 0화소보다 커야 합니다",
         R::DistanceEnds => "거리는 서로 다른 두 점을 잇습니다",
         R::DistanceLength => "거리는 0보다 커야 합니다",
         R::DistanceSigma => "거리의 표준오차는 0보다 커야 합니다",
-        R::NotFinite => "유한하지 않거나 터무니없이 큰 수가 있습니다",
+        R::NotFinite => "유한하지 않거나 너무 큰 수가 있습니다",
         R::NegativeSigma => "표준오차는 0(고정) 이상이어야 합니다",
         R::PrincipalDistance => "주점거리는 0보다 커야 합니다",
         R::ParameterNotFinite => "매개변수는 유한한 수여야 합니다",
         R::SensorGrid => "센서 격자의 폭과 높이는 1화소 이상이어야 합니다",
-        R::PixelPitch => "화소 간격은 0 mm보다 커야 합니다",
+        R::PixelPitch => "화소 크기은 0 mm보다 커야 합니다",
         R::ParameterSigma => "매개변수의 사전 표준오차는 0보다 커야 합니다. 고정하려면 비워 두십시오",
         R::FocalLengthTwice => "f는 fx와 fy를 하나로 나타냅니다. f만, 또는 fx와 fy를 추정하십시오",
 
@@ -75,11 +75,11 @@ pub fn reason(reason: &Reason) -> String {
             );
         }
         R::ColoursWithoutDistance => {
-            "색별 왜곡은 주점거리를 바탕으로 나타내는데 아직 알려져 있지 않습니다. 먼저 표정하거나 조정하십시오"
+            "배율 색수차에는 주점거리가 필요한데 아직 알려져 있지 않습니다. 먼저 표정하거나 조정하십시오"
         }
         R::ColoursBeyondModel { left_px } => {
             return format!(
-                "카메라 모델로 나타내지 못한 색수차가 {left_px}화소 남습니다. 왜곡이 영상 안에서 접히거나 렌즈의 왜곡이 아닙니다"
+                "카메라 모형로 나타내지 못한 색수차가 {left_px}화소 남습니다. 왜곡이 영상 안에서 접히거나 렌즈의 왜곡이 아닙니다"
             );
         }
 
@@ -161,13 +161,13 @@ pub fn reason(reason: &Reason) -> String {
         R::TranslationWithoutDistance => "이동은 방향을 바꾸지 않습니다. 거리를 지정하거나 회전만 제거하십시오",
         R::PhotosOfNoAdjustment => "카메라 두 개만으로는 사진이 없습니다. 회전, 회전과 이동, 또는 없음을 선택하십시오",
         R::NoCameraCovariance => {
-            "조정 결과에 이 카메라 변수의 표준오차가 없습니다. 일부 변수를 추정하고 통계량을 함께 계산하십시오"
+            "조정 결과에 이 카메라 매개변수의 표준오차가 없습니다. 일부 매개변수를 추정하고 통계량을 함께 계산하십시오"
         }
         R::RegionWithoutRays => "맞춤 영역에 광선이 너무 적습니다. 영상 전체를 사용하십시오",
         R::CamerasOfTwoSizes => "두 카메라의 영상 크기가 다릅니다",
-        R::CamerasApart => "어떤 회전으로도 두 카메라가 맞지 않습니다. 같은 렌즈의 캘리브레이션이 아닙니다",
+        R::CamerasApart => "어떤 회전으로도 두 카메라가 맞지 않습니다. 같은 렌즈의 검정 결과가 아닙니다",
         R::EquationsOfAnother => {
-            "이 문서의 방정식이 조정 결과의 표준오차와 맞지 않습니다. 로버스트 가중과 여러 그룹의 분산성분 없이 현재 문서를 다시 조정하십시오"
+            "이 문서의 방정식이 조정 결과의 표준오차와 맞지 않습니다. 로버스트 경중률과 여러 묶음의 분산 성분 없이 현재 문서를 다시 조정하십시오"
         }
         R::CameraOfSeveral => "카메라가 여러 개입니다. 하나를 지정하십시오",
         R::PhotoOfCamera => "이 카메라는 사진마다 내부표정이 따로 있습니다. 사진을 지정하십시오",
@@ -176,7 +176,7 @@ pub fn reason(reason: &Reason) -> String {
         }
         R::CrossPhotos { given, needed } => {
             return format!(
-                "조정에 참여하는 이 카메라의 사진이 {given}장인데, 묶음마다 따로 캘리브레이션하려면 {needed}장이 필요합니다. 사진을 더 찍으십시오"
+                "조정에 참여하는 이 카메라의 사진이 {given}매인데, 묶음마다 따로 검정하려면 {needed}매가 필요합니다. 사진을 더 찍으십시오"
             );
         }
         R::CrossPerPhoto => {
@@ -184,25 +184,25 @@ pub fn reason(reason: &Reason) -> String {
         }
         R::PartFails { part, photos, cause } => {
             return format!(
-                "사진 묶음 {part}(사진 {photos}장)만으로는 조정할 수 없습니다. {} 점을 공유하는 사진을 더 찍거나, 각 묶음이 결정할 수 있는 기준계(자유망 또는 모든 사진에 있는 기준점)를 사용하십시오",
+                "사진 묶음 {part}(사진 {photos}매)만으로는 조정할 수 없습니다. {} 점을 공유하는 사진을 더 찍거나, 각 묶음이 결정할 수 있는 기준계(자유망 또는 모든 사진에 있는 기준점)를 사용하십시오",
                 super::errors::sentence(cause)
             );
         }
         R::PartNotConverged { part, photos } => {
             return format!(
-                "사진 묶음 {part}(사진 {photos}장)의 조정이 수렴하지 않습니다. 사진을 더 찍거나 추정할 변수를 줄이십시오"
+                "사진 묶음 {part}(사진 {photos}매)의 조정이 수렴하지 않습니다. 사진을 더 찍거나 추정할 매개변수를 줄이십시오"
             );
         }
         R::ModelsJudgedPlainly => {
-            "데이터 스누핑, 로버스트 가중, 분산성분은 잘못된 모형의 잔차를 과대오차나 잡음으로 봅니다. 먼저 과대오차를 끄고, 이 옵션들 없이 계산하십시오"
+            "데이터 스누핑, 로버스트 경중률, 분산 성분은 잘못된 모형의 잔차를 과대오차나 잡음으로 봅니다. 먼저 과대오차를 끄고, 이 옵션들 없이 계산하십시오"
         }
         R::ModelWithoutImages { missing } => {
             return format!(
-                "이 모형로는 영상점 {missing}개의 상이 생기지 않습니다. 이렇게 넓은 화각의 렌즈에는 opencv_fisheye가 필요합니다"
+                "이 모형으로는 영상점 {missing}개의 상이 생기지 않습니다. 이렇게 넓은 화각의 렌즈에는 opencv_fisheye가 필요합니다"
             );
         }
         R::ModelNotConverged => {
-            "이 모형의 조정이 수렴하지 않습니다. 렌즈가 모형과 너무 다르거나 망이 모형의 변수를 결정하지 못합니다"
+            "이 모형의 조정이 수렴하지 않습니다. 렌즈가 모형과 너무 다르거나 망이 모형의 매개변수를 결정하지 못합니다"
         }
         R::ModelNotFitted { model } => {
             return format!("카메라 모형 {model}의 어떤 값으로도 이 카메라의 광선을 나타낼 수 없습니다");
@@ -219,24 +219,24 @@ pub fn reason(reason: &Reason) -> String {
         }
         R::FeaturePoints { needed, given } => {
             return format!(
-                "이 조정에서 결정된 점이 {given}개인데 {needed}개가 필요합니다. 점을 더하거나 더 많은 사진에서 측정하십시오"
+                "이 조정에서 결정된 점이 {given}개인데 {needed}개가 필요합니다. 점을 추가하거나 더 많은 사진에서 측정하십시오"
             );
         }
         R::FeaturePointMissing { name } => {
-            return format!("점 \"{name}\"의 좌표가 이 조정에서 결정되지 않았습니다. 사진 두 장 이상에서 측정하십시오");
+            return format!("점 \"{name}\"의 좌표가 이 조정에서 결정되지 않았습니다. 사진 두 매 이상에서 측정하십시오");
         }
         R::FeatureUndetermined => {
-            "점들이 한곳, 한 직선이나 한 평면 위에 있거나 그에 너무 가까워 결정되지 않습니다. 떨어진 곳의 점을 더하십시오"
+            "점들이 한곳, 한 직선이나 한 평면 위에 있거나 그에 너무 가까워 결정되지 않습니다. 떨어진 곳의 점을 추가하십시오"
         }
         R::FeatureUnsettled => {
-            "점에 맞추는 계산이 수렴하지 않았습니다. 거의 평평한 면 위의 점에 맞춘 둥근 형상처럼 최소값이 멀리 있습니다. 떨어진 곳의 점을 더하십시오"
+            "점에 맞추는 계산이 수렴하지 않았습니다. 거의 평평한 면 위의 점에 맞춘 둥근 형상처럼 최소값이 멀리 있습니다. 떨어진 곳의 점을 추가하십시오"
         }
         R::FeatureNotFitted { name } => {
             return format!("\"{name}\": 점에 맞춘 형상이 아닙니다. 직선, 평면, 원, 구, 원통 가운데 고르십시오");
         }
         R::FeatureBroken { name } => return format!("\"{name}\" 형상을 측정할 수 없어 그에 따른 값도 없습니다"),
         R::FeatureNoDirection => "각은 두 방향(직선, 평면, 원, 원통) 사이, 또는 한 점에서 다른 두 점 사이에서 잽니다",
-        R::GivenSigma => "주어진 좌표의 표준오차는 0보다 커야 합니다. 가중치가 모두 같으면 비워 두십시오",
+        R::GivenSigma => "주어진 좌표의 표준오차는 0보다 커야 합니다. 경중률가 모두 같으면 비워 두십시오",
         R::Unmodelled { value } => {
             return format!("모형화되지 않은 오차가 {value}입니다. 0 이상의 화소 수여야 합니다");
         }
@@ -350,7 +350,7 @@ pub fn reason(reason: &Reason) -> String {
         R::Scaled { value, factor } => {
             return format!(
                 "{value} × {factor}{}",
-                "은(는) 문서에 담을 수 있는 수의 범위를 벗어납니다. 아무것도 환산하지 않았습니다"
+                "의 값이 문서에 담을 수 있는 범위를 벗어납니다. 아무것도 환산하지 않았습니다"
             );
         }
         R::ControlColumns { columns } => {
@@ -402,7 +402,7 @@ pub fn reason(reason: &Reason) -> String {
         R::SizeNotPositive { name } => return format!("{name}의 폭과 높이는 양수여야 합니다"),
         R::LensModel { model } => {
             return told(
-                "렌즈 모델 {model}{model:은|는} 이상점을 왜곡합니다. 측정점을 보정하는 모델(1부터)만 읽습니다",
+                "렌즈 모형 {model}{model:은|는} 이상점을 왜곡합니다. 측정점을 보정하는 모형(1부터)만 읽습니다",
                 &[("model", model)],
             );
         }
@@ -426,17 +426,17 @@ pub fn reason(reason: &Reason) -> String {
         R::EndsWhere { expected } => return format!("파일이 도중에 끝났습니다. 이어서 있어야 할 것: {expected}"),
         R::NoSuchCameraModel { model } => {
             return format!(
-                "카메라 모델 {model}: 지원하지 않습니다. 다른 프로그램에서 원근 모델(OpenCV, Brown)로 캘리브레이션하거나 사진의 왜곡을 보정한 뒤 가져오십시오"
+                "카메라 모형 {model}: 지원하지 않습니다. 다른 프로그램에서 원근 모형(OpenCV, Brown)로 검정하거나 사진의 왜곡을 보정한 뒤 가져오십시오"
             );
         }
         R::ConversionFails { model } => {
             return format!(
-                "카메라 모델 {model}: 이 영역에서 변환할 수 없습니다. 사진에서 실제로 사용하는 영역을 지정하십시오"
+                "카메라 모형 {model}: 이 영역에서 변환할 수 없습니다. 사진에서 실제로 사용하는 영역을 지정하십시오"
             );
         }
         R::ConversionTooLarge { max_px } => {
             return format!(
-                "두 카메라 모델의 차이가 최대 {max_px}화소입니다. convert 옵션으로 허용하거나 사진에서 실제로 사용하는 영역을 지정하십시오"
+                "두 카메라 모형의 차이가 최대 {max_px}화소입니다. convert 옵션으로 허용하거나 사진에서 실제로 사용하는 영역을 지정하십시오"
             );
         }
         R::RegionShape => "영역은 서로 다른 세 점 이상으로 이루어진 화소 좌표의 다각형이어야 합니다",
@@ -444,7 +444,7 @@ pub fn reason(reason: &Reason) -> String {
             "공분산에는 이 카메라의 매개변수와, 매개변수마다 행과 열이 하나씩 있는 대칭 양정치 행렬이 있어야 합니다"
         }
 
-        R::PitchMissing => "사진좌표는 밀리미터입니다. 카메라에 화소 간격을 주십시오",
+        R::PitchMissing => "사진좌표는 밀리미터입니다. 카메라에 화소 크기을 주십시오",
         R::ReadingSigma => "사진좌표의 표준오차는 0보다 큰 밀리미터 값이어야 합니다",
         R::TooFewMarks { measured, given, needed } => {
             return format!(
@@ -500,7 +500,7 @@ pub fn reason(reason: &Reason) -> String {
                 "지름 {value} mm의 점과 그 여백은 {width} x {height} mm 용지에 들어가지 않습니다. 용지를 키우거나 점을 줄이십시오"
             );
         }
-        R::SheetAdvice => "화면거리, 거리, 지름은 0보다 크고 각은 89°보다 작아야 합니다",
+        R::SheetAdvice => "주점거리, 거리, 지름은 0보다 크고 각은 89°보다 작아야 합니다",
 
         R::PlanCamera => "촬영 계획에는 카메라가 필요합니다",
         R::FormTooMany { limit } => return format!("한 형상의 표적은 {limit}개까지입니다. 열이나 행을 줄이십시오"),

@@ -38,7 +38,7 @@ pub fn thing(thing: Thing) -> &'static str {
         Thing::ScaleBar => "축척 막대",
         Thing::Layer => "레이어",
         Thing::Epoch => "시기",
-        Thing::Group => "그룹",
+        Thing::Group => "묶음",
         Thing::CameraModel => "카메라 모형",
     }
 }
@@ -63,7 +63,7 @@ pub fn photomodeler_part(part: PhotoModelerPart) -> &'static str {
     match part {
         P::Heading => "머리글",
         P::Size => "사진 크기",
-        P::Weights => "가중치",
+        P::Weights => "경중률",
         P::Camera => "카메라",
         P::CameraSigmas => "카메라의 표준오차",
         P::Photo => "사진",
