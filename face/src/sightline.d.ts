@@ -1,4 +1,4 @@
-/** Name of a parameter of the interior orientation; "f" stands for fx and fy as one. */
+/** Name of a parameter of the interior orientation; "f" stands for fx = fy. */
 export type Parameter = "c" | "x0" | "y0" | "k1" | "k2" | "k3" | "p1" | "p2" | "b1" | "b2" | "f" | "fx" | "fy" | "cx" | "cy" | "k4" | "k5" | "k6";
 
 /** Interior orientation: a correction added to the measured photo coordinates. Lengths in photo units (mm with a pixel pitch, else pixels). */
@@ -59,7 +59,7 @@ export interface OpencvFisheyeInterior {
 
 export type Interior = BrownInterior | OpencvInterior | OpencvRationalInterior | OpencvFisheyeInterior;
 
-/** A colour that a lens images otherwise than green. */
+/** A colour channel with lateral colour relative to green. */
 export type LensColour = "red" | "blue";
 
 /** Differences of a camera's parameters for a colour, in their own units, with their standard errors where known. */
@@ -80,9 +80,9 @@ interface CameraBase {
   free?: Parameter[];
   /** Parameters observed with an a priori standard error; these are estimated too. */
   sigma?: Partial<Record<Parameter, number>>;
-  /** Whether every photo has an interior orientation of its own. */
+  /** Whether every photo has its own interior orientation. */
   per_photo?: boolean;
-  /** What is added to the parameters for photos measured in another colour than the camera is calibrated in; held. */
+  /** Added to the parameters for photos measured in another channel than the camera is calibrated in; held. */
   colours?: Partial<Record<LensColour, ColourDifferences>>;
 }
 
@@ -101,9 +101,9 @@ export interface Photo {
   sigma_position?: [number | null, number | null, number | null] | null;
   /** The photo's own interior orientation, for a camera with per_photo. */
   interior?: Interior | null;
-  /** SHA-256 of the file in hexadecimal digits, where it was looked into. */
+  /** SHA-256 of the file in hexadecimal digits, if known. */
   sha256?: string;
-  /** Colour that its centres were measured in, where that is red or blue; null: the one its camera is calibrated in. */
+  /** Channel in which its centres were measured, if red or blue; null: the channel its camera is calibrated in. */
   colour?: LensColour | null;
 }
 
@@ -117,8 +117,8 @@ export interface Point {
   /** Diameter of the circular target in the object's unit. */
   diameter?: number | null;
   /**
-   * Normal of the target's plane in the object system, of any length and either sign; null: that of the surface which its
-   * neighbours show. Used where there is a diameter.
+   * Normal of the target's plane in the object system, of any length and either sign; null: estimated from neighbouring points.
+   * Used only with a diameter.
    */
   normal?: [number, number, number] | null;
 }
@@ -131,7 +131,7 @@ export interface Observation {
   v: number;
   sigma: number | [number, number];
   enabled?: boolean;
-  /** Number of the photo's target whose centre it is. */
+  /** Number of the target in the photo whose centre was measured. */
   target?: number | null;
 }
 
@@ -140,7 +140,7 @@ export interface Distance {
   to: string | number;
   length: number;
   sigma: number;
-  /** Compared only, takes no part [false]. */
+  /** Compared only, not used in the adjustment [false]. */
   check?: boolean;
 }
 
@@ -149,7 +149,7 @@ export type ReportSection =
   | "summary" | "uncertainty" | "observations" | "cameras" | "network" | "photos" | "points" | "control" | "lengths" | "statistics" | "residuals"
   | "gross_errors" | "features" | "settings" | "all_observations";
 
-/** What the report says besides its numbers; no input of the adjustment. */
+/** Contents and layout of the report; not an input of the adjustment. */
 export interface ReportSettings {
   /** [the project's name] */
   title?: string;
@@ -164,25 +164,25 @@ export interface ReportSettings {
   paper?: "a4" | "letter";
   /** [["all_observations"]] */
   left_out?: ReportSection[];
-  /** Of expanded uncertainties [2]. */
+  /** Coverage factor of expanded uncertainties [2]. */
   coverage_factor?: number;
-  /** The largest length measurement error that is permitted: constant + length / per, in the project's unit. */
+  /** Maximum permitted length measurement error: constant + length / per, in the project's unit. */
   length_limit?: { constant: number; per?: number | null } | null;
-  /** Colours that were measured apart, photo by photo: told with their cameras. */
+  /** Lateral colour measured photo by photo; reported with the cameras. */
   colours?: PhotoColours[];
 }
 
-/** How far a lens images a colour from green: pixels outwards at the picture's corner. */
+/** Lateral colour of a channel relative to green: pixels outwards at the picture's corner. */
 export interface ColourShift {
   /** Part that grows with the radius. */
   linear: number;
-  /** Part that grows with its third power. */
+  /** Part that grows with the third power of the radius. */
   cubic: number;
-  /** Standard error of both together. */
+  /** Standard error of the sum of both. */
   sigma: number;
-  /** Rms of what is left of a target's difference. */
+  /** Rms of the residual differences of the targets. */
   rms: number;
-  /** Targets that it is from. */
+  /** Number of targets used. */
   targets: number;
   /** Shift of the whole picture, to the right and downwards. */
   shift?: [number, number];
@@ -190,12 +190,12 @@ export interface ColourShift {
   covariance?: number[];
 }
 
-/** Lateral chromatic aberration as the targets of one photo show it. */
+/** Lateral chromatic aberration measured on the targets of one photo. */
 export interface PhotoColours {
   photo: string | number;
   /** Radius of the picture's corners in pixels. */
   corner: number;
-  /** Middle of the picture, from which radii count. */
+  /** Middle of the picture, origin of the radii. */
   centre?: [number, number];
   red?: ColourShift | null;
   blue?: ColourShift | null;
@@ -206,7 +206,7 @@ export interface Datum {
   points?: (string | number)[] | null;
 }
 
-/** The document. Fields may be left out where they are optional; what the engine returns has them all. */
+/** The document. Optional fields may be left out; documents returned by the engine have all fields. */
 export interface Project {
   format: "sightline";
   version: 1;
@@ -218,35 +218,35 @@ export interface Project {
   observations?: Observation[];
   distances?: Distance[];
   datum?: Datum;
-  /** Observations that the last orientation disabled, with the reason; the next one looks at them anew. */
+  /** Observations disabled by the last orientation, with the reason; the next orientation tests them again. */
   set_aside?: {
     photo: string;
     point: string;
-    /** undecided: as many observations of the point speak for another place as for this one. */
+    /** undecided: the point has two positions with equally many observations. */
     reason: "disagrees" | "photo_not_oriented" | "point_not_determined" | "undecided";
-    /** Distance from where the point should have been. */
+    /** Distance from the predicted position. */
     distance_px?: number | null;
     /** ["orientation"] */
     by?: "orientation" | "matching";
   }[];
-  /** What is measured on every result of this document. */
+  /** Features measured on every result of this document. */
   features?: Feature[];
-  /** Coordinate systems laid through every result. */
+  /** Coordinate systems computed for every result. */
   systems?: CoordinateSystem[];
   /** Lines between points, for drawings. */
   lines?: { from: string | number; to: string | number; layer?: string }[];
   /** Layers of the lines; `colour` is red, green, blue, 0 to 255. */
   layers?: { id: string | number; colour: [number, number, number] }[];
   report?: ReportSettings;
-  /** What was planned before the photos were taken. */
+  /** Plan made before the photos were taken. */
   plan?: Plan;
-  /** The project whose later epoch this is, with this one's number in the series. */
+  /** The project of epoch 0, with the number of this epoch in the series. */
   epoch?: { name: string; key?: string; number: number; names?: Record<string, string> };
   /** Files of another program that the project was read from. */
   origin?: Origin;
 }
 
-/** Files of another program that were read: what was assumed, left out and converted. It is no input of the adjustment. */
+/** Files of another program that were read, with assumptions, ignored data and conversions. Not an input of the adjustment. */
 export interface Origin {
   format: string;
   files?: string[];
@@ -258,7 +258,7 @@ export interface Origin {
 /** An end of a distance or a side of an angle. */
 export type End = { point: string | number } | { feature: string | number };
 
-/** A point with coordinates of another system; `sigma` is its weight, left out where all weigh alike. */
+/** A point with coordinates of another system; `sigma` gives its weight; leave it out for equal weights. */
 export interface GivenPoint {
   id: string | number;
   xyz: [number, number, number];
@@ -266,10 +266,11 @@ export interface GivenPoint {
 }
 
 /**
- * A named feature. Forms are of least squared distances from their points: a line from 2 on, a plane or a circle from 3, a sphere from
- * 4, a cylinder from 6. Of two planes the distance is that of the second's centroid from the first, of a line and a plane that of the line's
- * centroid, of lines parallel within 5° that of the second's centroid. An angle is at the place `at` (0 to 180°), or between directions of lines and axes and normals of planes and circles (0
- * to 90°). Deviations are from a form (positive outside, or on the side of the normal) or from `given` coordinates of the same names.
+ * A named feature. Forms are fitted by least squares of the orthogonal distances: a line needs 2 points, a plane or a circle 3, a sphere
+ * 4, a cylinder 6. The distance of two planes is that of the second's centroid from the first; of a line and a plane, that of the line's
+ * centroid; of lines parallel within 5°, that of the second's centroid. An angle has its vertex at `at` (0 to 180°), or lies between
+ * directions of lines and axes and normals of planes and circles (0 to 90°). Deviations are from a form (positive outside, or on the side
+ * of the normal) or from `given` coordinates of the same names.
  */
 export type Feature = { id: string | number } & (
   | { kind: "line" | "plane" | "circle" | "sphere" | "cylinder"; points: (string | number)[] }
@@ -280,7 +281,7 @@ export type Feature = { id: string | number } & (
 
 /**
  * A named coordinate system. automatic: Z the normal of the points' plane towards the photos, X their longer extent, the origin their centroid.
- * plane_line_point (3-2-1): Z is 0 in the plane, Y on the line, X at the point. best_fit: of least weighted squares to given coordinates.
+ * plane_line_point (3-2-1): Z is 0 in the plane, Y on the line, X at the point. best_fit: weighted least squares fit to given coordinates.
  */
 export type CoordinateSystem = { id: string | number } & (
   | { kind: "automatic"; points?: (string | number)[] }
@@ -301,7 +302,7 @@ export interface FeatureResidual {
 export interface MeasuredFeature {
   id: string;
   kind: "line" | "plane" | "circle" | "sphere" | "cylinder" | "distance" | "angle" | "deviations";
-  /** Points that it was computed from. */
+  /** Number of points used. */
   points: number;
   quantity: "distance" | "angle" | "diameter" | null;
   /** In the project's unit; angles in radians. */
@@ -315,23 +316,23 @@ export interface MeasuredFeature {
   sigma_direction: number | null;
   /** Rms of the distances from the form. */
   rms: number | null;
-  /** Smallest and largest of them. */
+  /** Smallest and largest distance from the form. */
   range: [number, number] | null;
   residuals?: FeatureResidual[];
-  /** What is drawn: ends of a distance, sides of an angle about its place, ends of a line or an axis. */
+  /** Points to draw: ends of a distance, sides and vertex of an angle, ends of a line or an axis. */
   ends?: [number, number, number][];
-  /** Why it has no standard errors though there are statistics: it, or what it is measured from, is so weakly determined that they mean
-   * nothing. Standard error of the radius over the radius, or of the direction in radians. */
+  /** Present if the feature, or one it is measured from, is too weakly determined for standard errors: standard error of the radius
+   * divided by the radius, or of the direction in radians. */
   weak?: number;
-  /** Rms over the largest extent of the points, where it is above 0.02: they hardly form what was fitted to them. */
+  /** Rms divided by the largest extent of the points, if above 0.02: the points do not form the feature. */
   misfit?: number;
-  /** Its points that this adjustment has not. */
+  /** Its points that are not in this adjustment. */
   missing?: string[];
   /** Why there is no result. */
   error?: { code: string; [name: string]: unknown };
 }
 
-/** A coordinate system laid through a result: x' = scale * rotation * x + shift. */
+/** A coordinate system of a result: x' = scale * rotation * x + shift. */
 export interface MeasuredSystem {
   id: string;
   rotation: [[number, number, number], [number, number, number], [number, number, number]];
@@ -342,23 +343,23 @@ export interface MeasuredSystem {
   /** Of a best fit with redundancy. */
   sigma0?: number;
   residuals?: FeatureResidual[];
-  /** All adjusted points in it. */
+  /** All adjusted points in this system. */
   points: { id: string; xyz: [number, number, number]; sigma?: [number, number, number] }[];
   missing?: string[];
   error?: { code: string; [name: string]: unknown };
 }
 
-/** What `measureFeatures` gives. */
+/** Result of `measureFeatures`. */
 export interface Measured {
   features: MeasuredFeature[];
   systems: MeasuredSystem[];
 }
 
-/** Points that lie at given coordinates. */
+/** Points matched to given coordinates. */
 export interface Renaming {
   /** Present name, given name, distance. */
   pairs: [string, string, number][];
-  /** Given points that are not the only ones near one point, or have several near them. */
+  /** Given points with several candidates, or that share a candidate. */
   ambiguous: string[];
   not_found: string[];
 }
@@ -415,7 +416,7 @@ export interface LinearSystem {
   l: number[];
   /** Weights, 1 / sigma^2. */
   p: number[];
-  /** Rows D of the datum's constraints; none under control. */
+  /** Rows D of the datum constraints; empty for the control datum. */
   constraints: SparseMatrix;
   redundancy: number;
 }
@@ -425,35 +426,35 @@ export interface NormalEquations {
   blocks: { name: string; kind: "photo" | "camera" | "point"; first: number; size: number; eliminated: boolean }[];
   N: SparseMatrix;
   b: number[];
-  /** `unknowns` are the places of its unknowns among all. */
+  /** `unknowns` are the indices of its unknowns among all. */
   reduced: { unknowns: number[]; S: SparseMatrix; b: number[] };
   /** Blocks in the order in which they are eliminated. */
   elimination_order: number[];
   /** Entries of the lower triangle: of N, of its Cholesky factor, and of the factor with the photos eliminated first. */
   fill_in: { matrix: number; factor: number; factor_photos_first: number };
   rank: number;
-  /** Movements that no observation sees; rotations and scale about the object's centre. */
+  /** Movements that change no observation; rotations and scale about the object's centre. */
   null_space: { name: string; vector: number[] }[];
 }
 
-/** An adjustment that is run step by step. */
+/** An adjustment run step by step. */
 export interface Adjuster {
-  /** Takes one step and gives the state after it; nothing changes after the last one. */
+  /** Takes one step and returns the new state; has no effect after the last step. */
   step(): StepState;
-  /** Goes back by one step and gives the state there; stays at the initial values. */
+  /** Goes back one step and returns that state; stops at the initial values. */
   back(): StepState;
-  /** The present state. */
+  /** The current state. */
   state(): StepState;
-  /** The whole adjustment, as `adjust` gives it. */
+  /** Completes the adjustment; returns the result of `adjust`. */
   finish(): Adjustment;
 }
 
 /** State of an adjustment after a step. */
 export interface StepState {
   step: number;
-  /** The project with the present values as initial values. */
+  /** The project with the current values as initial values. */
   project: Project;
-  /** The iteration that led here. */
+  /** The iteration that led to this state. */
   iteration?: Iteration;
   weighted_squares: number;
   sigma0?: number;
@@ -472,24 +473,24 @@ export interface AdjustOptions {
   statistics?: "none" | "precision" | "full";
   /** [null] */
   robust?: null | "huber" | "tukey";
-  /** Scale of robust weights: estimated and never below the a priori standard errors, or estimated wherever it falls ["at_least_prior"]. */
+  /** Scale of robust weights: estimated but at least the a priori standard errors, or estimated without a bound ["at_least_prior"]. */
   robust_scale?: "at_least_prior" | "estimated";
   /** [false] */
   snooping?: boolean;
   /**
-   * Where the brown model's residuals are taken: in the measurement, where the weights belong, or at the corrected place as other programs do, to compare
-   * with them ["measured"].
+   * Where the residuals of the brown model are computed: at the measured position, to which the weights refer, or at the corrected position
+   * as in other programs, for comparison ["measured"].
    */
   residuals?: "corrected" | "measured";
   /** Estimates the variances of image coordinates, control and the rest until sigma0 is 1; not with robust weights [null]. */
   variance_components?: null | { per_camera?: boolean; unmodelled?: boolean };
-  /** Standard deviation of what is not modelled, added in quadrature to that of every image coordinate, pixels [0]. */
+  /** Extra image error, a standard deviation added in quadrature to that of every image coordinate, pixels [0]. */
   unmodelled?: number;
-  /** Diameter of the circular targets that state none of their own, in the project's unit: frees them of their eccentricity [null]. */
+  /** Diameter of circular targets without a diameter of their own, in the project's unit: corrects their eccentricity [null]. */
   target_diameter?: null | number;
-  /** Points whose full covariance matrix is wanted [none]. */
+  /** Points whose full covariance matrix is returned [none]. */
   covariance_of?: string[];
-  /** Called after every iteration; returning false stops. */
+  /** Progress callback, called after every iteration; return `false` to cancel. */
   on_iteration?: (iteration: Iteration) => void | boolean;
 }
 
@@ -499,13 +500,13 @@ export interface Correlation {
 }
 
 export interface AdjustedCameraResult {
-  /** The photo whose own interior orientation this is. */
+  /** The photo to which this interior orientation belongs, for a camera with per_photo. */
   photo?: string;
   /** Standard errors of the estimated parameters. */
   sigma: Partial<Record<Parameter, number>>;
-  /** The a priori ones of the document's camera; absent where there are none. */
+  /** A priori standard errors of the document's camera; absent if none. */
   sigma_a_priori?: Partial<Record<Parameter, number>>;
-  /** Size of each estimated parameter of distortion in standard errors. */
+  /** Absolute value of each estimated distortion parameter divided by its standard error. */
   significance: Partial<Record<Parameter, number>>;
   correlation: Correlation;
 }
@@ -544,7 +545,7 @@ export interface AdjustedObservation {
   photo: string;
   point: string;
   /**
-   * Residuals in the photo's unit. Of an observation that took no part: what it says beside the adjusted values; null where photo or
+   * Residuals in the photo's unit. For an observation that was not used: its difference from the adjusted values; null if photo or
    * point are not adjusted.
    */
   vx: number | null;
@@ -558,7 +559,7 @@ export interface AdjustedObservation {
   /** Minimal detectable bias. */
   mdb_x: number | null;
   mdb_y: number | null;
-  /** External reliability: how far a bias of that size, undetected, moves the point, in the project's unit and datum. */
+  /** External reliability: effect of an undetected bias of that size on the point, in the project's unit and datum. */
   effect_x: number | null;
   effect_y: number | null;
   /** Factor on the weight from robust weighting; absent where it is 1. */
@@ -568,17 +569,17 @@ export interface AdjustedObservation {
 
 /** An observation of another kind than image coordinates. */
 export type GivenObservation = {
-  /** Null where what was observed is not adjusted. */
+  /** Null if the observed quantity is not adjusted. */
   residual: number | null;
   sigma: number;
   reliability: { redundancy: number; w: number | null; mdb: number | null } | null;
-  /** External reliability: how far a bias of that size, undetected, moves the point that it moves most, in the project's unit. */
+  /** External reliability: largest effect of an undetected bias of that size on a point, in the project's unit. */
   effect: number | null;
-  /** That point: the control point itself, an end of the distance, a point of the photo, a point the camera sees. */
+  /** The most affected point: the control point itself, an end of the distance, a point of the photo, a point seen by the camera. */
   effect_point: string | null;
   /** Factor on the weight from robust weighting; absent where it is 1. */
   weight?: number;
-  /** False where data snooping took it out; the residual is then beside the adjusted value. */
+  /** False if excluded by data snooping; the residual is then the difference from the adjusted value. */
   enabled: boolean;
 } & Given;
 
@@ -589,19 +590,19 @@ export type Given =
   | { kind: "distance"; from: string; to: string }
   | { kind: "parameter"; camera: string; photo: string | null; parameter: Parameter };
 
-/** What the search for gross errors did with an observation. */
+/** Action of the gross error search on an observation. */
 export interface GrossError {
   /** Empty for observations without one. */
   photo: string;
   /** Empty for observations without one. */
   point: string;
-  /** What was observed; null for image coordinates. */
+  /** The observed quantity; null for image coordinates. */
   given: Given | null;
   action: "removed" | "restored" | "downweighted" | "kept";
   statistic: number;
   limit: number;
   round: number;
-  /** Whether it went only because another did: its point was left with this one ray. */
+  /** Whether it was excluded only because its point had a single ray left. */
   consequence: boolean;
 }
 
@@ -611,7 +612,7 @@ export interface GrossError {
  */
 export type PatternKind = "radius" | "tangential" | "affine" | "row" | "column" | "position" | "photo";
 
-/** What to do about a pattern of the residuals. */
+/** Remedy for a pattern of the residuals. */
 export type Remedy =
   | { kind: "estimate"; parameters: Parameter[] }
   | { kind: "model"; models: string[] }
@@ -626,7 +627,7 @@ export interface ResidualPattern {
   kind: PatternKind;
   /** Kind photo: photos with an interior orientation of their own; missing: all. */
   photos?: string[];
-  /** How many photos were tested one by one: kinds row, column and photo. Of very large networks it is a part of them. */
+  /** Number of photos tested one by one (kinds row, column and photo); only a part of very large networks. */
   photos_tested?: number;
   /** Degrees of freedom of the pattern. */
   degrees: number;
@@ -642,18 +643,18 @@ export interface ResidualPattern {
   named: boolean;
 }
 
-/** The parameters of a camera that are hardly told apart, or those of a photo from its camera's. */
+/** Strongly correlated parameters of a camera, or of a photo with its camera. */
 export interface CorrelationGroup {
   camera: string;
-  /** Where one parameter of each pair is the photo's, or the interior orientation is. */
+  /** The photo, if one parameter of each pair or the interior orientation belongs to a photo. */
   photo: string | null;
   /** The largest correlation first. */
   pairs: { first: string; second: string; correlation: number }[];
-  /** The parameter that is held at the least cost; null where neither of the first pair is a camera's. */
+  /** The parameter to hold first; null if neither of the first pair belongs to a camera. */
   hold: Parameter | null;
 }
 
-/** What a solvable network is weak in. */
+/** Weaknesses of a solvable network. */
 export type Advice =
   | { kind: "high_correlation"; camera: string; photo: string | null; first: string; second: string; correlation: number }
   | { kind: "low_redundancy"; observations: [string, string][]; given: Given[] }
@@ -664,12 +665,12 @@ export type Advice =
   | { kind: "weak_principal_distance"; camera: string; photo: string | null; parameter: string; value: number; sigma: number; convergence: number }
   | { kind: "gross_errors_unsettled" }
   | { kind: "variance_components_unsettled" }
-  /** The residuals of a camera are systematic: what they depend on, and what to do. Stands before anything that takes them as noise. */
+  /** The residuals of a camera are systematic: pattern and remedy. Listed before advice that treats them as noise. */
   | {
       kind: "residual_pattern";
       camera: string;
       pattern: PatternKind;
-      /** Photos that it is about; empty: all. */
+      /** Photos concerned; empty: all. */
       photos: string[];
       p_value: number;
       rms_px: number;
@@ -678,11 +679,11 @@ export type Advice =
       sigma0: number;
       remedy: Remedy;
     }
-  /** The global test failed with a sigma0 beyond its limit; `unmodelled` would make the residuals agree, pixels. */
+  /** The global test failed with a sigma0 beyond its limit; the extra image error `unmodelled` (pixels) would make it pass. */
   | { kind: "sigmas_too_small"; sigma0: number; unmodelled: number | null }
-  /** The test fails although `unmodelled` was given: this value instead. */
+  /** The test fails although `unmodelled` was given; use this value instead. */
   | { kind: "unmodelled_again"; sigma0: number; unmodelled: number }
-  /** A parameter of distortion that is not told from 0, and the one it is most correlated with. */
+  /** A distortion parameter that is not significantly different from 0, and the one with which it is most correlated. */
   | {
       kind: "insignificant";
       camera: string;
@@ -692,32 +693,32 @@ export type Advice =
       with: Parameter | null;
       correlation: number | null;
     }
-  /** Observations whose |w| exceeds the critical value, told where the largest is too large for one of so many: image observations with the
-   * largest (at most 20), others. */
+  /** Observations whose |w| exceeds the critical value, reported if the largest is significant among so many: image observations with the
+   * largest |w| (at most 20), others. */
   | { kind: "suspected"; count: number; observations: [string, string, number][]; given: [Given, number][] }
-  /** Given minus where everything else sees the point, and its size in standard errors of the difference. */
+  /** Given coordinates minus those from all other observations, and the size of the difference in its standard errors. */
   | { kind: "control_misfit"; point: string; difference: [number, number, number]; sigma_ratio: number }
   /** Two control points whose coordinates fit when they are exchanged. */
   | { kind: "exchanged_points"; points: [string, string] }
-  /** Points nearer to each other than their standard errors tell apart. */
+  /** Points closer than their standard errors can separate. */
   | { kind: "double_points"; pairs: [string, string][] }
   | ({ kind: "mirrored_control" } & MirroredControl)
   | ({ kind: "undecided_axes" } & UndecidedAxes)
   | ({ kind: "unit_ratio" } & UnitRatio)
   | ({ kind: "one_station" } & OneStation)
   | ({ kind: "implausible_camera" } & ImplausibleCamera)
-  /** Nothing gives a scale: lengths are right relative to each other only and have no unit. */
+  /** No scale: lengths have no unit; only their ratios are right. */
   | { kind: "no_scale" };
 
-/** An item of the input that took no part in the adjustment. */
+/** An item of the input that was not used in the adjustment. */
 export interface LeftOut {
   /** control: a control point, or one of its coordinates (`given` has the axis). */
   kind: "observation" | "control" | "distance" | "point" | "photo" | "position" | "parameter";
   photo?: string;
   point?: string;
-  /** What was observed, of other kinds than image coordinates: ends of a distance, axis of a coordinate. */
+  /** The observed quantity, for kinds other than image coordinates: ends of a distance, axis of a coordinate. */
   given?: Given;
-  /** document: somebody disabled it; adjustment: what it depends on did not take part. */
+  /** document: disabled in the document; adjustment: an item it depends on was not used. */
   by: "orientation" | "matching" | "snooping" | "robust" | "document" | "adjustment";
   reason:
     | "disagrees"
@@ -730,9 +731,9 @@ export interface LeftOut {
     | "disabled"
     | "photo_disabled"
     | "not_measured";
-  /** Image observations: distance from where the adjusted values place it. */
+  /** Image observations: distance from the position computed with the adjusted values. */
   size_px?: number;
-  /** Others: adjusted minus given; of a control point the distance of the given coordinates from where the photos see it. */
+  /** Others: adjusted minus given; for a control point the distance of the given coordinates from the position in the photos. */
   size?: number;
   /** The same in standard errors of the difference; absent without statistics. */
   size_sigma?: number;
@@ -741,8 +742,8 @@ export interface LeftOut {
 /** Two axes exchanged, or one with the other sign. */
 export type Exchange = "xy" | "xz" | "yz" | "x" | "y" | "z";
 
-/** Given coordinates are a mirror image of what the photos show. `exchange` undoes it; `alternatives` would as well, and photos and sizes of
- * coordinates do not tell which it was. Standard deviations of a coordinate in the similarity of both, project unit. */
+/** Given coordinates are a mirror image of the object. `exchange` corrects it; `alternatives` would as well, and the photos cannot distinguish
+ * them. Standard deviations of a coordinate in the similarity transformation between both, project unit. */
 export interface MirroredControl {
   exchange: Exchange;
   alternatives?: Exchange[];
@@ -751,14 +752,14 @@ export interface MirroredControl {
   points: number;
 }
 
-/** Given points lie in a plane, and nothing tells whether their axes are mirrored. With the axes as given the cameras stand on the side that
- * `normal` points to. */
+/** Given points lie in a plane, so the data do not show whether their axes are mirrored. With the axes as given, the cameras are on the side
+ * to which `normal` points. */
 export interface UndecidedAxes {
   points: number;
   normal: [number, number, number];
 }
 
-/** Something is `ratio` times as long as the rest implies, about as much as two units differ (`nearest`: 1000, 25.4, 304.8, 10, 12, 100 ...
+/** A length is `ratio` times the value implied by the other data, close to the ratio of two units (`nearest`: 1000, 25.4, 304.8, 10, 12, 100 ...
  * or an inverse). */
 export interface UnitRatio {
   of: "control" | "distance" | "camera";
@@ -770,21 +771,21 @@ export interface UnitRatio {
   camera?: string;
 }
 
-/** Photos taken from one place; all of them: there is no depth and no principal distance. */
+/** Photos taken from one place; if all were, depth and principal distance are undetermined. */
 export interface OneStation {
   photos: string[];
   all: boolean;
 }
 
-/** A camera that cannot be what it is said to be; orientation does not use it as given. */
+/** A camera with implausible data; orientation does not use it as given. */
 export type ImplausibleCamera = { camera: string } & (
   /** Along the longer side, radians; below 1° or above 150°. `pixels`: the camera has no pixel pitch, so that `value` counts pixels. */
   | { reason: "field_of_view"; angle: number; value: number; pixels: boolean }
-  /** Photos with measurements outside of the camera's pictures; largest u and v. */
+  /** Photos with measurements outside the camera's image size; largest u and v. */
   | { reason: "image_size"; photos: string[]; size: [number, number]; measured: [number, number] }
   /** A photo of `factor` times the camera's size. */
   | { reason: "resized"; photo: string; factor: number }
-  /** A photo that is the part of a picture that begins at `offset`, pixels. */
+  /** A photo cropped from an image of the camera, starting at `offset`, pixels. */
   | { reason: "cropped"; photo: string; offset: [number, number] }
   /** A photo taken at another principal distance. */
   | { reason: "other_distance"; photo: string; value: number }
@@ -801,23 +802,23 @@ export interface VarianceComponent {
     | { kind: "parameter" };
   observations: number;
   redundancy: number;
-  /** Factor on the a priori standard errors of the group, and its standard error; null where too little checks the group. */
+  /** Factor on the a priori standard errors of the group, and its standard error; null if the redundancy of the group is too small. */
   factor: number;
   factor_sigma: number | null;
-  /** Standard deviation of what is not modelled, pixels; null unless asked for. */
+  /** Extra image error, pixels; null unless requested. */
   unmodelled: number | null;
   unmodelled_sigma: number | null;
-  /** Of image coordinates: root mean square of the a priori standard errors that the factor belongs to, pixels. */
+  /** Image coordinates: root mean square of the a priori standard errors to which the factor applies, pixels. */
   a_priori_px: number | null;
-  /** Why nothing was estimated of the group, whose a priori standard errors stay; null where it was. */
+  /** Why the group was not estimated and keeps its a priori standard errors; null if it was. */
   not_estimated: null | { kind: "little_redundancy"; needed: number } | { kind: "no_residuals" };
 }
 
-/** By what observations, parameters and the network are judged. */
+/** Criteria of the tests and of the advice. */
 export interface Criteria {
   /** Two-sided error probability of the tests on single observations. */
   alpha: number;
-  /** Power with which a minimal detectable bias is found. */
+  /** Power with which a minimal detectable bias is detected. */
   power: number;
   /** Two-sided error probability of the global test. */
   global_alpha: number;
@@ -827,23 +828,23 @@ export interface Criteria {
   tau: number | null;
   /** Non-centrality of minimal detectable biases. */
   noncentrality: number;
-  /** Observations with a smaller redundancy number are checked by nothing. */
+  /** Observations with a smaller redundancy number are unchecked. */
   unchecked: number;
   /** Observations with a smaller redundancy number are hardly checked. */
   low_redundancy: number;
-  /** Parameters with a larger |correlation| are hardly told apart. */
+  /** Parameters with a larger |correlation| are strongly correlated. */
   high_correlation: number;
-  /** Rays that meet under a smaller angle determine no depth, radians. */
+  /** Rays that intersect at a smaller angle determine no depth, radians. */
   narrow_intersection: number;
-  /** Parameters of distortion below so many of their standard errors are not told from 0. */
+  /** Distortion parameters below this multiple of their standard errors are not significantly different from 0. */
   significance: number;
-  /** A sigma0 beyond this, with the global test failed: the standard errors are too small. */
+  /** A sigma0 above this, with the global test failed, means that the standard errors are too small. */
   sigma0: number;
 }
 
 /** The result; no number in it is NaN or infinite. */
 export interface Adjustment {
-  /** What was asked for. */
+  /** The options used. */
   options: Required<Omit<AdjustOptions, "on_iteration">>;
   termination: "converged" | "iteration_limit" | "diverged" | "stopped";
   iterations: Iteration[];
@@ -853,18 +854,18 @@ export interface Adjustment {
   redundancy: number;
   /** Null where the redundancy is 0. */
   sigma0: number | null;
-  /** Null where the redundancy is 0, and where variance components were estimated, which make the statistic the redundancy. */
+  /** Null if the redundancy is 0, and with estimated variance components, which make the statistic equal to the redundancy. */
   global_test: { statistic: number; lower: number; upper: number; passed: boolean } | null;
-  /** Rms of the residuals of all image coordinates that took part, pixels. */
+  /** Rms of the residuals of all image coordinates used, pixels. */
   rms_px: number | null;
   criteria: Criteria;
   cameras: AdjustedCamera[];
   photos: AdjustedPhoto[];
   points: AdjustedPoint[];
-  /** In the project's order; the rows are made when they are first read. */
+  /** In the project's order; created when first read. */
   observations: AdjustedObservation[];
   check_points: { id: string; difference: [number, number, number] | null }[];
-  /** Distances that are compared only, adjusted minus given; sigma from the full covariance of their ends. */
+  /** Check distances, adjusted minus given; sigma from the full covariance of their ends. */
   check_distances?: { from: string; to: string; length: number; difference: number | null; sigma: number | null }[];
   precision: {
     rms_sigma: [number, number, number];
@@ -885,18 +886,18 @@ export interface Adjustment {
   } | null;
   given: GivenObservation[];
   gross_errors: GrossError[];
-  /** Every target with a diameter: its largest correction in pixels, null where its normal is not known. There when a target has a diameter. */
+  /** Largest correction in pixels of every target with a diameter, null if its normal is unknown. Present if a target has a diameter. */
   eccentricity?: { point: string; correction_px: number | null }[];
-  /** There when asked for. */
+  /** Present if requested. */
   variance_components?: VarianceComponent[];
   /** Tests of the image residuals for patterns; missing without full statistics, and where the iteration did not converge. */
   patterns?: ResidualPattern[];
   advice: Advice[];
   /** Its `high_correlation` entries in groups; missing without any. */
   correlation_groups?: CorrelationGroup[];
-  /** Every item of the input that took no part; empty when all took part. */
+  /** Every item of the input that was not used; empty if all were. */
   left_out: LeftOut[];
-  /** Of the points asked for, three rows each in their order. */
+  /** Of the requested points, three rows each in their order. */
   covariance?: { points: string[]; matrix: number[][] };
   /** The document's features, measured on this result. */
   features?: MeasuredFeature[];
@@ -909,7 +910,7 @@ export type CodeFamily =
   | "ring-12" | "ring-14" | "ring-16" | "ring-20"
   | "metashape-12" | "metashape-14" | "metashape-16" | "metashape-20";
 
-/** One way to read a ring; its margin is 0 where the reading is doubtful within its family. */
+/** A possible reading of a ring; the margin is 0 if the reading is doubtful within its family. */
 export interface CodeCandidate {
   family: CodeFamily;
   number: number;
@@ -920,7 +921,7 @@ export interface CodeCandidate {
 export interface CodeSpread {
   /** All numbers of the family, those with the largest mutual distance first. */
   numbers: number[];
-  /** How many of the first numbers differ from each other, however they are turned, in at least so many sectors; descending. */
+  /** How many of the first numbers differ by at least `distance` sectors in every rotation; descending. */
   counts: { distance: number; codes: number }[];
 }
 
@@ -931,17 +932,17 @@ export interface DetectOptions {
   polarity?: "auto" | "bright" | "dark";
   /** ["grey"] the luma plane of a colour JPEG as stored; of other colour pictures 0.2126 R + 0.7152 G + 0.0722 B */
   channel?: "grey" | "red" | "green" | "blue";
-  /** Which ring codes are read; "auto": those of the one family that explains every ring of the photo ["none"] */
+  /** Ring codes to read; "auto": the only family that fits every ring of the photo ["none"] */
   codes?: "none" | CodeFamily | "auto";
-  /** Smallest full axis of a target in pixels, its minor axis [5]. */
+  /** Minimum full minor axis of a target in pixels [5]. */
   min_diameter?: number;
-  /** Largest full axis of a target in pixels [400]. */
+  /** Maximum full major axis of a target in pixels [400]. */
   max_diameter?: number;
-  /** Smallest ratio of a target's axes, 0.15 to 1: the cosine of the steepest view that is measured [0.29]. */
+  /** Minimum ratio of a target's axes, 0.15 to 1: the cosine of the largest viewing angle [0.29]. */
   min_axis_ratio?: number;
 }
 
-/** How good a target's image is. */
+/** Quality of a target's image. */
 export interface Quality {
   fit_rms: number;
   noise: number;
@@ -949,13 +950,13 @@ export interface Quality {
   saturated: number;
   roundness: number;
   occluded: number;
-  /** Safety of the code reading, 0 (a coin toss) to 1; null where no ring was seen. */
+  /** Reliability of the code reading, 0 (a coin toss) to 1; null if no ring was detected. */
   code_margin: number | null;
-  /** Why a ring was seen but not read. */
+  /** Why a ring was detected but not read. */
   code_note: "all_set" | "no_code" | "disturbed" | "between_levels" | "other_family" | "uncertain" | "several_families" | "unread" | null;
 }
 
-/** The inner rim of a donut: pixels, radians; major and minor are the ellipse's full axes. */
+/** The inner edge of a ring-shaped target: pixels, radians; major and minor are the ellipse's full axes. */
 export interface InnerRim {
   u: number;
   v: number;
@@ -971,7 +972,7 @@ export interface InnerRim {
 
 /** A target of a photo: pixels, radians; major and minor are the ellipse's full axes. */
 export interface Target {
-  /** Number in its photo, from 1; 0 for a target measured by itself. */
+  /** Number in its photo, from 1; 0 for a target measured individually. */
   id: number;
   u: number;
   v: number;
@@ -986,9 +987,9 @@ export interface Target {
   code: number | null;
   /** Family of the code. */
   code_family: CodeFamily | null;
-  /** The codes that the ring may be where it is not safely one, and under "auto" those of other families; margin 0 where in doubt. */
+  /** Possible codes if the reading is not reliable, and under "auto" those of other families; margin 0 if doubtful. */
   code_candidates: CodeCandidate[];
-  /** The rim of a hole in it: of a donut the outer rim is the target. */
+  /** The inner edge of a ring-shaped target, whose outer edge is the target. */
   inner?: InnerRim;
   quality: Quality;
 }
@@ -997,55 +998,55 @@ export type RejectionReason =
   | "too_small" | "too_large" | "not_an_ellipse" | "too_flat" | "low_contrast" | "touching" | "saturated" | "at_border" | "occluded"
   | "code_ring" | "no_fit";
 
-/** What a picture shows of how it was taken and processed. */
+/** Processing and noise of a picture, estimated from its samples. */
 export interface PictureReport {
-  /** Amount of the unsharp mask that its edges show, 0 where none is seen, and the sigma of its mean in pixels. */
+  /** Amount of unsharp masking estimated from the edges, 0 if none, and the sigma of its kernel in pixels. */
   sharpening: number;
   sharpening_radius: number;
   /** Share of samples at either end of the scale, 0 to 1. */
   clipped_dark: number;
   clipped_bright: number;
-  /** How much larger differences are across the borders of blocks of eight than elsewhere, as a share. */
+  /** Relative excess of differences across the borders of 8 x 8 blocks. */
   compression: number;
   /** Standard deviation of single samples in grey levels. */
   noise: number;
-  /** Standard errors of centres over those that white noise would give; 1 where neighbours share none. */
+  /** Noise autocorrelation: standard errors of centres relative to those with white noise; 1 for uncorrelated pixels. */
   noise_correlation: number;
-  /** Whether the standard errors take the noise of neighbours as independent (every method but least squares): too small of a compressed picture. */
+  /** Whether the standard errors assume uncorrelated noise (every method except least squares): too small for a compressed picture. */
   white_noise_assumed: boolean;
-  /** Whether the picture was searched and measured softened as well. */
+  /** Whether targets were also detected and measured on a smoothed copy. */
   softened: boolean;
 }
 
-/** Colour of a filter of a sensor. */
+/** Colour of a sensor filter. */
 export type Colour = "red" | "green" | "blue" | "cyan" | "magenta" | "yellow" | "white" | "emerald";
 
-/** A sensor's own samples that were measured on; levels and noise in these samples. */
+/** The sensor samples used for the measurement; levels and noise in units of these samples. */
 export interface MeasuredSamples {
-  /** "sites": each site by itself; "interpolated_sites": a picture between them, for methods other than "least_squares". */
+  /** "sites": without interpolation; "interpolated_sites": on an interpolated picture, for methods other than "least_squares". */
   on: "sites" | "interpolated_sites";
   format: string;
   colour: Colour | null;
-  /** Filters, one letter a site, row by row. */
+  /** Filters, one letter per pixel, row by row. */
   pattern: string | null;
   bits: number;
-  /** The part of the grid that light reaches: left, top, width, height. Coordinates are on the whole grid. */
+  /** The exposed part of the grid: left, top, width, height. Coordinates refer to the whole grid. */
   active_area: [number, number, number, number] | null;
-  /** Sample from which one is clipped. */
+  /** Saturation level. */
   white: number | null;
-  /** Growth of a sample's variance with the light in it. */
+  /** Increase of a sample's variance per unit of light. */
   gain: number | null;
-  /** Standard deviation of a sample without light; null where nothing dark tells. */
+  /** Standard deviation of a sample without light; null if the photo has no dark area to estimate it. */
   read_noise: number | null;
-  /** Sites that shine by themselves. */
+  /** Number of hot pixels. */
   hot_sites: number | null;
-  /** Corrections of the lens that the file names, in its own words; none was made. */
+  /** Lens corrections listed in the file, by their names there; none is applied. */
   corrections: string[];
-  /** Lists of corrections in the file that could not be read: what they name is not known. */
+  /** Number of unreadable lists of lens corrections in the file. */
   unread_corrections: number;
 }
 
-/** Lateral chromatic aberration of a colour against green. */
+/** Lateral chromatic aberration of a channel relative to green. */
 export interface Lateral {
   /** Shift of the whole picture, in pixels. */
   shift_u: number;
@@ -1053,29 +1054,29 @@ export interface Lateral {
   /** Parts that grow with the radius and with its third power, in pixels at the corner; positive outwards. */
   linear: number;
   cubic: number;
-  /** Both together, and its standard error. */
+  /** Sum of both at the corner, and its standard error. */
   at_corner: number;
   sigma_at_corner: number;
-  /** What is left of a difference: in pixels, and in units of its standard errors. */
+  /** Rms of the residuals: in pixels, and in units of their standard errors. */
   rms: number;
   sigma0: number;
-  /** Targets that it is from. */
+  /** Number of targets used. */
   targets: number;
   /** Covariances of `shift_u`, `shift_v`, `linear` and `cubic`, square pixels: the upper triangle, row by row. */
   covariance: number[];
 }
 
-/** Targets in red or blue, less the same in green. */
+/** Targets in red or blue minus the same targets in green. */
 export interface ColourApart {
   colour: Colour;
-  /** Centre in green, difference, its standard errors: in pixels. */
+  /** Centre in green, difference and its standard errors, pixels. */
   shifts: { u: number; v: number; du: number; dv: number; sigma_u: number; sigma_v: number }[];
   /** Null where there are too few targets. */
   lateral: Lateral | null;
 }
 
 export interface ColoursApart {
-  /** Middle of the lit part, from which radii count, and the radius of its corners. */
+  /** Middle of the exposed part, origin of the radii, and the radius of its corners. */
   centre: [number, number];
   corner: number;
   /** Red and blue; empty for a sensor without filters. */
@@ -1086,20 +1087,20 @@ export interface Detection {
   width: number;
   height: number;
   bits: number;
-  /** Rows that could not be decoded and were not measured: first row and the row after the last. Empty for a sound file. */
+  /** Rows that could not be decoded and were not measured: first row and the row after the last. Empty for an intact file. */
   damaged_rows: [number, number][];
-  /** Which picture of the file was measured, where a TIFF has several: its number from 1, how many there are, reduced copies and masks passed over. */
+  /** Picture measured in a TIFF with several: its number from 1, how many there are, and how many reduced copies and masks were skipped. */
   page?: { number: number; of: number; skipped: number };
   picture: PictureReport;
-  /** What was measured on, where it is a sensor's own samples (RAW). */
+  /** Present if sensor samples (RAW) were measured. */
   measured?: MeasuredSamples;
   targets: Target[];
   rejected: Partial<Record<RejectionReason, number>>;
-  /** Made when they are first read. */
+  /** Created when first read. */
   rejected_blobs: { u: number; v: number; diameter: number; reason: RejectionReason }[];
 }
 
-/** What a photo's file says; null where it says nothing. */
+/** Metadata of a photo's file; null if missing. */
 export interface PhotoInfo {
   width: number;
   height: number;
@@ -1109,18 +1110,18 @@ export interface PhotoInfo {
   focal_length_mm: number | null;
   focal_length_35mm: number | null;
   pixel_pitch: [number, number] | null;
-  /** How the stored grid has to be turned for showing, 1 to 8. */
+  /** EXIF orientation of the stored grid for display, 1 to 8. */
   orientation: number;
   date: string | null;
-  /** What the maker's note says of corrections of the lens. */
+  /** Lens corrections according to the maker note. */
   corrections?: LensCorrection[];
 }
 
-/** A correction of the lens that a maker's note speaks of: made, not made, or made where the camera knows the lens. */
+/** A lens correction in the maker note: applied, not applied, or applied if the camera knows the lens. */
 export interface LensCorrection {
   aberration: "distortion" | "lateral_colour" | "vignetting" | "diffraction";
   setting: "off" | "on" | "auto";
-  /** Whose tag says so, as "Sony 0x2013". */
+  /** Source tag, e.g. "Sony 0x2013". */
   tag: string;
 }
 
@@ -1142,7 +1143,7 @@ export interface Doubtful {
 }
 
 export interface NameCodedOptions {
-  /** Family of the codes [null: the one that alone explains every ring of all photos]. */
+  /** Family of the codes [null: the only one that fits every ring of all photos]. */
   family?: CodeFamily | null;
 }
 
@@ -1150,13 +1151,13 @@ export interface Coded {
   points: Point[];
   observations: Observation[];
   doubtful: Doubtful[];
-  /** The family whose codes were taken. */
+  /** The family used. */
   family: CodeFamily | null;
-  /** The families that explain every ring; several when one has to be chosen, none when the rings are of different ones. */
+  /** The families that fit every ring; several if one must be chosen, none if the rings belong to different families. */
   families: CodeFamily[];
 }
 
-/** An approximate measurement: a point seen at a place of a photo. */
+/** An approximate measurement of a point in a photo. */
 export interface Mark {
   photo: string;
   point: string;
@@ -1166,22 +1167,22 @@ export interface Mark {
 }
 
 export interface MatchOptions {
-  /** Largest distance of a target from where its point should appear, pixels [null: from the residuals]. */
+  /** Maximum distance of a target from the predicted position, pixels [null: from the residuals]. */
   tolerance_px?: number | null;
-  /** Fewest rays of a new point [3]. */
+  /** Minimum number of rays of a new point [3]. */
   min_rays?: number;
 }
 
 export interface Matching {
   /** New points, with coordinates. */
   points: Point[];
-  /** New observations, of new points and of points that were there. */
+  /** New observations of new and existing points. */
   observations: Observation[];
   doubtful: Doubtful[];
 }
 
 /**
- * A board of circular dots. Its coordinates: the first dot at (0, 0, 0), x along its row, y down the rows, z away from who looks at it.
+ * A board of circular dots. Its coordinates: the first dot at (0, 0, 0), x along its row, y down the rows, z away from the viewer.
  * Dot (i, j) of row i and column j stands at (j, i) pitches on a symmetric board and at (2 j + i mod 2, i) on an asymmetric one.
  */
 export interface Board {
@@ -1191,38 +1192,38 @@ export interface Board {
   /** Distance of two rows, in the unit of the project; the dots of a row of an asymmetric board are two pitches apart. */
   pitch: number;
   kind?: "symmetric" | "asymmetric";
-  /** Diameter of the dots: goes to the points, and tells this board from others [null]. */
+  /** Diameter of the dots: assigned to the points, and distinguishes this board from others [null]. */
   diameter?: number | null;
-  /** Standard error of a dot's coordinates: control points, 0 holds them [null: tie points at the board's coordinates]. */
+  /** Standard error of the dots' coordinates, which makes them control points; 0 holds them [null: tie points with initial values from the board]. */
   sigma?: number | null;
-  /** Place (x, y) on the board of an additional target that shows which corner is the first [null]. */
+  /** Position (x, y) on the board of an additional target that marks the first corner [null]. */
   mark?: [number, number] | null;
 }
 
 export interface GridOptions {
-  /** By photo, the pixel of the board's first dot, for boards that look the same when turned; one photo is enough for all [{}]. */
+  /** By photo, the pixel of the board's first dot, for boards that look the same when turned; one photo is enough [{}]. */
   first?: Record<string, [number, number]>;
 }
 
 export interface GridNaming {
-  /** What the names begin with: "", or "b2-", "b3-" where the project has other points of these names. Then rowcolumn from 1: "r3c5". */
+  /** Prefix of the names: "", or "b2-", "b3-" if the project has other points of these names. Row and column from 1 follow: "r3c5". */
   prefix: string;
-  /** Dots that the project has no point for. */
+  /** Dots without a point in the project. */
   points: Point[];
-  /** Observations that the project does not have. */
+  /** Observations that are new in the project. */
   observations: Observation[];
   named: {
     photo: string;
     dots: number;
-    /** Dots of the board that the photo does not show. */
+    /** Dots of the board that are not in the photo. */
     missing: number;
     /** Dots that were observed under another name before and keep it. */
     named_before: number;
-    /** "assumed": the board looks the same when turned, and that turn was taken whose rows run to the right. */
+    /** "assumed": the board looks the same when turned; the rotation with rows to the right was assumed. */
     orientation: "unique" | "mark" | "given" | "assumed";
-    /** Turns under which the board looks the same. */
+    /** Number of rotations under which the board looks the same. */
     turns: number;
-    /** Whether ground without dots told the place on the board. */
+    /** Whether the empty border gave the position on the board. */
     by_border: boolean;
   }[];
   unnamed: { photo: string; reason: UnnamedReason; sentence: string }[];
@@ -1238,52 +1239,52 @@ export type UnnamedReason =
   | { kind: "diameter"; seen: number; given: number };
 
 export interface PredictOptions {
-  /** Photos in which epipolar lines are wanted [null: all]. */
+  /** Photos in which epipolar lines are returned [null: all]. */
   lines_in?: string[] | null;
 }
 
-/** Where a point should be, from the rays it has. */
+/** Predicted position of a point, from its rays. */
 export interface Prediction {
   point: string;
-  /** Oriented photos in which it is measured and takes part. */
+  /** Number of oriented photos in which it is measured and used. */
   rays: number;
-  /** Null below two rays, or where they do not meet. */
+  /** Null with fewer than two rays, or if they do not intersect. */
   xyz: [number, number, number] | null;
-  /** Null where a photo that sees it has no standard errors of its orientation. */
+  /** Null if the orientation of a photo that measured it has no standard errors. */
   sigma: [number, number, number] | null;
-  /** Oriented photos whose orientation has no standard errors: where one of them takes part no covariance is told. */
+  /** Oriented photos whose orientation has no standard errors; predictions that use one have no covariance. */
   without_errors: string[];
   /** Every oriented photo. */
   photos: PhotoPrediction[];
 }
 
-/** Where a point should be in one photo, pixels; its own measurement there takes no part in it. */
+/** Predicted position of a point in one photo, pixels; its measurement in that photo is not used. */
 export interface PhotoPrediction {
   photo: string;
   measured: [number, number] | null;
   place: [number, number] | null;
   /** uu, uv, vv of the place; null without the standard errors of the photos' orientations. */
   covariance: [number, number, number] | null;
-  /** The part of it that is known: it is at least as much. */
+  /** Lower bound of the covariance, from its known part. */
   least_covariance: [number, number, number] | null;
-  /** Whether the place lies in the picture. */
+  /** Whether the predicted position lies in the picture. */
   inside: boolean;
-  /** Distance of the measurement from the place, in pixels and in standard errors of both. */
+  /** Distance of the measurement from the predicted position, in pixels and in standard errors of both. */
   off_px: number | null;
   off_sigmas: number | null;
-  /** Where the ray of each other photo runs: corners in order. */
+  /** Epipolar line of each other photo, as a polyline. */
   lines: { from: string; course: [number, number][] }[];
 }
 
-/** Something to say about an orientation: an assumption, or what could not be found and why. */
+/** A note on the orientation: an assumption, or a failure with its reason. */
 export type Note =
   | { note: "principal_distance"; camera: string; value: number; source: "known_points" | "assumed" }
-  /** The network determines the principal distance badly; sigma is null where it does not at all. */
+  /** The principal distance is weakly determined; sigma is null if it is not determined at all. */
   | { note: "principal_distance_weak"; camera: string; value: number; sigma: number | null }
   | { note: "principal_distance_changed"; camera: string; value: number; given: number }
-  /** Photos that share too little to be joined; the first group, the largest, is oriented. */
+  /** Groups of photos that are not connected; the first, largest group is oriented. */
   | { note: "groups"; groups: string[][] }
-  /** Two orientations fit the photo's known points alike: the one not taken; rms of the one taken and the other. */
+  /** Two orientations fit the photo's known points equally well: the one not used; rms of the one used and the other. */
   | {
       note: "photo_ambiguous";
       photo: string;
@@ -1303,20 +1304,20 @@ export type Note =
       | { why: "seen_once" | "behind_camera"; photo: string }
       | { why: "too_few_oriented_photos"; photos: number }
       | { why: "near_parallel"; angle: number }
-      /** As many rays meet in one place as in another: the photos of each. */
+      /** The rays intersect at two positions, equally many at each: the photos of each. */
       | { why: "undecided"; first: string[]; second: string[] }
     ))
   | { note: "measurement_disagrees"; photo: string; point: string; distance_px: number | null }
-  /** Given minus where the photos see the point, oriented by the other control points; its size in standard errors of both. */
+  /** Given coordinates minus those from photos oriented by the other control points; size of the difference in standard errors of both. */
   | { note: "control_misfit"; point: string; difference: [number, number, number]; sigma_ratio: number }
   /** Two control points whose coordinates fit when they are exchanged. */
   | { note: "exchanged_points"; points: [string, string] }
-  /** Points nearer to each other than their standard errors tell apart. */
+  /** Points closer than their standard errors can separate. */
   | { note: "double_points"; pairs: [string, string][] }
   | ({ note: "mirrored_control" } & MirroredControl)
   | ({ note: "undecided_axes" } & UndecidedAxes)
   | ({ note: "unit_ratio" } & UnitRatio)
-  /** Without control points and all photos: nothing is oriented. */
+  /** If all photos are affected and there are no control points, nothing is oriented. */
   | ({ note: "one_station" } & OneStation)
   | ({ note: "implausible_camera" } & ImplausibleCamera)
   | { note: "no_scale" };
@@ -1330,7 +1331,7 @@ export interface Snapped {
   unsnapped: { mark: Mark; reason: "no_detection" | "no_target" | "contested" | "marked_twice"; points?: string[] }[];
 }
 
-/** A photo of a network: either its rotation (omega, phi, kappa in radians) or the point it is aimed at with a roll. */
+/** A camera station: its position with either a rotation (omega, phi, kappa in radians) or an aim point and a roll. */
 export interface Station {
   id: string;
   camera: string;
@@ -1345,7 +1346,7 @@ export interface NetworkPoint {
   role?: "tie" | "control" | "check";
   xyz: [number, number, number];
   sigma?: [number | null, number | null, number | null] | null;
-  /** Direction the target faces; null: seen from everywhere, and not rendered. */
+  /** Direction the target faces; null: visible from everywhere, and not rendered. */
   normal?: [number, number, number] | null;
   diameter?: number | null;
   ring?: { sectors: number; code: number } | null;
@@ -1353,7 +1354,7 @@ export interface NetworkPoint {
   patch?: { ratio: number; grey: number } | null;
 }
 
-/** A parallelogram that fills the view and hides what lies behind it. */
+/** A parallelogram that is rendered and occludes what lies behind it. */
 export interface Face {
   corner: [number, number, number];
   along: [number, number, number];
@@ -1363,7 +1364,7 @@ export interface Face {
   grain?: number;
 }
 
-/** A network on paper, from which a project is simulated. */
+/** A planned network, from which a project is simulated. */
 export interface Network {
   name?: string;
   unit?: string;
@@ -1374,9 +1375,9 @@ export interface Network {
   background?: number;
   distances?: { from: string; to: string; sigma: number }[];
   datum?: Datum;
-  /** Largest angle between the ray and the direction a target faces, radians. */
+  /** Maximum angle between the ray and the direction a target faces, radians. */
   max_incidence?: number;
-  /** Points nearer than this to the picture's border are not measured, pixels. */
+  /** Points closer than this to the picture's border are not measured, pixels. */
   margin?: number;
   /** A priori standard error of the observations, pixels [0.1]. */
   sigma?: number | [number, number];
@@ -1389,17 +1390,17 @@ export interface Network {
   detect?: DetectOptions;
 }
 
-/** What is printed on sheets of targets. Lengths in mm; places on a sheet from its top left corner, x right, y down. */
+/** Contents of printed target sheets. Lengths in mm; positions on a sheet from its top left corner, x right, y down. */
 export interface SheetOptions {
-  /** Stands at the top of every sheet. */
+  /** Title at the top of every sheet. */
   title?: string;
-  /** Language of what is written on the sheets ["en"]. */
+  /** Language of the sheets ["en"]. */
   language?: "en" | "ko";
   /** ["a4"] */
   paper?: "a4" | "a3" | "letter";
   /** ["ring-14"] */
   family?: CodeFamily;
-  /** Numbers of the codes, as "1-20, 35"; empty: the first `codes` of those with the largest mutual distance. */
+  /** Numbers of the codes, e.g. "1-20, 35"; empty: the first `codes` of those with the largest mutual distance. */
   numbers?: string;
   /** [20] */
   codes?: number;
@@ -1413,15 +1414,15 @@ export interface SheetOptions {
   pattern?: "regular" | "jittered";
   /** Pairs of codes that are ends of scale bars [0]. */
   bars?: number;
-  /** Distance of the ends of a pair; one that the paper has room for is printed [1000]. */
+  /** Distance of the ends of a pair; a distance that fits on the paper is printed [1000]. */
   bar_length?: number;
   /** A plate with codes and dots over sheets edge to edge. */
   field?: { columns: number; rows: number } | null;
   cut_marks?: boolean;
   labels?: boolean;
-  /** What the ruler of 100 mm across measures on the print. */
+  /** Measured length of the printed 100 mm ruler across. */
   measured?: number | null;
-  /** What the one down measures; null: as the one across. */
+  /** Measured length of the ruler down; null: as across. */
   measured_down?: number | null;
   /** [0.1] */
   measured_sigma?: number;
@@ -1443,7 +1444,7 @@ export interface PrintedTarget {
 export interface TargetSheet {
   /** The sheets, true to scale. */
   svg: string[];
-  /** "sheets.pdf", "targets.csv", and as far as there are any "distances.csv" and "control.csv". */
+  /** "sheets.pdf", "targets.csv", and "distances.csv" and "control.csv" if there are any. */
   files: Record<string, Uint8Array>;
   targets: PrintedTarget[];
   /** Scale bars; sigma is null where the ends are mounted by hand. */
@@ -1457,7 +1458,7 @@ export interface TargetSheet {
   diameter: number;
 }
 
-/** How many codes of a family differ by at least so many sectors in every rotation. */
+/** How many codes of a family differ by at least `distance` sectors in every rotation. */
 export interface CodeCount {
   distance: number;
   count: number;
@@ -1474,7 +1475,7 @@ export interface TargetAdviceOptions {
 
 export interface TargetAdvice {
   distance: number;
-  /** A pixel on the object. */
+  /** Size of a pixel on the object. */
   pixel: number;
   /** Diameter of 8 px at each angle. */
   least: number[];
@@ -1484,7 +1485,7 @@ export interface TargetAdvice {
   pixels: number[];
 }
 
-/** A photo to take: its rotation, or the point it is aimed at with a roll. */
+/** A planned camera station: a rotation, or an aim point and a roll. */
 export interface PlanStation {
   id?: string;
   /** [the plan's first] */
@@ -1512,10 +1513,10 @@ export interface FormTargets {
   faces: PlanFace[];
 }
 
-/** What will be photographed, from where, and how accurate it has to become. Lengths in the project's unit, angles in radians. */
+/** Plan: targets, camera stations and required accuracy. Lengths in the project's unit, angles in radians. */
 export interface Plan {
   cameras?: Camera[];
-  /** What is sharp; without f-number, focus or pixel pitch everything is. */
+  /** Depth of field; everything is sharp without f-number, focus or pixel pitch. */
   lens?: { f_number?: number | null; focus?: number | null; circle_px?: number; unit_mm?: number };
   form?: PlanForm | null;
   points?: Point[];
@@ -1524,7 +1525,7 @@ export interface Plan {
   datum?: Datum;
   stations?: PlanStation[];
   variants?: { name?: string; stations?: PlanStation[] }[];
-  /** Boxes in which nobody can stand. */
+  /** Boxes without access for the camera. */
   forbidden?: { low: [number, number, number]; high: [number, number, number] }[];
   /** Standard error of an image coordinate, pixels [0.05]. */
   sigma?: number;
@@ -1532,7 +1533,7 @@ export interface Plan {
   max_incidence?: number;
   /** Pixels [10]. */
   margin?: number;
-  /** Smallest axis of a target's image, pixels [8]. */
+  /** Minimum axis of a target's image, pixels [8]. */
   least_px?: number;
   wanted?: { precision?: number; probability?: number };
 }
@@ -1547,7 +1548,7 @@ export interface PredictedStation {
   id: string;
   points: string[];
   unseen: { outside: number; turned_away: number; hidden: number; too_small: number; blurred: number };
-  /** Median distance to what it sees. */
+  /** Median distance to the points it sees. */
   distance: number | null;
   smallest_px: number | null;
   direction: [number, number, number];
@@ -1567,7 +1568,7 @@ export interface PredictedPoint {
   axis: number | null;
 }
 
-/** What a plan promises; standard errors are 1σ. */
+/** Predicted accuracy of a plan; standard errors are 1σ. */
 export interface PlanPrediction {
   stations: PredictedStation[];
   points: PredictedPoint[];
@@ -1575,7 +1576,7 @@ export interface PlanPrediction {
   worst: string | null;
   largest: number | null;
   rms: number | null;
-  /** From standard errors to the wanted probability. */
+  /** Factor from standard errors to the required probability. */
   factor: number;
   redundancy: number | null;
   reached: boolean;
@@ -1590,14 +1591,14 @@ export interface PlanPrediction {
 
 export interface SuggestedPhoto {
   station: PlanStation;
-  /** The criterion with it; null where it leaves points undetermined. */
+  /** Value of the criterion with this photo; null if points remain undetermined. */
   value: number | null;
   sees: number;
   compared: number;
 }
 
 export interface MakePlanOptions {
-  /** Most photos [40]. */
+  /** Maximum number of photos [40]. */
   most?: number;
 }
 
@@ -1605,11 +1606,11 @@ export interface MadePlan {
   stations: PlanStation[];
   prediction: PlanPrediction;
   compared: number;
-  /** Why the search ended; what the plan lacks then is in `prediction.lacks`. */
+  /** Why the search ended; `prediction.lacks` lists what is missing. */
   ended:
     | { why: "reached" | "no_place" | "time" }
     | { why: "most_photos"; most: number }
-    /** So many further photos gained nothing. */
+    /** `tried` more photos gave no improvement. */
     | { why: "no_gain"; tried: number };
 }
 
@@ -1628,7 +1629,7 @@ export interface SigmaRule {
   ppm?: number;
 }
 
-/** What a list of points does not say itself, or what is to be taken in place of what it says. */
+/** Choices for reading a list of points, for information that it lacks or to override it. */
 export interface ListChoices {
   /** Decimal sign; null: from the rows. With "point", commas are thousands separators. */
   decimal?: "point" | "comma" | null;
@@ -1636,17 +1637,17 @@ export interface ListChoices {
   axes?: "xy" | "yx" | null;
   /** Unit of the coordinates of a list whose heading has none. */
   unit?: Unit | null;
-  /** What each column holds, null: it is left alone; in place of what heading and content say. */
+  /** Content of each column, null: not used; overrides heading and content. */
   columns?: (ControlField | null)[] | null;
-  /** Encoding of bytes; null: from what is in them. Of no matter for a string. */
+  /** Encoding of bytes; null: from the content. Ignored for a string. */
   encoding?: TextEncodingName | null;
-  /** What separates the fields; null: from the rows. */
+  /** Field separator; null: from the rows. */
   separator?: "comma" | "semicolon" | "tab" | "blanks" | null;
   /** Line of the first row of points, counted from 1; the row before it is the heading. */
   first_line?: number | null;
   /** Unit of columns of standard errors whose heading has none; null: that of the coordinates. */
   sigma_unit?: Unit | null;
-  /** One standard error for all points that have none of their own. */
+  /** Common standard error of points without one of their own. */
   sigma?: SigmaRule | null;
 }
 
@@ -1684,13 +1685,13 @@ export interface ParameterCovariance {
   matrix: number[][];
 }
 
-/** Something that has no place in the document or in the file, by its name there. */
+/** Data that the document or the file cannot hold, by name. */
 export interface Ignored {
   name: string;
   count: number;
 }
 
-/** What a format leaves open and was taken for granted. */
+/** Assumptions for information that a format lacks. */
 export type Assumed =
   | "sigma_one_pixel"
   | "image_size_from_principal_point"
@@ -1704,7 +1705,7 @@ export type CameraImportFormat = "auto" | CameraFormat | "metashape" | "meshroom
 export type CameraExportFormat = CameraFormat;
 
 export interface CameraImportOptions {
-  /** Part of the picture over which a model is converted, a polygon of pixels; null: the file's own, else all of it. */
+  /** Region of the picture in which a model is converted, a polygon of pixels; null: the file's own, else the whole picture. */
   region?: [number, number][] | null;
   /** Accept a difference of more than 1 px; default false. */
   convert?: boolean;
@@ -1720,7 +1721,7 @@ export interface ImportedCamera {
   /** Absent where the model is the document's own. */
   conversion?: Conversion;
   covariance?: ParameterCovariance;
-  /** Part of the picture in which the file says it is valid. */
+  /** Region of validity according to the file. */
   region?: [number, number][];
   position?: [number, number, number];
   rotation?: [number, number, number];
@@ -1745,21 +1746,21 @@ export type Unit = "mm" | "cm" | "m" | "µm" | "dm" | "km" | "in" | "ft" | "ft-u
 export type ControlField = "id" | "label" | "X" | "Y" | "Z" | "sX" | "sY" | "sZ" | "sXY" | "sigma" | "role" | "diameter";
 export type TextEncodingName = "utf-8" | "utf-16" | "cp949" | "windows-1252";
 export type ListFormat = "table" | "leica_gsi" | "sokkia_sdr" | "job_xml" | "land_xml" | "odm_gcp";
-/** What an assumption rests on; "undecided": nothing decides, it has to be asked. */
+/** Basis of an assumption; "undecided": ask the user. */
 export type Basis = "heading" | "content" | "given" | "convention" | "undecided";
 
 /** How a list of points was read. */
 export type Assumption =
   | { kind: "format"; format: ListFormat; by: Basis }
-  /** `by: "convention"`: it is none of the others. */
+  /** `by: "convention"`: no other encoding fits. */
   | { kind: "encoding"; encoding: TextEncodingName; by: Basis }
-  /** The first row of points, where lines before it are passed over. */
+  /** The first row of points, if lines before it are skipped. */
   | { kind: "first_row"; line: number; by: Basis }
-  /** What the list has beside its points and is not kept. */
+  /** Data in the list other than points, which are not imported. */
   | { kind: "beside"; what: "lines_before" | "measurements" | "image_measurements" | "deleted" | "references" | "geographic"; count: number }
-  /** Names that were made up, since the list has none: "GCP 1" and so on. */
+  /** Generated names of a list without names: "GCP 1" and so on. */
   | { kind: "names_made"; count: number }
-  /** One standard error for so many points without one of their own; undecided: the unit of the coordinates has to be known first. */
+  /** Common standard error of points without one of their own; undecided: the unit of the coordinates must be known first. */
   | { kind: "common_sigma"; rule: SigmaRule; points: number; by: Basis }
   | { kind: "separator"; separator: "comma" | "semicolon" | "tab" | "blanks"; by: Basis }
   | { kind: "decimal_sign"; sign: "point" | "comma"; by: Basis; example?: string }
@@ -1767,12 +1768,12 @@ export type Assumption =
   | { kind: "axis_order"; order: "xy" | "yx"; by: Basis }
   | { kind: "sigma_columns"; columns: number[]; by: Basis }
   | { kind: "unit"; unit: Unit | null; by: Basis }
-  /** Columns whose headings are not understood and which are left alone. */
+  /** Columns with unknown headings, which are not used. */
   | { kind: "ignored"; columns: string[] }
-  /** Headings with something in round brackets that is neither an axis nor a unit. */
+  /** Headings with text in round brackets that is neither an axis nor a unit. */
   | { kind: "remarks"; headings: string[] };
 
-/** A project that was read, with what was taken for granted. */
+/** An imported project with the assumptions made. */
 export interface Imported extends Project {
   /** File by file, for `control-csv`. */
   assumptions?: { file: string; assumptions: Assumption[] }[];
@@ -1781,7 +1782,7 @@ export interface Imported extends Project {
   /** Cameras whose model was converted. */
   conversions?: Conversion[];
   assumed?: Assumed[];
-  /** What of the files is not kept. */
+  /** Data of the files that were not imported. */
   ignored?: Ignored[];
 }
 
@@ -1796,7 +1797,7 @@ export interface Coefficient {
   sigma: number | null;
 }
 
-/** Plates carried onto their fiducial marks. */
+/** Plate readings transformed to the fiducial marks. */
 export interface ReducedFilm {
   /** Camera, photos, points and observations; nothing is oriented. */
   project: Project;
@@ -1821,14 +1822,14 @@ export interface ReducedFilm {
   } | null;
 }
 
-/** What every function throws. */
+/** The error thrown by every function. */
 export interface SightlineError extends Error {
   /** Stable name of the kind of error. */
   code: string;
   where: { file?: string; photo?: string; point?: string; camera?: string; line?: number; field?: string };
   /**
-   * The values that the sentence is made of. Errors that have a reason (`invalid`, `broken_image`, `cannot_orient`) name it with its
-   * values in `reason` and tell it in `detail`.
+   * The values of the message. Errors with a reason (`invalid`, `broken_image`, `cannot_orient`) have it with its values in `reason`
+   * and as a sentence in `detail`.
    */
   data: { code: string; [name: string]: unknown } | null;
 }
@@ -1851,27 +1852,27 @@ export interface ListedCovariance {
   matrix: number[][];
 }
 
-/** What `readList` gives. */
+/** Result of `readList`. */
 export interface PointList {
-  /** The points that were understood, with their lines. */
+  /** The points read, with their lines. */
   points: (Point & { line: number; label?: string })[];
-  /** Lines that were not, each with the reason as a sentence and as data. */
+  /** Lines that could not be read, each with the reason as a sentence and as data. */
   rejected: { line: number; text: string; message: string; error: unknown }[];
-  /** Null: it has to be asked. */
+  /** Null: ask the user. */
   unit: Unit | null;
   assumptions: Assumption[];
-  /** Those of the assumptions that nothing decides: ask before the points are used, and read again with the answer. */
+  /** Undecided assumptions: ask the user before using the points, and read again with the answer. */
   undecided: Assumption[];
   /** Words of the heading, column by column; empty without one. */
   heading: string[];
-  /** Fields of the first rows as the text has them. */
+  /** Fields of the first rows, as text. */
   sample: string[][];
 }
 
-/** What `readCoordinates` gives. */
+/** Result of `readCoordinates`. */
 export interface CoordinateList {
   points: ListedPoint[];
-  /** Where the heading or the caller names one. */
+  /** Unit, if the heading or the caller gives one. */
   unit: string | null;
   assumptions: Assumption[];
 }
@@ -1888,15 +1889,15 @@ export interface Epoch {
   /** Null: the project is adjusted with the default options. Without the covariance of all points it is adjusted again. */
   adjustment?: Adjustment | null;
   /**
-   * Control points of a project: `released` (default) adjusts it as a free network, since given coordinates are the same in every epoch; `kept`
-   * says that they were measured anew for this epoch.
+   * Control points of a project: `released` (default) adjusts it as a free network, since given coordinates are the same in every epoch; use
+   * `kept` if they were measured again for this epoch.
    */
   control?: "released" | "kept";
   points?: (Omit<ListedPoint, "id"> & { id: string | number })[] | null;
   covariance?: (Omit<ListedCovariance, "points"> & { points: (string | number)[] }) | null;
-  /** Standard deviation of unit weight behind a list. */
+  /** Standard deviation of unit weight of the adjustment of a list. */
   sigma0?: number | null;
-  /** Its redundancy; null: the standard errors count as certain. */
+  /** Its redundancy; null: the standard errors count as exact. */
   redundancy?: number | null;
   /** Unit of a list; null: that of the other epochs. */
   unit?: string | null;
@@ -1904,39 +1905,39 @@ export interface Epoch {
   scale?: boolean | null;
 }
 
-/** Movement of a group: translation and rotation; scale too; homogeneous strain too. */
+/** Movement of a group: translation and rotation; plus scale; plus homogeneous strain. */
 export type GroupModel = "rigid" | "similarity" | "affine";
 
-/** Lengths of displacement from which a state is reported. */
+/** Thresholds of the displacement length. */
 export interface MonitoringLimits {
   warning: number;
   alarm: number;
 }
 
-/** Which motion of the camera is taken out of an uncertainty or a difference. */
+/** Camera motion removed from an uncertainty or a difference. */
 export type MotionReference = "rotation" | "rotation_translation" | "photos" | "none";
 
-/** What `projectionUncertainty` takes. */
+/** Options of `projectionUncertainty`. */
 export interface UncertaintyOptions {
   /** May be left out where the adjustment has one camera. */
   camera?: string | null;
-  /** Of a camera with an interior orientation per photo. */
+  /** The photo, for a camera with per_photo. */
   photo?: string | null;
   /** Places along width and height, borders included; [25, 17] unless given. */
   grid?: [number, number];
-  /** Of the points, in the project's unit; null: directions. */
+  /** Distance of the points, in the project's unit; null: directions. */
   distance?: number | null;
-  /** Where the motion is fitted: a disc in the middle of the image, or all of it. */
+  /** Region of the motion fit: a disc in the middle of the image, or the whole image. */
   region?: "centre" | "all";
-  /** `photos`: the mean motion of the photos against the object, which needs no fit (mrcal's mean-pcam). */
+  /** `photos`: the mean motion of the photos relative to the object, which needs no fit (mrcal's mean-pcam). */
   reference?: MotionReference;
 }
 
-/** What `projectionUncertainty` gives. Maps are rows of `v` of columns `u`; null where the model gives no ray. */
+/** Result of `projectionUncertainty`. Maps are rows of `v` of columns `u`; null where the model gives no ray. */
 export interface ProjectionUncertainty {
   camera: string;
   photo?: string;
-  /** Whose uncertainty it is; what was held counts as known. */
+  /** Parameters included; held parameters count as exact. */
   parameters: Parameter[];
   distance: number | null;
   region: "centre" | "all";
@@ -1953,7 +1954,7 @@ export interface ProjectionUncertainty {
   median: number | null;
 }
 
-/** What `compareCameras` takes. */
+/** Options of `compareCameras`. */
 export interface DifferenceOptions {
   grid?: [number, number];
   distance?: number | null;
@@ -1961,7 +1962,7 @@ export interface DifferenceOptions {
   reference?: Exclude<MotionReference, "photos">;
 }
 
-/** What `compareCameras` gives: where the second camera sees what the first sees, minus where the first does, pixels. */
+/** Result of `compareCameras`: image positions of the second camera minus those of the first, pixels. */
 export interface CameraDifference {
   u: number[];
   v: number[];
@@ -1975,45 +1976,45 @@ export interface CameraDifference {
   max_px: number | null;
 }
 
-/** What `crossValidate` takes. `reference` is not `photos`. */
+/** Options of `crossValidate`. `reference` is not `photos`. */
 export interface CrossOptions extends DifferenceOptions {
-  /** In how many parts the photos are split, balanced by position and roll: 2, at most 8. */
+  /** Number of parts of the photos, balanced by position and roll: 2 by default, at most 8. */
   parts?: number;
   /** May be left out where the project has one camera. */
   camera?: string | null;
-  /** How each part is adjusted; not with `snooping`, `robust` or `variance_components`, which take a wrong model for noise. */
+  /** How each part is adjusted; not with `snooping`, `robust` or `variance_components`, which treat a wrong model as noise. */
   adjust?: AdjustOptions;
 }
 
-/** A part of the photos, calibrated by itself. */
+/** A part of the photos, calibrated separately. */
 export interface CrossPart {
   photos: string[];
   sigma0: number | null;
-  /** What its residuals significantly depend on (p < 0.001). */
+  /** Significant patterns of its residuals (p < 0.001). */
   patterns: PatternKind[];
   camera: AdjustedCamera;
 }
 
-/** What `crossValidate` gives. Maps are rows of `v` of columns `u`; null where a part gives no ray. */
+/** Result of `crossValidate`. Maps are rows of `v` of columns `u`; null where a part gives no ray. */
 export interface CrossValidation {
   camera: string;
   parts: CrossPart[];
   u: number[];
   v: number[];
-  /** Standard error of the difference of two parts by the a priori standard errors (not scaled with sigma0, which a wrong model makes large), pixels: the root of the sum of both covariances in the worst direction. */
+  /** Standard error of the difference of two parts from the a priori standard errors (not scaled with sigma0, which a wrong model increases), pixels: the root of the sum of both covariances in the worst direction. */
   predicted: (number | null)[][];
   /** Length of the difference after the best rotation, pixels. */
   observed: (number | null)[][];
   /** Observed over predicted; of several pairs of parts the largest. */
   ratio_map: (number | null)[][];
-  /** Whether every part has a measurement within one step of the grid. Only there the parts are judged. */
+  /** Whether every part has a measurement within one step of the grid. The parts are compared only there. */
   covered: boolean[][];
-  /** The covered place with the largest ratio; `sigma` is what was predicted there. */
+  /** The covered position with the largest ratio; `sigma` is the prediction there. */
   worst: { u: number; v: number; sigma: number } | null;
   ratio: number | null;
   /** The largest ratio to standard errors that include sigma0. */
   ratio_with_sigma0: number | null;
-  /** The ratio that a right model exceeds anywhere once in a thousand, by draws from the covariances, at least 2; 2 where the residuals of every part have a pattern. */
+  /** The ratio that a correct model exceeds anywhere in one of a thousand cases, simulated from the covariances, at least 2; 2 if the residuals of every part have a pattern. */
   limit: number;
   /** `larger_noise`: beyond the limit, but not with sigma0, and no part has a pattern: the a priori standard errors are too small. */
   verdict: "agrees" | "larger_noise" | "wrong_model";
@@ -2022,59 +2023,59 @@ export interface CrossValidation {
 /** Name of a camera model. */
 export type CameraModelName = "brown" | "opencv" | "opencv_rational" | "opencv_fisheye";
 
-/** What a camera in another model has left. */
+/** Differences after conversion to another camera model. */
 export interface ModelConversion {
   camera: string;
   from: CameraModelName;
   to: CameraModelName;
-  /** Largest difference of the pixels of one direction over the picture; null while the principal distance is not known. */
+  /** Largest difference of the image positions of one direction; null if the principal distance is unknown. */
   max_px: number | null;
   rms_px: number | null;
-  /** Share of the picture that it holds for: a perspective model has no image of rays far off the axis (75 degrees). */
+  /** Valid share of the picture: a perspective model has no image of rays far from the axis (75 degrees). */
   share: number;
-  /** Parameters with an a priori standard error that the other model cannot use: those that it has are estimated without it. */
+  /** Parameters whose a priori standard error the other model cannot use; those that exist there are estimated without it. */
   dropped: Parameter[];
 }
 
-/** What `convertCamera` gives: the camera, the interior orientations of its photos and its colours in the other model. */
+/** Result of `convertCamera`: the camera, the interior orientations of its photos and its lateral colour in the other model. */
 export interface ConvertedCamera {
   project: Project;
   conversion: ModelConversion;
 }
 
-/** What `compareModels` takes. */
+/** Options of `compareModels`. */
 export interface ModelsOptions {
   /** May be left out where the project has one camera. */
   camera?: string | null;
-  /** Of the choice of image points that are held out: 1. */
+  /** Seed of the choice of held-out image points: 1. */
   seed?: number;
   /** How each model is adjusted; not with `snooping`, `robust` or `variance_components`, by which every model would choose its own observations. */
   adjust?: AdjustOptions;
 }
 
-/** A camera model on the network; `compareModels` gives one each. */
+/** Result of `compareModels` for one camera model. */
 export interface ComparedModel {
   model: CameraModelName;
-  /** What its start values left of the present camera; null where it could not be converted. */
+  /** Difference of its initial values from the current camera; null if it could not be converted. */
   conversion: ModelConversion | null;
-  /** With its adjusted values, and what is estimated of it; null where it failed. */
+  /** With its adjusted values and estimated parameters; null if it failed. */
   camera: Camera | null;
   sigma0: number | null;
   /** Estimated. */
   parameters: Parameter[];
-  /** Parameters of distortion that are not told from 0. */
+  /** Distortion parameters that are not significantly different from 0. */
   insignificant: Parameter[];
-  /** Of coordinates of a fifth of the image points, predicted without them, pixels; null where none could be held out. */
+  /** Rms error of the coordinates of a fifth of the image points, predicted without them, pixels; null if none could be held out. */
   held_out_rms: number | null;
-  /** Schwarz's criterion less that of the best. */
+  /** Bayesian information criterion (Schwarz) minus that of the best model. */
   bic: number | null;
-  /** `too_stiff`: it cannot follow the lens; `overfits`: no better than the best, with more parameters. */
+  /** `too_stiff`: it cannot describe the lens; `overfits`: no better than the best, with more parameters. */
   verdict: "best" | "as_good_with_fewer" | "as_good" | "too_stiff" | "overfits" | "failed";
-  /** Why it failed: an error as in `data` of one that is thrown. */
+  /** Why it failed, as in `data` of a thrown error. */
   failure: Record<string, unknown> | null;
 }
 
-/** What `compareEpochs` takes. */
+/** Options of `compareEpochs`. */
 export interface CompareOptions {
   /** Two or more, in time. */
   epochs: Epoch[];
@@ -2087,19 +2088,19 @@ export interface CompareOptions {
   significance?: number;
   /** Correction for the number of object points. */
   correction?: "holm" | "bonferroni" | "none";
-  /** Probability with which a detectable displacement is found: 0.80. */
+  /** Probability with which a detectable displacement is detected: 0.80. */
   power?: number;
   /** `estimated`: pooled where the variance factors are equal; `separate`: one each; `given`: σ0 = 1 with infinitely many degrees of freedom. */
   variance?: "estimated" | "separate" | "given";
-  /** `given`: the epochs are in one system and nothing is transformed. */
+  /** `given`: the epochs are in one system and are not transformed. */
   datum?: "reference" | "given";
   groups?: { name: string; points: (string | number)[]; model?: GroupModel }[];
   thresholds?: (MonitoringLimits & { points?: Record<string, MonitoringLimits>; groups?: Record<string, MonitoringLimits> }) | null;
-  /** Names of one of these prefixes and digits are numbers that a program gave, matched by position: ["u", "TARGET"]. */
+  /** Names of one of these prefixes and digits were numbered automatically and are matched by position: ["u", "TARGET"]. */
   automatic?: string[];
 }
 
-/** A test: passed where the statistic does not exceed the limit. */
+/** A test: passed if the statistic does not exceed the limit. */
 export interface MonitoringTest {
   statistic: number;
   f1: number;
@@ -2115,7 +2116,7 @@ export interface MonitoringTest {
 /** Displacement of a point, later minus earlier, in the system of the first epoch. */
 export interface Displacement {
   id: string;
-  /** Name in the later epoch, where it was matched by position under another one. */
+  /** Name in the later epoch, if it was matched by position under another name. */
   later_id?: string;
   role: "reference" | "object";
   /** Coordinates in the earlier epoch, in the system of the first. */
@@ -2158,7 +2159,7 @@ export interface GroupMovement {
   strain: TestedParameters | null;
   /** Whether it moved. */
   test: MonitoringTest | null;
-  /** Whether it moved as its model says. */
+  /** Test of the fit of the model. */
   fit: MonitoringTest | null;
   residuals: { id: string; difference: [number, number, number]; sigma: [number, number, number] }[];
   /** Null without thresholds. */
@@ -2166,13 +2167,13 @@ export interface GroupMovement {
   error?: { code: "too_few_points"; needed: number; given: number } | { code: "undetermined" } | { code: "no_stable_group" };
 }
 
-/** Why a point took no part in a pair. */
+/** Why a point was not compared. */
 export type LeftOutOfPair =
   | { code: "only_in" | "no_sigma" | "no_counterpart" | "no_identity"; epoch: string }
   | { code: "ambiguous"; epoch: string; candidates: string[] }
   | { code: "ignored" | "held" };
 
-/** What a reader of a pair must know. */
+/** Notes on the comparison of a pair. */
 export type PairNote =
   | { code: "variances_differ" | "scale_differs" | "no_stable_group" }
   | { code: "sigmas_too_small"; factor: number }
@@ -2207,7 +2208,7 @@ export interface EpochPair {
   notes: PairNote[];
 }
 
-/** What `compareEpochs` gives. */
+/** Result of `compareEpochs`. */
 export interface Monitoring {
   method: "coordinates" | "joint";
   unit: string | null;
@@ -2239,7 +2240,7 @@ export interface Monitoring {
   series_datum: string[];
 }
 
-/** What may be varied; what is left out has the paper's value. */
+/** Inputs of an experiment; defaults are the paper's values. */
 export interface ExperimentOptions {
   /** Seed of all noise. */
   seed?: number;
@@ -2249,7 +2250,7 @@ export interface ExperimentOptions {
   pixel_noise?: number | null;
   /** Standard error of control coordinates, mm (kang, lee-structure, kim). */
   control_sigma_mm?: number | null;
-  /** Rounds of Monte Carlo (kang). */
+  /** Monte Carlo runs (kang). */
   rounds?: number | null;
   /** Network of the project to open: "1.4-5A", "H'" (kang), "I-free" (lee-structure). */
   network?: string | null;
@@ -2257,11 +2258,11 @@ export interface ExperimentOptions {
   left_out?: string[] | null;
   /** How centres are measured for the adjustment (lee-calibration). */
   method?: "least_squares" | "ellipse" | "intensity" | "gradient" | null;
-  /** Told how far the experiment is; stops it by returning false. */
+  /** Progress callback; return `false` to cancel. */
   on_progress?: (done: number, of: number) => void | boolean;
 }
 
-/** Something to draw: a point with its role, or a photo with its viewing direction. */
+/** An item to draw: a point with its role, or a photo with its viewing direction. */
 export interface Drawn {
   id: string;
   xyz: [number, number, number];
@@ -2269,14 +2270,14 @@ export interface Drawn {
   role?: "tie" | "control" | "check";
 }
 
-/** An axis of a chart; ticks name places along it, groups in a second row. */
+/** An axis of a chart with ticks; group ticks are in a second row. */
 export interface Axis {
   id: string;
   unit: string;
   ticks: { at: number; text: string; group: boolean }[];
 }
 
-/** Result of an experiment. Cells are numbers, names or null; `paper` marks what the paper prints. */
+/** Result of an experiment. Cells are numbers, names or null; `paper` marks figures of the paper. */
 export interface Experiment {
   name: ExperimentName;
   drawings: { id: string; unit: string; points: Drawn[]; photos: Drawn[] }[];
@@ -2293,7 +2294,7 @@ export interface Experiment {
     /** Pieces of a broken line share their id. */
     series: { id: string; paper: boolean; points: [number, number][] }[];
   }[];
-  /** What the paper does not say, or says otherwise, and was therefore chosen here. */
+  /** Assumptions that are missing in the paper or differ from it. */
   assumptions: { id: string; unit: string; ours: number | null; paper: number | null }[];
   /** Ready to be opened and adjusted. */
   project: Project;
