@@ -1,4 +1,4 @@
-//! The one result: what a bundle adjustment found, with its statistics.
+//! The result of a bundle adjustment with its statistics.
 //!
 //! Sigmas and covariances include σ0²; lengths are in the project's unit, angles in radians, residuals in photo units
 //! (brown model) or pixels (opencv model). No number is NaN or infinite.

@@ -1,4 +1,4 @@
-//! Two adjustments of one object: what moved from the earlier to the later, and by how many standard errors.
+//! Comparison of two adjustments of one object: movements of points, and their size in standard errors.
 //!
 //! With x₁, σ₁ of the earlier adjustment and x₂, σ₂ of the later one, every coordinate and every parameter has
 //!

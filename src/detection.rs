@@ -1,4 +1,4 @@
-//! What detection reports: targets with their centres and sigmas, and what was rejected and why.
+//! Result of detection: targets with their centres and standard errors, and rejections with their reasons.
 
 mod apart;
 

@@ -1,4 +1,4 @@
-//! Equipment that outlives a project: cameras with their calibrations, scale bars with their certificates.
+//! Equipment for several projects: cameras with their calibrations, scale bars with their certificates.
 //!
 //! It is one JSON document, `"format": "sightline-equipment"`, version 1. A camera is known again by what photos say of it
 //! ([`KnownCamera::took`]); a calibration enters a project held, observed with its standard errors, or only as initial values

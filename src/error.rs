@@ -1,4 +1,4 @@
-//! What can go wrong, as data: a stable code, the values a sentence needs, and the place.
+//! Errors as data: a stable code, the values of the message, and the place.
 //!
 //! The engine speaks English in [`Display`](fmt::Display); the desk matches on the variants and says the same in its
 //! user's language. A variant is never renamed, since its code is part of the JavaScript face.

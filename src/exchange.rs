@@ -1,4 +1,4 @@
-//! Foreign formats, each converted in one place: conventions of other programs end at this border.
+//! Foreign formats: each file converts the conventions of one program.
 //!
 //! | name | read | written |
 //! | --- | --- | --- |

@@ -1,4 +1,4 @@
-//! What a photo's EXIF block says about the camera. It is a hint for initial values, never a measurement.
+//! Camera data of a photo's EXIF block. Hints for initial values, never measurements.
 
 mod makers;
 

@@ -1,4 +1,4 @@
-//! Most that is taken in: what a user's file claims is held against these before memory is taken for it.
+//! Limits of input: claims of a file are checked against these before memory is allocated.
 //!
 //! WebAssembly has 4 GB for everything, and a worker holds a file beside what is made from it.
 

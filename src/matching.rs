@@ -1,4 +1,4 @@
-//! Who is who across photos: names for targets, by code, by geometry, or by marks from an earlier measurement.
+//! Identification of targets across photos: by code, by geometry, or by an earlier measurement.
 
 mod cluster;
 mod coded;

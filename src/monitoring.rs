@@ -1,4 +1,4 @@
-//! Monitoring: what has moved between epochs of one object, by how much, and how certain that is.
+//! Monitoring: movements between epochs of one object, their size and significance.
 //!
 //! Epochs are projects or lists of points with standard errors. Every epoch is compared with the first and with its predecessor,
 //! by the coordinates of separate adjustments: d = x₂ - x₁, Q_d = Q₁ + Q₂. With the method `joint` the stable reference points

@@ -1,4 +1,4 @@
-//! What a plan of photos promises, where the next photo should be taken, and plans made from nothing.
+//! Planning: predicted accuracy of photos, the best next photo, and plans computed from scratch.
 //!
 //! A station sees a target that is in its picture, turned towards it, not hidden, large enough and sharp. The rays make the
 //! network's normal equations, those of the adjustment ([`crate::adjust::predict`]); their inverse has the standard errors that

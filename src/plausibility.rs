@@ -1,4 +1,4 @@
-//! What is given against what the photos say by themselves.
+//! Compares given values with those that the photos determine.
 //!
 //! Photos alone determine the form of an object: up to position, attitude and size, and never mirrored. Coordinates, distances and
 //! cameras that contradict this form are typed, exported or named wrongly, and least squares would hide it: a mirrored plane fits

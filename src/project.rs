@@ -1,4 +1,4 @@
-//! The document: what was photographed, measured and given. Format "sightline", version 1.
+//! The document: photos, measurements and given values. Format "sightline", version 1.
 //!
 //! Every view, file and test reads this one document. Fields may be added, never renamed or given another meaning.
 

@@ -1,4 +1,4 @@
-//! Photos of targets, rendered: what the whole chain from pixels is tested, taught and planned on.
+//! Rendered photos of targets, for tests, the sample and planning.
 //!
 //! Targets are exact ([`coverage`]): their outlines are projected with perspective and distortion and integrated over
 //! box pixels blurred by a Gaussian point spread. Ground, vignetting and noise follow; nothing of it is random but by

@@ -1,4 +1,4 @@
-//! What is photographed: plane faces and circular targets on them, and what of it a photo sees.
+//! The scene: plane faces with circular targets, and their visibility in a photo.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What a free network leaves open, and the S-transformation into the datum asked for.
+//! Datum of a free network: the datum defect, and the S-transformation into the chosen datum.
 
 pub mod free;
 pub mod s_transformation;

@@ -1,4 +1,4 @@
-//! Why a network cannot be solved, and what a solvable one is weak in.
+//! Diagnosis: causes of a rank defect, and weaknesses of a solvable network.
 
 pub mod advice;
 pub mod judgement;

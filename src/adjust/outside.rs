@@ -1,4 +1,4 @@
-//! What took no part: tested again with the full covariance, control against the photos, and the list of all of it.
+//! Data that were not used: retested with the full covariance, control compared with the photos, and the list of all of them.
 
 pub mod control;
 pub mod double_points;

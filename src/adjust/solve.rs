@@ -1,4 +1,4 @@
-//! The damped iteration, and one network on its way to a solution.
+//! The damped iteration, and the session that solves one network.
 
 pub mod iteration;
 pub mod session;

@@ -1,4 +1,4 @@
-//! Variance components: what the residuals say of the standard errors that were assumed, kind by kind.
+//! Variance components: factors on the assumed standard errors of each group, estimated from the residuals.
 //!
 //! The observations fall into groups with a common factor f on their variances. With the weighted residuals e and redundancy
 //! numbers r of the group, f ← f·Σe²/Σr (W. Förstner 1979), repeated with an adjustment each until all quotients are 1,

@@ -1,4 +1,4 @@
-//! Correlations beyond the limit as groups: one a camera, in place of a pair each.
+//! Correlations beyond the limit, grouped by camera.
 
 use serde::{Deserialize, Serialize};
 

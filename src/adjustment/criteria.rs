@@ -1,4 +1,4 @@
-//! By what a result is judged: the limits of its tests, the same for everyone who reads it.
+//! Criteria of a result: the limits of its tests.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! What was measured on the result: features and coordinate systems, with standard errors from the full covariance of the points.
+//! Features and coordinate systems measured on the result, with standard errors from the full covariance of the points.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! The items of the input that took no part in an adjustment, whatever took them out.
+//! The items of the input that were not used in an adjustment, with the cause.
 
 use serde::{Deserialize, Serialize};
 

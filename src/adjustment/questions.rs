@@ -1,4 +1,4 @@
-//! What is to be asked of the input, as data: both the notes of an orientation and the advice of an adjustment have it.
+//! Plausibility questions about the input, as data, in the notes of an orientation and the advice of an adjustment.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! The motion of a camera that takes over most of a change of its parameters.
+//! The camera motion that compensates most of a change of the camera's parameters.
 //!
 //! A change θ of the parameters moves the image by Jθ, a motion m = (ω, t) by Km. The motion that leaves least over a region is
 //!

@@ -1,4 +1,4 @@
-//! Places in the image with what moves the image of a point there: parameters of the camera and motions of it.
+//! Image positions with the derivatives of a point's image by the camera's parameters and motions.
 
 use nalgebra::{DMatrix, Matrix2x3, Vector3};
 

@@ -1,4 +1,4 @@
-//! Photos split into parts that see the object alike: balanced by position in space and by roll.
+//! Photos split into parts with similar geometry: balanced by position in space and by roll.
 //!
 //! A photo is described by its projection centre, in units of the photos' spread, and by the direction of its image rows in space, which its roll
 //! turns. The photo farthest from the middle of those left is taken together with its nearest neighbours, one for each part; of the ways to

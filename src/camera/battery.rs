@@ -1,4 +1,4 @@
-//! What every camera model has to pass: a model is in it by its row of [`CameraModel::ALL`] and a lens of [`lenses`].
+//! Tests that every camera model must pass: a model is included by its row of [`CameraModel::ALL`] and a lens of [`lenses`].
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

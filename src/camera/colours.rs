@@ -1,4 +1,4 @@
-//! Colours measured apart, as a set of differences for a camera.
+//! Lateral colour as a set of parameter differences of a camera.
 //!
 //! What was measured of a photo is x = (t_u, t_v, l, c) with its covariance Q, pixels: a target at g in green stands in the other colour at
 //!

@@ -1,4 +1,4 @@
-//! OpenCV's fisheye: the angle off the axis is distorted, in our pixel frame (OpenCV's cx, cy are ours - 0.5).
+//! OpenCV's fisheye: the angle from the axis is distorted, in our pixel frame (OpenCV's cx, cy are ours - 0.5).
 //!
 //! With x = px, y = -py, z = -pz (right, down, forwards), r² = x² + y² and the angle off the axis θ = atan2(r, z), 0 ≤ θ < π:
 //!

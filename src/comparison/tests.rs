@@ -1,4 +1,4 @@
-//! The comparison on results of which everything is known.
+//! Tests of the comparison on simulated results.
 
 use nalgebra::Vector3;
 

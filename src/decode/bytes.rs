@@ -1,4 +1,4 @@
-//! Just enough of the TIFF, PNG and JPEG containers to know what is in a file before a decoder is let loose on it.
+//! Minimal parsing of the TIFF, PNG and JPEG containers, to check a file before it is decoded.
 
 use std::borrow::Cow;
 

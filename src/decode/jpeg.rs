@@ -1,4 +1,4 @@
-//! JPEG's luma plane as it is stored, without colour conversion and without the chroma planes, and what of it is damaged.
+//! The luma plane of a JPEG as stored, without colour conversion and without the chroma planes, and its damaged rows.
 //!
 //! ITU-T T.81: sequential and progressive coding with Huffman codes, 8 bits. Of the chroma planes only the means of blocks are
 //! kept, for small pictures. General decoders give a picture without saying which of its rows they made up.

@@ -1,4 +1,4 @@
-//! Decoders of whole pictures, opened only where a file's bytes can hold what its header claims.
+//! Opens decoders of whole pictures only if the file can hold as many pixels as its header claims.
 
 use std::borrow::Cow;
 use std::io::Cursor;

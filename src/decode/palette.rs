@@ -1,4 +1,4 @@
-//! TIFF files whose samples are places in a palette: read as grey ones, then looked up.
+//! TIFF files with palette samples: read as grey, then looked up.
 
 use std::io::Cursor;
 

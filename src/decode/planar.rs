@@ -1,4 +1,4 @@
-//! TIFF files whose samples lie in planes of their own (`PlanarConfiguration` 2, TIFF 6.0), in strips or tiles.
+//! TIFF files with one plane per channel (`PlanarConfiguration` 2, TIFF 6.0), in strips or tiles.
 //!
 //! Each plane is read as a grey picture of its own: a directory is written behind a copy of the file that names the strips or tiles of one plane
 //! only. The decoder of whole pictures takes the tiles of the later planes for lower rows of the picture.

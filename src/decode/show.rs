@@ -1,4 +1,4 @@
-//! Pictures for showing: whole, or reduced to a size.
+//! Pictures for display: full size, or reduced.
 
 use image::DynamicImage;
 

@@ -1,4 +1,4 @@
-//! What kind of file it is, from its first bytes: the formats that are read, and the common ones that are not.
+//! The kind of a file from its first bytes: supported formats, and common unsupported ones.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! What is drawn of a measured feature: its outline as pieces of lines, and the surface that its points lie on as triangles.
+//! Drawing of a measured feature: its outline as line segments, and the surface of its points as triangles.
 //!
 //! Forms end where their points do: a plane at their convex hull, an axis at the outermost of them.
 

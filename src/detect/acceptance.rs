@@ -1,4 +1,4 @@
-//! Every threshold of the detector: what makes a picture an ordinary photo, an outline a target, a ring a code.
+//! Every threshold of the detector.
 //!
 //! One table a room, in the order in which a picture passes them. A row has a name, a value, and where the value comes from:
 //!

@@ -1,4 +1,4 @@
-//! Small and faint targets of ordinary photos, by what the photo's other targets show.
+//! Small and faint targets of ordinary photos, detected by comparison with the photo's other targets.
 //!
 //! Compression and sharpening scatter edges by more than the noise of flat paper says, and a disc that is not much wider than its
 //! blur has no outline of its own. But a photo's targets are alike: the large ones tell the blur of the picture, the contrast of

@@ -1,4 +1,4 @@
-//! Weighted centroids, the classical operators.
+//! Weighted centroids, the classical centre operators.
 //!
 //! u = Σ w x / Σ w over the pixels around the target, with w either the grey level above a threshold (intensity-weighted,
 //! Lee 1996 eq. 3-2) or the squared gradient of the grey levels (gradient-weighted, eq. 3-1). Both are simple and fast; the

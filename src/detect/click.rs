@@ -1,4 +1,4 @@
-//! One target at a click: found in a window, at growing sizes, and measured in the photo.
+//! Measures one target at a click: found in windows of growing size, then measured in the photo.
 
 use super::measure::{Found, Measure};
 use super::part::Part;

@@ -1,4 +1,4 @@
-//! Colours measured apart: the lateral chromatic aberration of the lens.
+//! Lateral chromatic aberration of the lens, from targets measured in each channel.
 //!
 //! A lens images red and blue at another scale than green. Every target is measured in all three; of the differences to green
 //!

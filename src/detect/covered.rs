@@ -1,4 +1,4 @@
-//! Targets of which something in front covers a part: up to a fifth of the diameter.
+//! Partly occluded targets: up to a fifth of the diameter.
 //!
 //! A cover draws the edges of its side inwards, and an ellipse through all edges gives way to it by a few tenths of a pixel:
 //! neither the outline nor its scatter shows what is wrong, only the fit of the picture does. So the ellipse is laid through

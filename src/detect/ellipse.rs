@@ -1,4 +1,4 @@
-//! The ellipse itself: its outline without a singular circle, its conic, and walks along its rim.
+//! Ellipse representations: outline without a singular circle, conic, and walks along the rim.
 
 pub(crate) mod conic;
 pub(crate) mod outline;

@@ -1,4 +1,4 @@
-//! Place, spread and lean of a lump of light without an outline: elliptical adaptive moments.
+//! Centre, size and orientation of a blob without an outline: elliptical adaptive moments.
 //!
 //! A Gaussian window of mean μ and covariance W weighs what stands out of the ground; of a Gaussian lump that it matches, the
 //! weighted covariance is W / 2. So μ ← Σ w I x / Σ w I, W ← 2 Σ w I (x - μ)(x - μ)ᵀ / Σ w I, until they stand still: noise far

@@ -1,4 +1,4 @@
-//! One target: from a rough outline to a centre with its covariance, or the reason why there is none.
+//! Measurement of one target: from an approximate outline to a centre with its covariance, or a rejection reason.
 
 pub(super) mod confirm;
 

@@ -1,4 +1,4 @@
-//! Medians of sizes: numbers that are not negative have the order of their bits, which are compared faster.
+//! Medians of non-negative numbers, which have the order of their bits and are compared faster.
 
 /// The median, the upper one of two; 0 of nothing. `scratch` is memory that is reused.
 pub(crate) fn of_sizes(sizes: impl Iterator<Item = f32>, scratch: &mut Vec<u32>) -> f64 {

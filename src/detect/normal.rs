@@ -1,4 +1,4 @@
-//! The normal distribution, four places at a time.
+//! The normal distribution, four values at a time.
 
 use wide::f32x4;
 

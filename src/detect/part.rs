@@ -1,4 +1,4 @@
-//! Windows of a picture as pictures of their own.
+//! Windows of a picture as separate pictures.
 
 use super::Plane;
 use crate::image::Sample;

@@ -1,4 +1,4 @@
-//! One pass over a picture: candidates of the search, what is measured of them, and what something hides.
+//! One pass over a picture: candidates of the search, their measurement, and occlusions.
 
 use super::acceptance::alike::{ENOUGH, NOISY_RIMS};
 use super::acceptance::size::{ALIKE_LARGE, ALIKE_SMALL};

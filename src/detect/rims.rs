@@ -1,4 +1,4 @@
-//! Donuts: of a disc with a hole the outer rim is the target, the rim of the hole a property of it.
+//! Ring-shaped targets: the outer rim of a disc with a hole is the target, the rim of the hole its property.
 //!
 //! The search finds the hole, because it is a disc of one level, and not the disc around it. So the outer rim is looked for around every target that has no
 //! code: on rays from its centre, the ground of a hole ends where its own level comes back. If these places are an ellipse, it is confirmed and

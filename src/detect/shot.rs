@@ -1,4 +1,4 @@
-//! Targets of a photo, whoever has decoded it.
+//! Detection in a photo, independent of its decoder.
 
 use super::{detect_photo, measure_in_photo, sites};
 use crate::detection::{DetectOptions, Detection, Target};

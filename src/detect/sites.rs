@@ -1,4 +1,4 @@
-//! Targets on the samples of a sensor.
+//! Detection on sensor samples (RAW).
 //!
 //! They are searched in a grey picture made from the sites of one colour ([`plane`]), with the whole of the detection for ordinary
 //! pictures, and measured on these sites alone: no sample is interpolated, every one has its own place and its own standard error

@@ -1,4 +1,4 @@
-//! Colours measured apart: how far a lens images red and blue from green.
+//! Lateral colour: differences of red and blue from green.
 
 use serde::{Deserialize, Serialize};
 

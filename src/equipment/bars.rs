@@ -1,4 +1,4 @@
-//! Scale bars, and the distances that they give where their ends are seen.
+//! Scale bars, and the distances they give if their ends are measured.
 
 use std::collections::{HashMap, HashSet};
 

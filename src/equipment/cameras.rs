@@ -1,4 +1,4 @@
-//! Cameras that are known, and what their calibrations say in a project.
+//! Known cameras, and the use of their calibrations in a project.
 
 use std::collections::BTreeMap;
 

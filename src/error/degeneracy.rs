@@ -1,4 +1,4 @@
-//! Why initial values cannot be computed: the reason that closed forms give, and errors carry.
+//! Why initial values cannot be computed: the reason in errors of closed-form solutions.
 
 use std::fmt;
 

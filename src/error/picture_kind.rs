@@ -1,4 +1,4 @@
-//! Kinds of pictures that are not read, as data. In JSON each is its English words, as it always was.
+//! Kinds of unsupported picture files, as data. In JSON each is its English name.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Why something is not allowed where it stands, as data: a name and the values that a sentence needs.
+//! Reasons of invalid input, as data: a name and the values of its sentence.
 //!
 //! Each reason has its English sentence beside it; the desk has one for each in every other language.
 

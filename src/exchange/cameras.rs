@@ -1,4 +1,4 @@
-//! Cameras by themselves, in and out: which format has them, recognised by content.
+//! Import and export of single cameras; the format is recognised by content.
 
 use serde::Serialize;
 

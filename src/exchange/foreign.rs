@@ -1,4 +1,4 @@
-//! Cameras of other programs: what their readers and writers share.
+//! Code shared by the readers and writers of cameras of other programs.
 //!
 //! A reader gives the model as its file has it; here it becomes a camera of the document, exactly where a model of the engine has all its
 //! terms, by least squares ([`conversion`](super::conversion)) otherwise. A writer names the models of its format; here one of them takes the

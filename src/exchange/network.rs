@@ -1,4 +1,4 @@
-//! Networks of other programs: what their readers and writers share.
+//! Code shared by the readers and writers of networks of other programs.
 //!
 //! A reader fills a [`ForeignNetwork`]; its cameras become those of the document over the part of the picture that is measured. A writer gets an
 //! [`OutgoingNetwork`]: numbered cameras, oriented photos and points with what sees them.

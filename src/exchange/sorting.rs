@@ -1,4 +1,4 @@
-//! Files that come in together, sorted by content: networks and cameras of other programs, and the rest.
+//! Sorts files dropped together by content: networks and cameras of other programs, and the rest.
 //!
 //! A model of COLMAP, a project of DBAT and the exports of Metashape are several files; every other format is one file, Bundler's with a list
 //! of pictures beside it. Only binary files of COLMAP are told by their names alone: nothing marks their content. A file that is no picture,

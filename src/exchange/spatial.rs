@@ -1,4 +1,4 @@
-//! What drawings and spatial viewers are given: adjusted points, or the document's own where there is no adjustment, cameras, lines.
+//! Contents of drawings and 3-D files: adjusted points, or the document's own without an adjustment, cameras, lines.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! What the text formats share: rows of fields, fields that are named when they are wrong.
+//! Code shared by the text formats: rows of fields, errors that name the field.
 //!
 //! Tabs, commas and semicolons make a table that the csv crate reads as a whole, so that a quoted field may hold a separator or the
 //! end of a line; fields separated by blanks are words.

@@ -1,4 +1,4 @@
-//! What makers' notes say of corrections of the lens.
+//! Lens corrections according to maker notes.
 //!
 //! A note is a TIFF directory in its maker's own way: with a head before it or none, its places counted from the EXIF block or from the
 //! note, in the block's byte order or its own. Only settings whose tag and values are publicly known (the tables of ExifTool) are read,

@@ -1,4 +1,4 @@
-//! What Kang and Yeu (1985) measured: plates on a comparator, from fiducial marks to coordinates.
+//! The measurements of Kang and Yeu (1985): plates on a comparator, from fiducial marks to coordinates.
 //!
 //! The five photos of one of the paper's networks are put on film that shrank differently along and across, seen through
 //! a lens with radial distortion, and read on a machine with an origin and turn of its own. The readings go back

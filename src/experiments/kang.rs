@@ -1,4 +1,4 @@
-//! Kang and Yeu (1985): more photos, better coordinates.
+//! Kang and Yeu (1985): improvement of coordinates by more photos.
 //!
 //! Fifteen points on a statue, three of them control, photographed by a P31 with parallel axes from one base line at
 //! five distances: 60 networks of 2 to 5 photos at one distance and 16 that mix distances. Q is the geometric standard

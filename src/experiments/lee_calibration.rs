@@ -1,4 +1,4 @@
-//! Lee (1996), chapter 4: a camera calibrates itself, from the pixels on.
+//! Lee (1996), chapter 4: self-calibration of a camera, starting from pixels.
 //!
 //! A DCS420 of the paper's parameters photographs 120 retro targets of 10 mm in a field 2.0 m wide, 1.5 m high and 0.45 m
 //! deep from six stations, each once upright and once rolled by 90°, aimed at the middle. The photos are rendered, the

@@ -1,4 +1,4 @@
-//! What an experiment hands back: figures, tables and charts as data, and the project to open.
+//! Result of an experiment: figures, tables and charts as data, and the project to open.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

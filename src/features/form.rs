@@ -1,4 +1,4 @@
-//! What the fitted forms have in common: rows of distances with their derivatives, and what comes out of a fit.
+//! Code shared by the fitted forms: rows of distances with their derivatives, and the result of a fit.
 
 use nalgebra::{Matrix6, Vector3};
 

@@ -1,4 +1,4 @@
-//! Points that get the name of the given coordinates they lie at.
+//! Names points by the given coordinates at their position.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What the robust starts share: a seeded generator, samples without repetition, and the robust scale of residuals.
+//! Code shared by the robust initial solutions: a seeded generator, samples without repetition, and the robust scale of residuals.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};

@@ -1,4 +1,4 @@
-//! Clusters of rays that meet: targets without a name in three photos or more.
+//! Clusters of intersecting rays: unnamed targets in three photos or more.
 //!
 //! Pairs of targets on each other's epipolar lines ([`super::epipolar`]) are intersected, and each such place collects the
 //! targets of the other photos that lie where it is seen. Clusters of many rays without a rival in any photo are sure and

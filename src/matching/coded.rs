@@ -1,4 +1,4 @@
-//! Coded targets name themselves, when it is known which family they are of.
+//! Names coded targets, once their family is known.
 
 use std::collections::{BTreeMap, BTreeSet};
 

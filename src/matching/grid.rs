@@ -1,4 +1,4 @@
-//! Boards of circular dots name their dots, photo by photo: no camera, orientation or order of the photos is needed.
+//! Names the dots of a board of circular dots, photo by photo: no camera, orientation or order of the photos is needed.
 //!
 //! Dots are joined to lattices with places predicted from their neighbours alone ([`growth`], [`local`]), so that perspective and any
 //! lens's distortion do not matter. A lattice is then laid on the board in every way ([`placement`]); it gives names where one way is

@@ -1,4 +1,4 @@
-//! Gross errors after an adjustment: measurements that carry a wrong name.
+//! Gross errors after an adjustment: measurements with a wrong name.
 //!
 //! A wrong name moves its target by many standard deviations, and its point with it. Each point's rays are judged by
 //! themselves: the ray without which the others meet best is the wrong one.

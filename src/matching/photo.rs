@@ -1,4 +1,4 @@
-//! Oriented photos as matching sees them: pose, camera and, for the moment of matching, targets as rays.
+//! Oriented photos for matching: pose, camera and targets as rays.
 
 use nalgebra::Vector3;
 

@@ -1,4 +1,4 @@
-//! The pose of a photo of few names, from the targets of points that there are.
+//! The pose of a photo with few names, from the targets of known points.
 //!
 //! Three or four named points, or points of one plane, have more than one resection that fits alike, and one that is right is
 //! not accurate far from them. The photo shows the other points, too: every resection of the named points is refined by the targets that

@@ -1,4 +1,4 @@
-//! Matching and adjusting in turns until nothing is found any more.
+//! Alternates matching and adjustment until nothing is added.
 //!
 //! What is matched improves the orientations, and better orientations show more. Photos of few names first find their pose by the
 //! targets of points that there are ([`super::poses`]); what is found is joined to points that there are ([`super::join`]), so

@@ -1,4 +1,4 @@
-//! Approximate marks, such as those of an earlier measurement, moved onto measured centres.
+//! Snaps approximate positions, such as those of an earlier measurement, to measured centres.
 
 use std::collections::{BTreeMap, BTreeSet};
 

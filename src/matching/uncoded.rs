@@ -1,4 +1,4 @@
-//! Targets without a code: who is who, from the geometry of oriented photos.
+//! Matches targets without a code by the geometry of oriented photos.
 //!
 //! First, points that have coordinates are looked for where they should appear. Then the free targets are searched for
 //! clusters of rays that meet ([`super::cluster`]).

@@ -1,4 +1,4 @@
-//! Which reference points have moved: the global test, repeated without the point that contributes most until it is accepted.
+//! Finds moved reference points: the global test, repeated without the point that contributes most until it is accepted.
 
 use nalgebra::Vector3;
 

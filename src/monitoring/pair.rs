@@ -1,4 +1,4 @@
-//! Two epochs beside each other, step by step.
+//! Comparison of two epochs, step by step.
 
 use std::collections::{BTreeSet, HashMap};
 

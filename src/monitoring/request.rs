@@ -1,4 +1,4 @@
-//! What is compared, and how.
+//! Options of a comparison of epochs.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What a comparison of epochs finds. Lengths are in the unit of the epochs, angles in radians; no number is NaN or infinite.
+//! Result of a comparison of epochs. Lengths are in the unit of the epochs, angles in radians; no number is NaN or infinite.
 
 use serde::{Deserialize, Serialize};
 

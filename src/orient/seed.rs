@@ -1,4 +1,4 @@
-//! A first pair for networks without known points.
+//! Selects the first pair of networks without known points.
 //!
 //! Pairs that share many points are oriented relative to each other; the ones with many agreeing points and good
 //! intersection angles become starts. A start is grown over a few photos, a core, which tells a true start from the

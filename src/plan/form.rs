@@ -1,4 +1,4 @@
-//! Targets on simple forms, with the faces that hide those behind.
+//! Targets on simple forms, with the faces that occlude those behind.
 
 use std::f64::consts::{PI, TAU};
 

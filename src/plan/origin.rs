@@ -1,4 +1,4 @@
-//! Plans from what there is: a network on paper, or a project that was measured.
+//! Plans from a planned network or from a measured project.
 
 use crate::initial::Pose;
 use crate::network::Network;

@@ -1,4 +1,4 @@
-//! A plan made ready: checked, with what its stations are seen by.
+//! A plan prepared for prediction: checked, with the points that each station sees.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! Cameras that cannot be what they are said to be.
+//! Cameras with implausible data.
 
 use super::framing::Framing;
 use super::seen::{DISTANCES, distance_px, longer_side};

@@ -1,4 +1,4 @@
-//! Exchanges and signs of axes, and a project with one of them undone.
+//! Exchanged and negated axes, and their correction in a project.
 
 use crate::adjustment::Exchange;
 use crate::project::{Project, Role};

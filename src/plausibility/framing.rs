@@ -1,4 +1,4 @@
-//! A photo among others that was resized, cropped, or taken at another principal distance.
+//! Finds photos that were resized, cropped, or taken at another principal distance.
 //!
 //! Its points fit the others' network only with a lens of its own. Three hypotheses are tried where the camera's lens makes most of its
 //! measurements disagree: pixels divided by a factor about the corner of the picture (resized), shifted (cropped), or rays divided by a factor

@@ -1,4 +1,4 @@
-//! Whether anything gives lengths their size.
+//! Whether the project has a scale.
 
 use crate::project::{DatumKind, Project, Role};
 

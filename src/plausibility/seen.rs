@@ -1,4 +1,4 @@
-//! The photos of a document with what was measured in them.
+//! The photos of a document with their measurements.
 
 use std::collections::{HashMap, HashSet};
 

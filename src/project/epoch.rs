@@ -1,4 +1,4 @@
-//! Of which project a project is a later epoch.
+//! Reference to the project of epoch 0.
 
 use serde::{Deserialize, Serialize};
 

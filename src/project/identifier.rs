@@ -1,4 +1,4 @@
-//! Identifiers are text; numbers are taken too, since many point lists have nothing else.
+//! Identifiers are text; numbers are accepted too, since many point lists have nothing else.
 
 use serde::{Deserialize, Deserializer};
 

@@ -1,4 +1,4 @@
-//! A plan: what will be photographed, with which camera, from where, and how accurate it has to become.
+//! A plan: targets, camera, stations and required accuracy.
 //!
 //! Data of the document; what it promises is computed in `plan`.
 

@@ -1,4 +1,4 @@
-//! What a report says besides its numbers, and how it is printed.
+//! Contents and layout of a report.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! A table of the project that its copies share until one of them changes it.
+//! A table of the project, shared by its copies until one of them changes it.
 
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;

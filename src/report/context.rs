@@ -1,4 +1,4 @@
-//! What every section reads: document, result, words, and the digits that numbers of a kind have.
+//! Shared data of the sections: document, result, words, and the number of digits for each kind of number.
 
 use std::collections::{HashMap, HashSet};
 

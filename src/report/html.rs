@@ -1,4 +1,4 @@
-//! HTML as it is written: text is escaped where it enters, so that no name of a photo can become a tag.
+//! Writes HTML: text is escaped on insertion, so that a photo's name cannot become a tag.
 
 use std::fmt::Write;
 

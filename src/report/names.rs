@@ -1,4 +1,4 @@
-//! Parameters and units as people write them, the same in the report and on the desk.
+//! Names of parameters and units, the same in the report and on the desk.
 
 use std::collections::HashMap;
 

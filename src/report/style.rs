@@ -1,4 +1,4 @@
-//! How the report looks: on paper black on white with one blue and one orange, whatever the theme of the desk.
+//! Style of the report: on paper black on white with one blue and one orange, independent of the desk's theme.
 
 use super::context::Context;
 use crate::project::{Paper, ReportSettings};

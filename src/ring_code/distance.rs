@@ -1,4 +1,4 @@
-//! Codes that can hardly be mistaken for each other.
+//! Selects codes with a large mutual distance.
 //!
 //! The distance of two codes is the smallest Hamming distance between one and any rotation of the other: so many sectors
 //! must be misread before one passes for the other. All codes have even parity, so that distances are even and at least 2. Codes

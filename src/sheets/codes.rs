@@ -1,4 +1,4 @@
-//! Which codes are printed: those that were named, or those that can hardly be mistaken for each other.
+//! Selects the codes to print: those named, or those with the largest mutual distance.
 
 use std::sync::OnceLock;
 

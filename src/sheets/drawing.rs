@@ -1,4 +1,4 @@
-//! What stands on a sheet: few kinds of shapes in millimetres from the sheet's top left corner, x right, y down.
+//! Shapes on a sheet, in millimetres from its top left corner, x right, y down.
 
 /// A shape. Greys are shares of white: 0 is ink, 1 is paper. Later shapes cover earlier ones.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! What stands where: cells in rows and columns between a heading and a ruler.
+//! Layout of a sheet: cells in rows and columns between a heading and a ruler.
 
 use super::codes::{least_distance, numbers};
 use super::drawing::{Page, Shape};

@@ -1,4 +1,4 @@
-//! Files that go with a print: what is on it and how large it came out.
+//! Files with the contents and the scale of a print.
 
 use std::fmt::Write;
 

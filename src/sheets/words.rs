@@ -1,4 +1,4 @@
-//! What is written on a sheet, in the language that is chosen for it.
+//! Words on a sheet, in the chosen language.
 
 use crate::project::ReportLanguage;
 

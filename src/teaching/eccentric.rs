@@ -1,4 +1,4 @@
-//! The size of circular targets against the bias of their ellipse centres.
+//! Bias of ellipse centres by the size of circular targets.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! One observation laid open: its collinearity equation with numbers, each derivative beside a numerical one, and where an error of it goes.
+//! One observation explained: its collinearity equation with numbers, each derivative beside a numerical one, and the distribution of its error.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

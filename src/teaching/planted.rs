@@ -1,4 +1,4 @@
-//! Errors planted in observations, and what the tests and four estimators make of them.
+//! Simulated gross errors, and the response of the tests and four estimators.
 
 use serde::{Deserialize, Serialize};
 

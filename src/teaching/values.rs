@@ -1,4 +1,4 @@
-//! What lessons ask for: expressions of the network's quantities, so that no answer is typed into a lesson.
+//! Expressions of the network's quantities for the answers of lessons, so that no answer is stored in a lesson.
 //!
 //! ```text
 //! expression  = sum [ ("=" | "<" | ">") sum ]           1 where it holds, else 0; "=" to 1e-9 of the larger side

@@ -1,4 +1,4 @@
-//! What follows when the standard errors of a group are scaled.
+//! Effect of scaling the standard errors of a group.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! The datum: what a network without control leaves open, and how it is fixed.
+//! The datum: the datum defect of a network without control, and the constraints that remove it.
 //!
 //! A similarity of the object (shift, rotation, and scale where no distance fixes it) changes no image coordinate. Its
 //! seven (six) directions G span the null space of the normal equations:

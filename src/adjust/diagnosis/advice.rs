@@ -1,4 +1,4 @@
-//! What a solved network is weak in.
+//! Advice: weaknesses of a solved network.
 
 use crate::adjust::problem::additional::Key;
 use crate::adjust::problem::network::Network;

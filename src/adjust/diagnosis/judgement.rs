@@ -1,4 +1,4 @@
-//! What the result itself says of observations, parameters and standard errors, by the limits that it carries.
+//! Tests of observations, parameters and standard errors of a result, with the criteria that it carries.
 
 use crate::adjustment::{AdjustedCamera, AdjustedObservation, Adjustment, Advice, Criteria, GivenObservation};
 use crate::statistics::distribution::critical_among;

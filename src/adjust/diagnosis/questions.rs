@@ -1,4 +1,4 @@
-//! What an adjustment asks of the input: [`crate::plausibility`] with the document's and the adjusted values.
+//! Plausibility checks of the input in an adjustment: [`crate::plausibility`] with the document's and the adjusted values.
 
 use std::collections::HashMap;
 

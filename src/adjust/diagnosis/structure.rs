@@ -1,4 +1,4 @@
-//! Defects that the structure of a network shows before any number: a datum for every connected group of photos.
+//! Rank defects that follow from the structure of a network without its numbers: a datum for every connected group of photos.
 
 use std::collections::BTreeMap;
 

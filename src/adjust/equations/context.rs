@@ -1,4 +1,4 @@
-//! What the observation and normal equations are set up from: one value that goes to all that builds, solves and inverts them.
+//! Context of the observation and normal equations, shared by the code that builds, solves and inverts them.
 
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;

@@ -1,4 +1,4 @@
-//! The weighted squares of a state and their gradient, without the normal matrix.
+//! The weighted sum of squares of a state and its gradient, without the normal matrix.
 
 use crate::adjust::linear::blocks::add_rows;
 use crate::adjust::linear::cholesky3::{backward3, forward3};

@@ -1,4 +1,4 @@
-//! Robust weights: iterated least squares in which large residuals weigh less.
+//! Robust weights: iterated least squares in which large residuals get less weight.
 //!
 //! With the standardised residual t = v/(σ s √r), r the redundancy number and s the scale, the factors on the weights are
 //!

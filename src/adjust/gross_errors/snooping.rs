@@ -1,4 +1,4 @@
-//! Iterative data snooping: the one worst observation is taken out at a time, and comes back when it fits after all.
+//! Iterative data snooping: one observation, the worst, is excluded per round, and restored if it fits after all.
 //!
 //! Observations of every kind are tested alike: image coordinates (both of a ray together), control coordinates, observed
 //! projection centres, distances and observed parameters. The test statistic is Pope's τ, e/(σ0 √r_i), with σ0 from the

@@ -1,4 +1,4 @@
-//! Given coordinates of control points against the photos.
+//! Given coordinates of control points compared with the photos.
 //!
 //! Where everything but a control point's own coordinates g sees it: from its adjusted coordinates x with cofactors C, in which the
 //! coordinates took part with the weights P, N = C⁻¹ - P, and x' = N⁻¹ (C⁻¹ x - P g) with the cofactors N⁻¹. The difference

@@ -1,4 +1,4 @@
-//! Points that may be one: nearer to each other than their standard errors tell apart, and told apart by no photo.
+//! Points that may be one: closer than their standard errors can separate, and in no photo together.
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,4 +1,4 @@
-//! The list of what took no part.
+//! The list of data that were not used.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,4 +1,4 @@
-//! Observations that took no part, tested with the full covariance of the network.
+//! Observations that were not used, tested with the full covariance of the network.
 //!
 //! An orientation judges measurements by fixed limits in the photo. The adjustment knows more: the prediction of an image
 //! coordinate by everything else has the cofactor q, and its error e/(σ √(1 + q)) is normal if the measurement is right (Baarda's w

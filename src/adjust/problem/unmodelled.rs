@@ -1,4 +1,4 @@
-//! What the measurement's own standard error cannot know: lens, flatness of targets, light, compression.
+//! Extra image error that the standard error of a measurement does not include: lens, flatness of targets, light, compression.
 //!
 //! A target's centre is measured to a hundredth of a pixel while the model of the photo is often good to a tenth. With one
 //! standard deviation u for what is not modelled, σ² = s² + u² for every image coordinate of own standard error s.

@@ -1,4 +1,4 @@
-//! Observations of other kinds than image coordinates in the result: residuals, reliability, and what was taken out.
+//! Observations of other kinds than image coordinates in the result: residuals, reliability, exclusions.
 
 use crate::adjust::gross_errors::start::LEAST;
 use crate::adjust::problem::additional::{self, Key, Observed};

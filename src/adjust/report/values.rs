@@ -1,4 +1,4 @@
-//! Values of a session put back into its document.
+//! Writes the adjusted values of a session back into its document.
 
 use crate::adjust::solve::session::Session;
 use crate::project::{Project, Role};

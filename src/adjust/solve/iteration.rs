@@ -1,4 +1,4 @@
-//! The damped iteration: Gauss-Newton while it works, Levenberg-Marquardt damping where it does not.
+//! The damped iteration: Gauss-Newton steps, with Levenberg-Marquardt damping if a step fails.
 //!
 //! A step is taken when it lowers vᵀPv by a fair part of what the linear model predicts; else the damping λ rises. The
 //! iteration ends when the undamped step is negligible against the standard errors, δᵀNδ ≤ ε² vᵀPv / r, or against the

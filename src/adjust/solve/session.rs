@@ -1,4 +1,4 @@
-//! One network on its way to a solution: iteration, cofactors; the search for gross errors is in [`crate::adjust::gross_errors::search`].
+//! The session that solves one network: iteration and cofactors; the gross error search is in [`crate::adjust::gross_errors::search`].
 
 mod calibration;
 

@@ -1,4 +1,4 @@
-//! External reliability: how far an error in an observation, undetected, shifts the points (W. Baarda 1968).
+//! External reliability: effect of an undetected error of an observation on the points (W. Baarda 1968).
 //!
 //! A unit of weighted error in the observation with row a shifts the unknowns by Q aᵀ, in the datum by S Q aᵀ. Of an image
 //! coordinate the shift of its own point is kept; of a control coordinate that of the control point; of a distance, an

@@ -1,4 +1,4 @@
-//! The codes of T.81, annex K.3, which most writers use, and frames of films leave out.
+//! The standard Huffman tables of T.81, annex K.3, which some files omit, such as frames of films.
 
 /// Numbers of codes of each length for direct coefficients, of luma and of chroma; their symbols are 0 to 11.
 const DIRECT: [[u8; 16]; 2] =

@@ -1,4 +1,4 @@
-//! Damaged and hostile files: what is whole is given, what is not is named, and nothing is taken on a header's word.
+//! Damaged and hostile files: intact rows are returned, damaged rows are named, and headers are not trusted.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

@@ -1,4 +1,4 @@
-//! JPEG in its kinds: the luma plane that was written comes back, whatever stands beside it.
+//! Variants of JPEG: the luma plane that was written is read back.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

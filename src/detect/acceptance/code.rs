@@ -1,4 +1,4 @@
-//! Codes of rings; levels are shares of the dot's contrast.
+//! Thresholds of ring codes; levels are fractions of the dot's contrast.
 
 use super::Source;
 

@@ -1,4 +1,4 @@
-//! Discs where a ring has its set sectors.
+//! Hypothesis of discs in place of the set sectors of a ring.
 //!
 //! Dots around a dot can lie on the grid of a family, in the ring's middle, and be as bright as sectors. What tells them from sectors is
 //! their shape: the ends of sectors are straight rays and their rims arcs of the ring's circles, a disc leaves the corners free. Both are

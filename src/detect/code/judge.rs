@@ -1,4 +1,4 @@
-//! What a ring is as a code of a family: one gate after the other.
+//! Decides whether a ring is a code of a family, by a sequence of tests.
 //!
 //! A ring is a code when every sector is clearly one of two levels and the same at its inner and its outer half, when the
 //! gap is clear, and the ground outside beside each set sector, when its rims are where the design has them, when sectors explain

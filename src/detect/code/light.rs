@@ -1,4 +1,4 @@
-//! Small targets in light, where the picture's levels are a camera's tone curve of it.
+//! Small targets in linear light, if the grey levels follow a camera's tone curve.
 //!
 //! Lens and pixels blur light; the curve comes after. Half-way between the levels of an edge of blur σ lies less than half of its light,
 //! the share s, and the edge shows σ Φ⁻¹(s) to the dark side of where it is: bright sectors look wider, dark ones narrower. Whether a

@@ -1,4 +1,4 @@
-//! What detection finds in a coded target besides its dot: parts of the ring, and the spot in the dot's centre.
+//! Detections that belong to a coded target besides its dot: parts of the ring, and the spot in the dot's centre.
 
 use std::ops::Range;
 

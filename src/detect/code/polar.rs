@@ -1,4 +1,4 @@
-//! A ring in polar coordinates of its target: where its places lie in the photo, and what levels they have.
+//! A ring in polar coordinates of its target: positions in the photo and grey levels.
 //!
 //! The dot's circle of radius 1 is seen as an ellipse; so are the circles around it. With the target's plane (x, y), the
 //! photo is A b(x, y) + centre, where A is the ellipse's matrix and b a projective map that keeps the unit circle. For a target that

@@ -1,4 +1,4 @@
-//! Gap, ring and outside of a target, separated in each direction.
+//! Levels of gap, ring and background of a target, separated in each direction.
 //!
 //! Along a ray the levels above the background, as shares of the dot's contrast, are a sum of blurred bands,
 //!

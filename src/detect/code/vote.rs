@@ -1,4 +1,4 @@
-//! Which family a photo's rings belong to.
+//! Determines the code family of a photo's rings.
 //!
 //! A family explains a photo when it reads, or leaves in doubt, every ring that any family reads. Under "auto" a photo's codes are
 //! taken when exactly one family explains it. A ring that several families read in the same way tells them not apart: it

@@ -1,4 +1,4 @@
-//! How light changes across a disc, from its background and its inside: for the operators that have no fit of their own.
+//! Illumination gradient across a disc, from its background and its inside, for operators without a fit of their own.
 //!
 //! Light multiplies. Where it rises by the share h a pixel, the background of level B has the slope G = B h and the disc of level D = B + C the
 //! slope D h. With the slopes as measured outside of the rim and inside, their covariances, and a standard deviation τ of what light can do,

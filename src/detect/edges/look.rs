@@ -1,4 +1,4 @@
-//! A quick look at a blob, before anything is fitted: sixteen directions, two pixels each.
+//! A quick test of a blob before any fit: sixteen directions, two pixels each.
 //!
 //! Inside, a target has one level; outside, in most directions, it has another. Where the outside has the inside's own
 //! level, the shape is open there: it is joined with something else of its grey, or it is the bowl of a letter. What hides

@@ -1,4 +1,4 @@
-//! Is what was measured a target? The tests after the measurement.
+//! Tests of a measured target.
 //!
 //! Three numbers separate circular targets from letters, corners and texture that happen to carry an ellipse: the rms of
 //! the edge points from the ellipse, against what noise alone would do to them; the part of the residuals of the rendered

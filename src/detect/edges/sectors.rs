@@ -1,4 +1,4 @@
-//! Which sector of an outline is covered: the one without which an ellipse fits its edges best.
+//! Finds the occluded sector of an outline: the one without which an ellipse fits its edges best.
 //!
 //! Near the start the distances d of the edges are linear in the corrections x of (u, v, p, q, r): d = J x + e. For every sector
 //! the normal equations are those of all edges less its own, N x = r, and e'e = d'd - r'x tells how well the others agree. That

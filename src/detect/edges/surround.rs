@@ -1,4 +1,4 @@
-//! Grey levels around a target: background plane, noise, contrast, and how far out the background is undisturbed.
+//! Grey levels of the annulus around a target: background plane, noise, contrast, and undisturbed radius.
 //!
 //! Rings of single pixels are read outside of the rim, from where its blur ends to a radius beyond. The nearest ring fixes a
 //! plane robustly; every further ring that agrees with it in mean and spread is added, the first that does not ends the

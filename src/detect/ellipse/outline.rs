@@ -1,4 +1,4 @@
-//! An ellipse without a singular circle.
+//! Parameters of an ellipse that are not singular for a circle.
 //!
 //! The rim is e(t) = centre + A (cos t, sin t)' with a symmetric positive matrix A = [[p, r], [r, q]]: its eigenvalues are
 //! the semi-axes, its first eigenvector is the direction of the major axis. For a circle the angle of the axes is

@@ -1,4 +1,4 @@
-//! Rim points one by one, and four at a time, each a quarter turn from the next.
+//! Points of the rim one by one, and four at a time, a quarter turn apart.
 //!
 //! Most of the work on what turns out to be no target is walking along rays. In single precision, relative to the outline's
 //! centre, four of them cost about as much as one; at 400 pixels from there rounding is 3e-5 pixels.

@@ -1,4 +1,4 @@
-//! From a rough outline to a target as its edges show it: one gate after the other, the cheap ones first.
+//! From an approximate outline to a confirmed target by its edges: a sequence of tests, cheap ones first.
 
 use super::{Found, Measure};
 use crate::detect::acceptance::levels::{CONTRAST, DISTURBED, FAINT, STROKE, UNEVEN, UNEXPLAINED};

@@ -1,4 +1,4 @@
-//! Pictures of two levels whose greys are patterns of dots.
+//! Dithered pictures: two levels in patterns of dots.
 //!
 //! Dithering makes a grey of single samples that differ from all four neighbours, by a pattern of thresholds or by passing on what each
 //! sample is off. A drawing, or a scan cut at one threshold, has areas and lines, and single samples only where noise crosses the threshold.

@@ -1,4 +1,4 @@
-//! Noise and range of a whole picture, for the search's threshold.
+//! Noise and grey level range of a whole picture, for the threshold of the search.
 
 use crate::detect::acceptance::picture as limits;
 use crate::image::{Plane, Sample};

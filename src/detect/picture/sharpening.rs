@@ -1,4 +1,4 @@
-//! How a picture was sharpened, from the mean profile of its own targets' rims.
+//! Estimates how a picture was sharpened, from the mean edge profile of its targets.
 //!
 //! An edge of blur σ that an unsharp mask of amount k and radius ρ has passed is
 //! B + C (Φ(-d/σ) + k (Φ(-d/σ) - Φ(-d/√(σ² + ρ²)))), d the distance from the rim: linear in B, C and C k. Those are found by

@@ -1,4 +1,4 @@
-//! A picture softened, and the inverse of its sharpening.
+//! A smoothed copy of a picture, and the inverse of its sharpening.
 //!
 //! An unsharp mask makes y = x + k (x - G x) of x, with G a Gaussian mean of sigma ρ: a linear map, 1 + k - k g on what G multiplies
 //! by g, between 1 and 1 + k. Its inverse therefore amplifies nothing, the noise of the picture included. It is a function of g alone, and so

@@ -1,4 +1,4 @@
-//! Covariance of a centre where neighbouring pixels share their noise.
+//! Covariance of a centre with autocorrelated noise of neighbouring pixels.
 //!
 //! Sharpening, demosaicing, compression and every mean correlate the noise of neighbours: E r_i r_j = σ² ρ(i - j). The centre is
 //! Σ z_i r_i, so that its variance is Σ σ² ρ(i - j) z_i z_j = σ² Σ_d ρ(d) A(d), with A(d) = Σ z_i z_{i+d}. ρ is the mean of all

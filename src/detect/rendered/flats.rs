@@ -1,4 +1,4 @@
-//! The flat parts of a fit, inside and outside of the rim's band.
+//! The flat parts of a fit, inside and outside the rim's band.
 //!
 //! Their model, B or B + C in light that changes ([`lit`](super::lit)), is linear in each: only moments of their pixels are kept, summed row
 //! by row in whole numbers.

@@ -1,4 +1,4 @@
-//! Grey levels of a fit, in light that changes across the target.
+//! Grey levels of a fit with an illumination gradient across the target.
 //!
 //! Light multiplies: lens, lamps and shading make it change by the share h a pixel, and the ground of level B has the slope B h, the disc
 //! of level B + C the slope (B + C) h. A gamma curve leaves that as it is, (L R)^(1/γ) = L^(1/γ) R^(1/γ), with h / γ for h. The model is

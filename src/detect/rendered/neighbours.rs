@@ -1,4 +1,4 @@
-//! Light of what stands around a target, on the ground next to it.
+//! Light that neighbouring features add to the background of a target.
 //!
 //! Blur carries the light of a code's ring, or of a neighbour, onto the pixels of the rim. Where it is too little to stand out as an
 //! outlier it pulls the centre all the same, and all of it in one direction: noise of single pixels would average out, this does not.

@@ -1,4 +1,4 @@
-//! Covariance of a fitted centre where the noise of a pixel depends on its grey.
+//! Covariance of a fitted centre if the noise of a pixel depends on its grey level.
 //!
 //! The noise of light grows with the light: its variance is linear in the grey (EMVA Standard 1288), and a bright disc scatters
 //! more than its dark ground. With I the share of the disc in a pixel, σ²(I) = a + b I is fitted to the squares of the

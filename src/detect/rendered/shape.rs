@@ -1,4 +1,4 @@
-//! What a rim that is no ellipse does to the centre.
+//! Effect of a rim that is not an ellipse on the centre.
 //!
 //! A rim that departs from its ellipse by a cos kθ + b sin kθ pixels, θ its eccentric angle, leaves the light
 //!

@@ -1,4 +1,4 @@
-//! What runs across a target, by the two places at which it hides the rim.
+//! An occluder across a target, from the two places where it hides the rim.
 //!
 //! A cable hides the rim twice. In between it lies on the disc, and may differ from it by so little that no pixel tells: only what
 //! lies on the far side of the chords between the ends of both is the target's, or its ground.

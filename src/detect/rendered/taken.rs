@@ -1,4 +1,4 @@
-//! Correlated noise in a fit: how much of it the residuals still show, and the covariance that it gives to the unknowns.
+//! Correlated noise in a fit: its part that remains in the residuals, and the covariance of the unknowns.
 //!
 //! Noise with the covariance P enters a fit with the Jacobian J and the cofactors N⁻¹ = L L'. With K = J L, K̃ = P K, G = L' J' P J L (sums over
 //! all pixels of the fit) and M = K̃ - K G / 2, the hat matrix is H = J N⁻¹ J' = K K', the residuals have the covariance

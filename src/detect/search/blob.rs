@@ -1,4 +1,4 @@
-//! Blob tests: is a chain of runs the image of a circle, and roughly which?
+//! Blob tests: whether a chain of runs is the image of a circle, and its approximate ellipse.
 //!
 //! The runs are the blob: their area, centroid and second moments give the ellipse of the same moments, and an ellipse
 //! fills it (area = 4 π sqrt(det of the second moments)). With enough runs their ends, edge points good to about a tenth of

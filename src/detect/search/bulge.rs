@@ -1,4 +1,4 @@
-//! Targets on what runs up or down through them and is as dark or as bright as they are: where a blob is wider than elsewhere.
+//! Targets on a line of the same brightness that runs through them: detected where the blob is wider.
 //!
 //! A cable across a target of its own tone makes one long blob of both. Most of its border is the cable's, but the target is
 //! wider: the rows that are wider than the cable are those of the target, and are tested as a blob of their own. How wide the cable

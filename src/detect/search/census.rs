@@ -1,4 +1,4 @@
-//! Bookkeeping of what was found where, so that no place is measured twice.
+//! Record of the positions already measured, so that none is measured twice.
 //!
 //! The levels of the search and the two picture sizes meet the same target again; parts of an outline lead to the same
 //! ellipse; specks lie inside of targets. Everything decided is entered into a grid of cells, and a candidate is compared

@@ -1,4 +1,4 @@
-//! Targets that something divides: two blobs whose outer borders lie on one ellipse.
+//! Targets divided by an occluder: two blobs whose outer borders lie on one ellipse.
 //!
 //! What runs across the middle of a target in a tone of its own leaves two parts, of which neither has enough of the border. What
 //! they turn towards each other lies inside of their convex hull; the rest of the hull is the target's outline.

@@ -1,4 +1,4 @@
-//! The ellipse of a blob of which a part is covered, or joined with something else: most of its border still follows it.
+//! The ellipse of a blob that is partly occluded or joined with something else: most of its border still follows it.
 //!
 //! What lies in front of a target spoils one piece of the border. So the ends of the runs are taken in their order around the
 //! blob, an ellipse is laid through every window of them, and the one that most of the border follows counts.

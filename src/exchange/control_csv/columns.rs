@@ -1,4 +1,4 @@
-//! What the columns of a control table hold; without a heading, from their number and what is in them.
+//! Contents of the columns of a control table; without a heading, from their number and contents.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! The decimal sign of a table's numbers: what they show by themselves, and what stays undecided.
+//! The decimal sign of a table's numbers, or that it is undecided.
 //!
 //! One comma with exactly three digits behind it and one to three digits before it that do not begin with 0 is a decimal comma in
 //! German and a thousands separator in English and Korean. Any other comma decides for the whole table, since one text has one

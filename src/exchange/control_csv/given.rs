@@ -1,4 +1,4 @@
-//! Columns of a table as its reader says they are, in place of what heading and content say.
+//! Columns of a table as chosen by the user, in place of heading and content.
 
 use super::assumptions::{Axes, Basis};
 use super::columns::{Columns, Fault, Field};

@@ -1,4 +1,4 @@
-//! What separates the fields of a table, and whether it may separate decimals or thousands too.
+//! The field separator of a table, and whether it may separate decimals or thousands too.
 
 use super::super::text::{self, Row};
 use super::assumptions::Separator;

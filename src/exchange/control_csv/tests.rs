@@ -1,4 +1,4 @@
-//! Control tables of many hands.
+//! Tests with control tables of many programs.
 
 use super::*;
 #[cfg(target_arch = "wasm32")]

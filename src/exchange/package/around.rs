@@ -1,4 +1,4 @@
-//! What stands around the photos of a project file: bytes that go by are counted, and not kept.
+//! The entries around the photos of a project file: photo bytes are counted, but not kept.
 
 use std::cell::Cell;
 use std::io::{Error, Result, Seek, SeekFrom, Write};

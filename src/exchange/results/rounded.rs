@@ -1,4 +1,4 @@
-//! Numbers of tables as people want them in a spreadsheet: to two digits of their standard error, not to all sixteen.
+//! Numbers of tables rounded to two digits of their standard error.
 
 use super::Table;
 

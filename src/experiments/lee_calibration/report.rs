@@ -1,4 +1,4 @@
-//! Tables, figures and charts of the calibration, beside the paper's.
+//! Tables, figures and charts of the calibration, compared with the paper's.
 
 use super::{PITCH_MM, PLANTED, dcs420};
 use crate::adjustment::Adjustment;

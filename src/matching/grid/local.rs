@@ -1,4 +1,4 @@
-//! Where a site of a lattice appears in the photo, from the dots around it.
+//! Predicts the position of a lattice site in the photo from the dots around it.
 //!
 //! In a window around the site the image is a polynomial of the second degree in the steps (p, q) from it,
 //! x = c0 + c1 p + c2 q + c3 p²/2 + c4 pq + c5 q²/2, fitted by least squares. What the polynomial leaves of perspective and distortion

@@ -1,4 +1,4 @@
-//! What naming a board's dots reports.
+//! Result of naming a board's dots.
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,4 +1,4 @@
-//! Photos of another size, of a part, of another lens.
+//! Tests with photos of another size, cropped photos, and photos of another lens.
 
 use super::*;
 use crate::camera::pixel_from_camera_point;

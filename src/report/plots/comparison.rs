@@ -1,4 +1,4 @@
-//! Two adjustments of the same points: how far the later one moved each, beside its standard error.
+//! Comparison of two adjustments of the same points: movement of each point and its standard error.
 
 use super::chart::{Axis, Chart};
 use super::svg::Anchor;

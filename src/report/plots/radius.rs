@@ -1,4 +1,4 @@
-//! Residuals against the distance from the principal point: what the distortion model leaves over shows as a slope or a wave.
+//! Residuals against the distance from the principal point: radial distortion that is not modelled appears as a slope or a wave.
 
 use super::chart::{Axis, Chart};
 use super::{Group, Plot};

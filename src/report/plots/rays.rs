@@ -1,4 +1,4 @@
-//! How many rays meet in a point, and under which angle.
+//! Number of rays per point, and their intersection angles.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! Parameters of distortion in units of their standard errors: what is below the limit is not told from 0.
+//! Distortion parameters divided by their standard errors: those below the limit are not significantly different from 0.
 
 use super::chart::{Axis, Chart};
 use super::svg::Anchor;

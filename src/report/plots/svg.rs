@@ -1,4 +1,4 @@
-//! An SVG as it is written: coordinates with a decimal, text escaped, title and description for those who do not see it.
+//! Writes SVG: coordinates with one decimal, escaped text, title and description for accessibility.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! What was left out, by whom and why, and the record of the search for gross errors.
+//! Rejected observations with reasons, and the record of the gross error search.
 
 use crate::adjustment::GrossErrorAction;
 use crate::report::context::Context;

@@ -1,4 +1,4 @@
-//! What took no part, in a line beside sigma0 and in a table with its size.
+//! Data that were not used: a line beside sigma0 and a table with sizes.
 
 use std::borrow::Cow;
 use std::collections::HashSet;

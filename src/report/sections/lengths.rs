@@ -1,4 +1,4 @@
-//! Length measurement errors from lengths that are known and took no part, with the limit that was agreed upon.
+//! Length measurement errors of check distances, compared with the agreed limit.
 //! Source: VDI/VDE 2634 part 1 (imaging systems with point-by-point probing): E = measured - calibrated, |E| <= A + L / K.
 
 use crate::report::context::Context;

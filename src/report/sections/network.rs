@@ -1,4 +1,4 @@
-//! The network: how many rays meet in a point, and where it is weak.
+//! The network: number of rays per point, and weaknesses.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! How many observations of what, how many unknowns, and how precise the result is.
+//! Numbers of observations and unknowns, and the precision of the result.
 
 use crate::adjustment::Given;
 use crate::report::context::Context;

@@ -1,4 +1,4 @@
-//! What it takes to compute it again: options, a priori values, versions and digests of every input.
+//! Settings for reproducing the result: options, a priori values, versions and digests of every input.
 
 use crate::adjustment::{AdjustOptions, ResidualPlace, Robust, StatisticsChoice, Termination};
 use crate::project::Sigma;

@@ -1,4 +1,4 @@
-//! Tests and what they say: the global test, the limits of single tests, variance components, the largest |w|.
+//! Tests and their results: the global test, the limits of single tests, variance components, the largest |w|.
 
 use crate::adjustment::{NotEstimated, ObservationGroup, VarianceComponent};
 use crate::report::context::{Context, largest_w};

@@ -1,4 +1,4 @@
-//! What a client reads: what was measured, how accurate it is, on what it stands, what was left out.
+//! Summary for the client: what was measured, its accuracy and datum, and data that were not used.
 
 use crate::adjustment::Termination;
 use crate::project::DatumKind;

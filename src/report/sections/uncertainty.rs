@@ -1,4 +1,4 @@
-//! What the stated uncertainty covers and what it does not.
+//! Contributions that the stated uncertainty includes and those it does not.
 //! Source: JCGM 100:2008 (Guide to the Expression of Uncertainty in Measurement), 6.2 and 7.2.
 
 use crate::adjustment::Given;

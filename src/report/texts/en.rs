@@ -1,4 +1,4 @@
-//! The report in English, by which every other language is checked.
+//! The report in English, the reference for every other language.
 //!
 //! `{n}` is a value; `{n:photo|photos}` is the word for one or for any other number of them.
 

@@ -1,4 +1,4 @@
-//! What the desk wants to know of pointers, wheels and keys.
+//! Data of pointer, wheel and key events.
 
 use wasm_bindgen::prelude::*;
 use web_sys::{DragEvent, Element, Event, HtmlElement, HtmlInputElement, HtmlSelectElement, HtmlTextAreaElement};

@@ -1,4 +1,4 @@
-//! Files that people hand over, and files that are handed to them.
+//! Opening and saving of files.
 
 use js_sys::{Array, Uint8Array};
 use wasm_bindgen::prelude::*;

@@ -1,4 +1,4 @@
-//! Everything that speaks JavaScript: files, workers, canvases, storage, keys. Nothing else in the desk does.
+//! Interface to JavaScript: files, workers, canvases, storage, keys. No other part of the desk calls it directly.
 
 pub mod canvas;
 pub mod event;

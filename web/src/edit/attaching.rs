@@ -1,4 +1,4 @@
-//! Which photo of a project a file is: by its SHA-256, else by its name, where nothing that was measured could be mistaken.
+//! Finds the photo of a project to which a file belongs: by SHA-256, else by name if no measurement can be mistaken.
 //!
 //! Cameras restart their numbering and folders repeat names, so that a name alone is no proof. A file whose contents are others than those
 //! recorded, or a photo with measurements and nothing recorded, is a question; nothing is attached before it is answered.

@@ -1,4 +1,4 @@
-//! What is typed or pasted into cells of a table: taken or refused, cell by cell, with the reason.
+//! Values typed or pasted into cells of a table: accepted or refused, cell by cell, with the reason.
 
 use std::collections::HashMap;
 

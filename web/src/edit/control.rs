@@ -1,4 +1,4 @@
-//! What ties the object to the world: given coordinates, measured distances, unit and datum.
+//! Control: given coordinates, measured distances, unit and datum.
 
 use sightline::Error;
 pub use sightline::equipment::has_lengths;

@@ -1,4 +1,4 @@
-//! The next epoch of a project: what stays of it when the object is measured again.
+//! The next epoch of a project: the data it keeps from the current one.
 
 use std::collections::BTreeMap;
 

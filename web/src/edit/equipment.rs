@@ -1,4 +1,4 @@
-//! What kept equipment gives a project: calibrations for its cameras, distances from scale bars.
+//! Use of stored equipment in a project: calibrations for its cameras, distances from scale bars.
 
 use sightline::equipment::{Calibration, ScaleBar, Use, bars_in};
 

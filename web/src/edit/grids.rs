@@ -1,4 +1,4 @@
-//! Names of a board's dots, taken into the document.
+//! Adds the named dots of a board to the document.
 
 use sightline::matching::GridNaming;
 use sightline::project::{DatumKind, Project, Role};

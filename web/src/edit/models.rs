@@ -1,4 +1,4 @@
-//! Another model for a camera: what its conversion needs of the document, and taking what it gives.
+//! Conversion of a camera to another model: its inputs, and applying its result.
 
 use sightline::project::{Camera, Project};
 

@@ -1,4 +1,4 @@
-//! What a project is called that nobody has named: by its photos' files, by their camera and day, or by the day alone.
+//! Default name of a project: from its photos' files, from their camera and day, or from the day alone.
 
 use std::collections::BTreeSet;
 

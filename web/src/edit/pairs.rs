@@ -1,4 +1,4 @@
-//! Photos that a camera kept twice, as RAW and developed: one shot, to be measured once.
+//! Photos stored twice by a camera, as RAW and developed: one exposure, to be measured once.
 
 use sightline::exif::PhotoInfo;
 

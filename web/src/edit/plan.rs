@@ -1,4 +1,4 @@
-//! The plan of the photos: what is done with it before it becomes photos.
+//! Edits of the plan.
 
 use sightline::Error;
 use sightline::error::{Place, Thing};

@@ -1,4 +1,4 @@
-//! Points and their observations: naming places, renaming and joining points, moving and taking away what was measured.
+//! Points and their observations: naming, renaming and merging points, moving and removing measurements.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! What matching left open, as questions: is this target that point? Each answer is one step.
+//! Doubtful matches as questions: is this target that point? Each answer is one step.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What the report says besides its numbers. It is no input of the adjustment: the result stays current.
+//! Report settings. They are not an input of the adjustment: the result stays current.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Every kind of action, done and undone: the document is what it was, byte for byte.
+//! Tests that undo restores the document byte for byte after every kind of action.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

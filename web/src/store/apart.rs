@@ -1,4 +1,4 @@
-//! Colours of a photo measured apart, on request: the last ones are kept. A camera may hold what they tell.
+//! Lateral colour of a photo, measured on request; the last results are kept and can be used in a camera.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Cameras and photos: what the desk does with them, so that it can be undone.
+//! Actions on cameras and photos, with undo.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! Control points, scale and datum: what ties the object to the world.
+//! Control points, scale and datum.
 
 use std::rc::Rc;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Cameras and scale bars that are of no project: kept in the browser's storage and in a file, offered where they fit.
+//! Cameras and scale bars for several projects: kept in the browser's storage and in a file, offered where they fit.
 
 use leptos::prelude::*;
 use leptos::task::spawn_local;

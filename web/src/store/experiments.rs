@@ -1,4 +1,4 @@
-//! The papers' experiments: which is shown, what is varied, what came out, and what is done with it.
+//! The experiments: selection, inputs, results, and opening as a project.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Who is who: names of targets, by code, by an earlier measurement, by hand, by matching.
+//! Identification of targets: by code, by an earlier measurement, by hand, by matching.
 
 use std::collections::BTreeSet;
 

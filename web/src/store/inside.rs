@@ -1,4 +1,4 @@
-//! The adjustment laid open: of which network, after which step, and what was asked of it.
+//! State of the page "Inside the adjustment": network, step, and requested computations.
 
 use std::collections::HashMap;
 use std::mem::{Discriminant, discriminant};

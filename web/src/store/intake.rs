@@ -1,4 +1,4 @@
-//! Files that come in: photos are looked into by the workers, and what cannot be used is named while the rest goes on.
+//! Incoming files: workers read the photos, and unusable files are listed while the others are processed.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;

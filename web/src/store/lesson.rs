@@ -1,4 +1,4 @@
-//! A lesson under way: which step, what of it was answered rightly, the values of its expressions. Progress is kept in this browser.
+//! A lesson in progress: step, correct answers, values of its expressions. Progress is stored in this browser.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! What the desk knows and does, apart from how it looks. Components read its signals and call its verbs.
+//! State and actions of the desk, independent of its views. Components read its signals and call its actions.
 
 pub mod adjusting;
 mod apart;

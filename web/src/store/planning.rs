@@ -1,4 +1,4 @@
-//! The plan of the photos: what is done with it, and what workers say of it.
+//! The plan: actions, and predictions by workers.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Plates: readings carried onto fiducial marks, from files or from what was measured in scanned photos.
+//! Plates: readings transformed to the fiducial marks, from files or measured in scanned photos.
 
 use std::sync::Arc;
 

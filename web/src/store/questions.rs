@@ -1,4 +1,4 @@
-//! Doubtful first: the questions that matching left open, one after the other.
+//! The open questions of matching, doubtful ones first.
 
 use leptos::prelude::*;
 

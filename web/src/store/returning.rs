@@ -1,4 +1,4 @@
-//! Ways back: a new project, the one that was open when the page was loaded again, the step a project was left at.
+//! Return paths: a new project, the project that was open before a reload, the last step of a project.
 
 use leptos::prelude::*;
 use leptos::task::spawn_local;

@@ -1,4 +1,4 @@
-//! What is chosen: one selection for tables, photos, plots and the object in space.
+//! The selection, shared by tables, photos, plots and the 3-D view.
 //!
 //! One thing of each kind is looked at (`photo`, `point`, `target`, `spot`); any number may be marked besides, for what is
 //! done with many at once. Choosing a thing in a table marks it alone; Control adds or takes away, Shift marks a range.

@@ -1,4 +1,4 @@
-//! The projects on this computer: listed, opened, renamed, copied, handed over, deleted with the way back.
+//! The projects on this computer: list, open, rename, copy, download, delete with undo.
 
 use std::rc::Rc;
 

@@ -1,4 +1,4 @@
-//! What differs between two versions of a table, as rows that take the place of others: either version comes back from the other.
+//! Differences between two versions of a table, as replaced rows; either version is restored from the other.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Texts that come in: sorted by what is in them, and put where they belong.
+//! Incoming text files: sorted by content and passed to their step.
 
 use std::collections::BTreeSet;
 use std::rc::Rc;

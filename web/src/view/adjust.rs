@@ -1,4 +1,4 @@
-//! Step 5: what is estimated from what, the iterations as they come, and what the network lacks.
+//! Step 5: unknowns and observations, the iterations, warnings and advice.
 
 use std::collections::HashSet;
 

@@ -1,4 +1,4 @@
-//! What the network lacks, as sentences: what to do, why, and the number that says so.
+//! Warnings and advice as sentences: remedy, reason, and the number behind it.
 
 mod grouping;
 mod notes;

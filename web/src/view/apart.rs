@@ -1,4 +1,4 @@
-//! The colours of a RAW measured apart: how far its lens images red and blue from green, over the radius.
+//! Lateral colour of a RAW: differences of red and blue from green over the radius.
 
 use leptos::prelude::*;
 use sightline::detection::{Colour, ColourApart, ColoursApart as Found};

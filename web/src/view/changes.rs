@@ -1,4 +1,4 @@
-//! What a change did, in words.
+//! Descriptions of changes.
 
 use super::models::name_of as model_words;
 use super::tables::table_words;

@@ -1,4 +1,4 @@
-//! What a photo's file says of corrections of the lens, and what that means for a calibration.
+//! Lens corrections according to a photo's file, and their consequences for a calibration.
 
 use sightline::exif::{Aberration, LensCorrection, PhotoInfo, Setting};
 

@@ -1,4 +1,4 @@
-//! Cameras and scale bars that are kept beyond a project, and where they are offered.
+//! Stored cameras and scale bars, and offers to use them.
 
 use leptos::prelude::*;
 use sightline::adjustment::AdjustedCamera;

@@ -1,4 +1,4 @@
-//! Standard errors that were estimated from the residuals: what became of the a priori ones, in place of a verdict.
+//! Standard errors estimated from the residuals, shown in place of a verdict.
 
 use sightline::adjustment::{Adjustment, ObservationGroup, VarianceComponent};
 

@@ -1,4 +1,4 @@
-//! A field whose value is taken or refused: what is refused goes, and what was valid comes back.
+//! An input field whose value is accepted or refused; after a refusal the last valid value is restored.
 
 use leptos::html::Input;
 use leptos::prelude::*;

@@ -1,4 +1,4 @@
-//! What is done about gross errors, and the record of what was done.
+//! Handling of gross errors, and the record of the search.
 
 use leptos::prelude::*;
 use sightline::adjustment::{AdjustOptions, Given, GrossErrorAction, Robust};

@@ -1,4 +1,4 @@
-//! Step 3: names for targets. Codes name themselves; earlier marks, a click or the geometry name the others.
+//! Step 3: point names, by codes, by earlier measurements, by clicks or by geometry.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! Everything of the input that took no part in the adjustment: one line for the results, and the list with reasons and sizes.
+//! Data that were not used in the adjustment: one line for the results, and the list with reasons and sizes.
 
 use leptos::prelude::*;
 use sightline::adjustment::{LeftOutBy, LeftOutItem, LeftOutKind, LeftOutReason};

@@ -1,4 +1,4 @@
-//! What a photo was measured in, in a sentence or two: a RAW's sites, or what the camera has done to the picture.
+//! Samples and processing of a photo, in a sentence or two: a RAW's pixels, or the camera's processing of the picture.
 
 use sightline::detection::{Colour, Measured, MeasuredOn, PictureReport};
 

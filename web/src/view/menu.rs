@@ -1,4 +1,4 @@
-//! The menu of files in the head: what is done with a project, and what lies beside the path.
+//! The file menu in the head: actions on projects, and pages outside the steps.
 
 use leptos::html::Button;
 use leptos::prelude::*;

@@ -1,4 +1,4 @@
-//! How the desk looks: components that read the store and call its verbs.
+//! The views of the desk: components that read the store and call its actions.
 
 pub mod adjust;
 pub mod advice;

@@ -1,4 +1,4 @@
-//! Where a project or a calibration comes from: what was assumed, not kept and converted, for as long as it is there.
+//! Origin of a project or a calibration: assumptions, data not imported, and conversions.
 
 use leptos::prelude::*;
 use sightline::project::{Assumed, Conversion, Ignored, Origin};

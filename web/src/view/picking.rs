@@ -1,4 +1,4 @@
-//! What a click in a photo means, the same at every step: the target there, a measurement, or a place set by hand.
+//! The action of a click in a photo, the same at every step: select the target, measure, or place freely.
 
 use leptos::html::Input;
 use leptos::prelude::*;

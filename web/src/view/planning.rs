@@ -1,4 +1,4 @@
-//! The plan of the photos: object, camera and wishes; stations in plan and elevation; what they promise.
+//! The plan: object, camera and required accuracy; stations in plan and elevation; predicted accuracy.
 
 mod camera;
 mod drawing;

@@ -1,4 +1,4 @@
-//! Step 6: the result with its statistics. Of a project that changed since, no number is shown.
+//! Step 6: the result with its statistics. No number is shown if the project has changed since.
 
 mod cameras;
 mod compared;

@@ -1,4 +1,4 @@
-//! The page before there is a project.
+//! The start page.
 
 use leptos::prelude::*;
 

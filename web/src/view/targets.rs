@@ -1,4 +1,4 @@
-//! Step 2: targets found in the photos, shown as what they are, each with its centre, sigma and outline.
+//! Step 2: targets detected in the photos, with centre, standard errors and outline.
 
 use leptos::prelude::*;
 use sightline::detection::{Channel, CodeNote, Codes, Detection, Method, Polarity, PolarityChoice, Reason, Target};

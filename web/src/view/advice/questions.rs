@@ -1,4 +1,4 @@
-//! What is to be asked of the input, alike from orientation and adjustment.
+//! Plausibility questions about the input, shared by orientation and adjustment.
 
 use sightline::adjustment::{
     CameraDoubt, Exchange, ImplausibleCamera, MirroredControl, OneStation, UndecidedAxes, UnitOf, UnitRatio,

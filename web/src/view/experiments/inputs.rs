@@ -1,4 +1,4 @@
-//! What may be varied of each experiment, with the paper's values where nothing is varied.
+//! Inputs of each experiment, with the paper's values as defaults.
 
 use leptos::prelude::*;
 use sightline::detection::Method;

@@ -1,4 +1,4 @@
-//! From the engine's identifiers to words. What has no words here is a symbol and stands for itself.
+//! Words for the engine's identifiers; those without words are symbols shown as they are.
 
 use sightline::experiments::{Assumption, Chart, Figure};
 

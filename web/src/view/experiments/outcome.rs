@@ -1,4 +1,4 @@
-//! What an experiment gave: the figures that matter, charts, tables, and what was assumed.
+//! Results of an experiment: key figures, charts, tables, and assumptions.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Plates of one's own: fiducial marks and distortion table entered, readings from a file or pointed at in scanned photos.
+//! Your own plates: fiducial marks and distortion table entered, readings from a file or measured in scanned photos.
 
 use leptos::prelude::*;
 use sightline::exchange::comparator::Reduced;

@@ -1,4 +1,4 @@
-//! A planted error: what the tests see of it, and what four estimators make of it.
+//! A simulated gross error: the response of the tests and of four estimators.
 
 use leptos::prelude::*;
 use sightline::teaching::{Estimate, Planted, Planting, Show, Tested};

@@ -1,4 +1,4 @@
-//! The steps: back, one further, all; what each gave.
+//! The steps of an adjustment: back, forward, all, and their results.
 
 use leptos::prelude::*;
 use sightline::adjustment::Termination;

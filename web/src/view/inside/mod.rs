@@ -1,4 +1,4 @@
-//! The adjustment laid open: its matrices and steps, its datum, its answer to errors and to weights.
+//! The page "Inside the adjustment": matrices and steps, datum, errors and weights.
 
 mod datum;
 mod equation;

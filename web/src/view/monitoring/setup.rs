@@ -1,4 +1,4 @@
-//! The epochs that are compared, and what is said of each.
+//! The epochs to compare, and their data.
 
 use leptos::prelude::*;
 use sightline::monitoring::{ControlUse, Epoch};

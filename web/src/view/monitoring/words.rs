@@ -1,4 +1,4 @@
-//! What the engine found, in words: the report's own, in the language of the desk.
+//! The engine's findings in words: those of the report, in the language of the desk.
 
 use sightline::monitoring::{GroupError, LeftOut, Monitoring, Outcome, Pair, State};
 use sightline::project::ReportLanguage;

@@ -1,4 +1,4 @@
-//! The camera of the plan: one of the project's, or what a photo of it says.
+//! The camera of the plan: one of the project's, or from the metadata of a photo.
 
 use leptos::prelude::*;
 

@@ -1,4 +1,4 @@
-//! What the plan is of: object, camera, wishes.
+//! Inputs of the plan: object, camera, required accuracy.
 
 use leptos::prelude::*;
 use sightline::project::{Camera, DatumKind, Form, Plan};

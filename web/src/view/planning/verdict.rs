@@ -1,4 +1,4 @@
-//! What a plan promises and lacks, where the next photo should be, plans side by side.
+//! Predicted accuracy of a plan, what is missing, the best next photo, comparison of plans.
 
 use leptos::prelude::*;
 use sightline::Error;

@@ -1,4 +1,4 @@
-//! What each statistic means: a sentence, its formula, where it comes from, and what to do about it.
+//! The meaning of each statistic: a sentence, its formula, source and remedy.
 
 use leptos::prelude::*;
 use sightline::adjustment::Criteria;

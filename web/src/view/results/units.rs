@@ -1,4 +1,4 @@
-//! In which unit lengths and residuals are shown.
+//! Units of displayed lengths and residuals.
 
 use sightline::adjustment::{Adjustment, Advice, PhotoUnit};
 use sightline::project::{Camera, Project};

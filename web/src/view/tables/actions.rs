@@ -1,4 +1,4 @@
-//! What can be done with the rows that are marked.
+//! Actions on the selected rows.
 
 use std::sync::Arc;
 

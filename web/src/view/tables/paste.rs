@@ -1,4 +1,4 @@
-//! Rows from a spreadsheet: what they would change is shown before it is taken.
+//! Rows pasted from a spreadsheet, with a preview of the changes.
 
 use std::sync::Arc;
 
