@@ -236,7 +236,7 @@ test('the object stands beside the numbers, and a form that its points do not ma
       await page.click('[data-make=plane]');
     };
     await plane([...low, ...high]);
-    assert.match(await page.textContent('[data-feature=A] [data-misfit]'), /hardly form a plane: rms [\d.]+ mm, \d+ %/);
+    assert.match(await page.textContent('[data-feature=A] [data-misfit]'), /do not form a plane: rms [\d.]+ mm, \d+ %/);
     await plane(low);
     await page.waitForSelector('[data-feature=B] .value, [data-feature=B] .quantity');
     assert.equal(await page.locator('[data-feature=B] [data-misfit]').count(), 0);
