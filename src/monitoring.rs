@@ -25,6 +25,7 @@ mod groups;
 mod joint;
 mod judgement;
 mod pair;
+pub(crate) mod planned;
 mod points;
 mod request;
 mod result;

@@ -10,6 +10,7 @@ mod judgement;
 mod make;
 mod origin;
 mod parts;
+mod repeated;
 mod setup;
 mod sight;
 mod suggest;
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::adjustment::{AdjustedCamera, Advice};
 use crate::error::{Defect, Result};
+use crate::monitoring::{Detectable, ReferenceFrom};
 use crate::project::{Parameter, Plan, PlanStation};
 
 pub use form::{check_form, faces_on, least_diameter, targets_on};
@@ -103,6 +105,32 @@ pub struct PredictedPoint {
     pub covariance: Option<[f64; 6]>,
     /// Largest half axis of its standard ellipsoid.
     pub axis: Option<f64>,
+    /// The smallest displacement that a comparison with a second campaign like this finds; null where it is not determined, and where
+    /// [`Prediction::repeated`] is.
+    #[serde(default)]
+    pub detectable: Option<Detectable>,
+}
+
+/// What two campaigns as planned are compared by: the tests of [`crate::monitoring`] with their usual options, in the datum of the
+/// reference points. Displacements of object points are found with this power; those of a reference point, which the global test has to
+/// find as well, at least so often.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Repeated {
+    /// Reference points.
+    pub reference: Vec<String>,
+    /// Where they come from.
+    pub reference_from: ReferenceFrom,
+    /// Error probability of every family of tests.
+    pub significance: f64,
+    /// Share of such displacements that are found.
+    pub power: f64,
+    /// Degrees of freedom of both campaigns' variance factor; with 0 the standard errors count as exact.
+    pub redundancy: usize,
+    /// The point of which the least is seen.
+    pub point: Option<String>,
+    /// Its smallest detectable displacement along the least favourable direction.
+    pub largest: Option<f64>,
 }
 
 /// What keeps a plan from being good.
@@ -160,6 +188,10 @@ pub struct Prediction {
     pub lacks: Vec<Lacking>,
     /// What the network is weak in.
     pub advice: Vec<Advice>,
+    /// How a second campaign like this is compared with the first; null with fewer than four reference points or more than 500, and where
+    /// the network is not determined without given coordinates.
+    #[serde(default)]
+    pub repeated: Option<Repeated>,
 }
 
 /// Predicts what the plan's photos give.

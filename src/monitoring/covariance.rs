@@ -12,6 +12,9 @@ use nalgebra::{DMatrix, Matrix3, SMatrix, Vector3};
 
 /// Directions of a similarity.
 pub const DIRECTIONS: usize = 7;
+/// Of a point's displacement the datum takes up a part, more where it carries more of it. Where less than this is left the others lie on
+/// a line, and its turn is held by the point alone: without the limit a rounding error would be inverted.
+const LEAST_LEFT: f64 = 1e-9;
 type Directions = SMatrix<f64, 3, DIRECTIONS>;
 type Carried = SMatrix<f64, DIRECTIONS, 3>;
 type Square = SMatrix<f64, DIRECTIONS, DIRECTIONS>;
@@ -138,6 +141,14 @@ impl Datum {
     pub fn difference(&self, d: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         let parameters = self.m.iter().map(|(k, m)| m * d[*k]).sum::<SMatrix<f64, DIRECTIONS, 1>>();
         d.iter().zip(&self.g).map(|(d, g)| d - g * parameters).collect()
+    }
+
+    /// K of carrier `place`: its difference in the datum of the other carriers is K times that in this datum, K = (I - G M)⁻¹ with its own
+    /// G and M. None where the others do not carry a datum.
+    pub fn of_others(&self, place: usize) -> Option<Matrix3<f64>> {
+        let (_, m) = self.m.iter().find(|(k, _)| *k == place)?;
+        let left = Matrix3::identity() - self.g[place] * m;
+        if left.symmetric_eigenvalues().min() > LEAST_LEFT { left.try_inverse() } else { None }
     }
 
     /// Orthonormal columns that span the directions at the carriers, three rows a carrier in their order.

@@ -108,7 +108,7 @@ fn ellipsoid(covariance: &Matrix3<f64>, factor: f64) -> Ellipsoid {
 }
 
 /// Smallest detectable displacements for a non-centrality.
-fn detectable(covariance: &Matrix3<f64>, lambda: f64) -> Detectable {
+pub fn detectable(covariance: &Matrix3<f64>, lambda: f64) -> Detectable {
     let (inverse, _) = pseudo_inverse3(covariance);
     let axes = std::array::from_fn(|a| {
         // Along an axis on which nothing is free there is no displacement to find.

@@ -191,10 +191,11 @@ pub fn judged(setup: &Setup<'_>, shots: &[Shot]) -> Prediction {
             sigma: None,
             covariance: None,
             axis: None,
+            detectable: None,
         })
         .collect();
     let mut lacks = Vec::new();
-    let (mut cameras, mut redundancy, mut advice) = (Vec::new(), None, Vec::new());
+    let (mut cameras, mut redundancy, mut advice, mut repeated) = (Vec::new(), None, Vec::new(), None);
     let determined = network.adjustment.is_ok();
     lacks.extend(network.untied.into_iter().map(|defect| Lacking::Defect { defect }));
     match network.adjustment {
@@ -206,6 +207,7 @@ pub fn judged(setup: &Setup<'_>, shots: &[Shot]) -> Prediction {
                 points[*k].axis = axes[*k];
             }
             redundancy = Some(adjustment.redundancy);
+            repeated = super::repeated::repeated(setup, &all, (&network.takes_part, &adjustment), &mut points);
             cameras = adjustment.cameras;
             advice = adjustment.advice;
             advice.retain(concerns_plans);
@@ -252,6 +254,7 @@ pub fn judged(setup: &Setup<'_>, shots: &[Shot]) -> Prediction {
         reached: lacks.is_empty() && determined,
         lacks,
         advice,
+        repeated,
     }
 }
 

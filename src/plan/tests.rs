@@ -407,3 +407,47 @@ fn a_search_says_why_it_ended() {
     let reached = make(&plan, &MakeOptions::default(), &mut |_, _| true).expect("a plan");
     assert_eq!((reached.ended, reached.prediction.reached), (Ended::Reached, true));
 }
+
+/// Control points are the reference of a comparison, and what is given of them takes no part; of four nobody tells which has moved.
+#[test]
+fn a_second_campaign_is_compared_in_the_datum_of_the_reference_points() {
+    use crate::monitoring::ReferenceFrom;
+    use crate::project::{Datum, Role};
+    let mut plan = wall();
+    let chosen = [0, 4, 7, 12, 15, 19];
+    let ids: Vec<String> = chosen.iter().map(|k| plan.points[*k].id.clone()).collect();
+    plan.datum = Datum { kind: DatumKind::Free, points: Some(ids.clone()) };
+    let free = predict(&plan).expect("a prediction");
+    let told = free.repeated.clone().expect("comparable");
+    assert_eq!((&told.reference, told.reference_from), (&ids, ReferenceFrom::Datum));
+    assert_eq!(told.redundancy, 2 * free.redundancy.expect("determined"));
+    let worst = free.points.iter().filter_map(|p| p.detectable).map(|d| d.worst).fold(0.0, f64::max);
+    assert_eq!(told.largest, Some(worst));
+    // λ₀(3, f) at 0.05/14 is above 12, so that a displacement has to be some five standard errors of the difference long.
+    for point in &free.points {
+        let (detectable, axis) = (point.detectable.expect("detectable"), point.axis.expect("determined"));
+        let times = detectable.worst / (axis * 2f64.sqrt());
+        assert!((3.4..9.0).contains(&times), "{}: {times}", point.id);
+        assert!(detectable.axes.iter().flatten().all(|d| *d <= detectable.worst * (1.0 + 1e-9)));
+    }
+    for k in chosen {
+        plan.points[k].role = Role::Control;
+        plan.points[k].sigma = Some([Some(0.001); 3]);
+    }
+    for kind in [DatumKind::Control, DatumKind::Minimal, DatumKind::Free] {
+        plan.datum = Datum { kind, points: None };
+        let found = predict(&plan).expect("a prediction");
+        let told = found.repeated.expect("comparable");
+        assert_eq!((&told.reference, told.reference_from), (&ids, ReferenceFrom::Control), "{kind:?}");
+        for (a, b) in free.points.iter().zip(&found.points) {
+            let [a, b] = [a, b].map(|p| p.detectable.expect("detectable").worst);
+            assert!((a / b - 1.0).abs() < 1e-6, "{kind:?}: {a} {b}");
+        }
+    }
+    for (k, point) in plan.points.iter_mut().enumerate() {
+        point.role = if [0, 4, 15, 19].contains(&k) { Role::Control } else { Role::Tie };
+    }
+    let four = predict(&plan).expect("a prediction");
+    assert_eq!(four.repeated.expect("comparable").reference.len(), 4);
+    assert!((0..20).all(|k| four.points[k].detectable.is_none() == [0, 4, 15, 19].contains(&k)));
+}
