@@ -9,7 +9,7 @@ mod datum;
 mod diagnosis;
 mod equations;
 mod gross_errors;
-mod inside;
+pub(crate) mod inside;
 mod linear;
 mod outside;
 mod patterns;

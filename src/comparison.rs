@@ -6,17 +6,18 @@
 //! d = x₂ - x₁        ratio = max over the axes of |d| / max(σ₁, σ₂)
 //! ```
 //!
-//! How the two results are correlated is not known where they share observations. Where one was found from part of the other's, the
-//! variance of d is the difference of the two variances and never more than the larger one (J. A. Hausman 1978), so that a ratio tells
-//! rather too little than too much. Where both have observations and share none ([`Comparison::independent`]) the variances add up,
-//! and a point with its covariance in both is tested as a vector:
+//! where nothing else is known. Where the equations of both projects can be set up again, the covariance of d is computed from the
+//! union of their observations, shared ones included (`src/comparison/shared.rs`, [`CovarianceOf::Union`]), and a point is tested as a vector:
 //!
 //! ```text
-//! C = s²·R·C₁·Rᵀ + C₂        T = dᵀ·C⁻¹·d        ratio = √T · w / √χ²₃(α)
+//! T = dᵀ·C⁺·d        ratio = √T · w / √χ²ᵣ(α)        r = rank(C)
 //! ```
 //!
-//! with the limit w of a single test at its level α, so that a ratio is beyond w exactly where T is beyond the limit of χ² with three
-//! degrees of freedom at that level.
+//! with the limit w of a single test at its level α, so that a ratio is beyond w exactly where T is beyond the limit of χ² with r degrees
+//! of freedom at that level. Where the equations cannot be set up (after robust estimation, for very large networks, for photos that
+//! were measured again) and both have observations and share none ([`Comparison::independent`]) the variances add up, C = s²·R·C₁·Rᵀ + C₂.
+//! Otherwise max(σ₁, σ₂) is a bound: where one result was found from part of the other's observations, the variance of d is the difference
+//! of the two variances (J. A. Hausman 1978), so that a ratio is rather too small than too large.
 //!
 //! Coordinates of two networks can be set beside each other only in one system. Under control that is the system of the control
 //! points, as long as three of them kept their coordinates. Otherwise it hangs on the initial values and on which points take part:
@@ -27,16 +28,21 @@
 //! What moved is told against what stayed. Where, besides the three that any similarity brings together, fewer than half of the common
 //! points agree within [`AGREEING`] times the limit, nothing stayed: other names, a mirror image, another length of the same bar. Then no coordinate is compared ([`Alignment::Unlike`]).
 
+mod shared;
+
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::adjust::inside::influence::Quantity;
 use crate::adjustment::{AdjustedCamera, AdjustedPoint, Adjustment, PhotoUnit};
 use crate::initial::Spread;
 use crate::initial::similarity::{self, Similarity};
-use crate::project::{DatumKind, Parameter, Point, Project, Role};
+use crate::project::{DatumKind, Parameter, Photo, Point, Project, Role};
 use crate::statistics::fisher::Fisher;
+
+use shared::{Covariances, Laid, Wanted, covariances, same_photo};
 
 /// A point agrees with its earlier self where its ratio is below so many times the limit of a single test. Standard errors of two
 /// sittings are too small by two or three where both leave the same out; a majority beyond that has no part that stayed, and what a
@@ -90,6 +96,20 @@ pub enum Alignment {
     },
 }
 
+/// Where the standard errors of the differences come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum CovarianceOf {
+    /// Computed from the observations of both results, shared ones included.
+    Union,
+    /// The sum of both: the results share no observation.
+    Sum,
+    /// The larger of both, which is a bound.
+    #[default]
+    Larger,
+}
+
 /// How far a point or a projection centre moved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moved {
@@ -97,12 +117,12 @@ pub struct Moved {
     pub id: String,
     /// Later minus earlier, in the later system and in the project's unit.
     pub difference: [f64; 3],
-    /// Standard error per axis. Independent results: square root of the sum of the variances; otherwise the larger of the two. `None` if neither is known.
+    /// Standard error per axis, see [`Comparison::covariance`]. `None` if unknown.
     pub sigma: Option<[f64; 3]>,
-    /// Largest |difference| over its standard error; of independent results with covariances that of the vector test, on the same limit.
-    /// None without standard errors, or where every one is 0.
+    /// Largest |difference| over its standard error; where the covariance is known that of the vector test, on the same limit. `None`
+    /// without standard errors, or where every one is 0.
     pub ratio: Option<f64>,
-    /// dᵀC⁻¹d of independent results, χ² with three degrees of freedom where the point has not moved; none otherwise.
+    /// dᵀC⁺d where the covariance is known, χ² with rank(C) degrees of freedom where the point has not moved; `None` otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statistic: Option<f64>,
 }
@@ -127,7 +147,7 @@ pub struct ParameterChange {
     pub before: f64,
     /// The later value.
     pub after: f64,
-    /// Standard error. Independent results: square root of the sum of the variances; otherwise the larger of the two. `None` if held in both.
+    /// Standard error, see [`Comparison::covariance`]. `None` if held in both.
     pub sigma: Option<f64>,
     /// |after - before| over its standard error.
     pub ratio: Option<f64>,
@@ -163,6 +183,9 @@ pub struct Comparison {
     /// Whether both have observations and share none: no photo, weighted control coordinate or distance.
     #[serde(default)]
     pub independent: bool,
+    /// Where the standard errors come from.
+    #[serde(default)]
+    pub covariance: CovarianceOf,
 }
 
 /// Compares two adjustments, each with the project it was made from.
@@ -174,23 +197,40 @@ pub fn compare(before: (&Project, &Adjustment), after: (&Project, &Adjustment)) 
     let pairs: Vec<(usize, usize)> =
         later.points.iter().enumerate().filter_map(|(k, p)| Some((*places.get(p.id.as_str())?, k))).collect();
     let independent = independent(before.0, after.0);
-    let joined = Joined { independent, limit: later.criteria.w };
-    let (alignment, transform) = aligned(before, after, &pairs, joined);
+    let joined = Joined { independent, limit: later.criteria.w, computed: None };
+    let (alignment, laid) = aligned(before, after, &pairs, joined);
     let mut points = Vec::new();
     let mut photos = Vec::new();
-    if let Some(transform) = &transform {
-        points.extend(pairs.iter().map(|&(i, k)| {
+    let centres: HashMap<&str, _> =
+        earlier.photos.iter().map(|p| (p.id.as_str(), Placed::bare(p.position, p.sigma_position))).collect();
+    let common: Vec<_> = later.photos.iter().filter(|q| centres.contains_key(q.id.as_str())).collect();
+    let (mut parameters, unlike_cameras) = parameters(&earlier.cameras, &later.cameras, independent);
+    let mut covariance = if independent { CovarianceOf::Sum } else { CovarianceOf::Larger };
+    if let Some(laid) = &laid {
+        let wanted = Wanted {
+            points: pairs.iter().map(|&(_, k)| later.points[k].id.as_str()).collect(),
+            photos: common.iter().map(|q| q.id.as_str()).collect(),
+            parameters: parameters.iter().map(ParameterChange::quantity).collect(),
+        };
+        let places = pairs.iter().map(|&(_, k)| later.points[k].xyz).chain(common.iter().map(|q| q.position));
+        let places: Vec<Vector3<f64>> = places.map(Vector3::from).collect();
+        let found = covariances(before, after, &wanted, &places, laid);
+        if let Some(Covariances { parameters: variances, .. }) = &found {
+            covariance = CovarianceOf::Union;
+            parameters.iter_mut().zip(variances).for_each(|(change, variance)| change.judge(*variance));
+        }
+        let of_points = |k: usize| found.as_ref().map(|found| found.points[k]);
+        let of_photos = |k: usize| found.as_ref().map(|found| found.photos[k]);
+        points.extend(pairs.iter().enumerate().map(|(n, &(i, k))| {
             let (p, q) = (&earlier.points[i], &later.points[k]);
-            moved(&q.id, Placed::of(p), Placed::of(q), transform, joined)
+            moved(&q.id, Placed::of(p), Placed::of(q), &laid.transform, Joined { computed: of_points(n), ..joined })
         }));
-        let centres: HashMap<&str, _> =
-            earlier.photos.iter().map(|p| (p.id.as_str(), Placed::bare(p.position, p.sigma_position))).collect();
-        photos.extend(later.photos.iter().filter_map(|q| {
+        photos.extend(common.iter().enumerate().map(|(n, q)| {
             let now = Placed::bare(q.position, q.sigma_position);
-            Some(moved(&q.id, *centres.get(q.id.as_str())?, now, transform, joined))
+            let joined = Joined { computed: of_photos(n), ..joined };
+            moved(&q.id, centres[q.id.as_str()], now, &laid.transform, joined)
         }));
     }
-    let (parameters, unlike_cameras) = parameters(&earlier.cameras, &later.cameras, independent);
     let ids = |a: &Adjustment| a.points.iter().map(|p| p.id.clone()).collect::<BTreeSet<_>>();
     let (old, present) = (ids(earlier), ids(later));
     let limit = later.criteria.w;
@@ -209,6 +249,7 @@ pub fn compare(before: (&Project, &Adjustment), after: (&Project, &Adjustment)) 
         sigma0: [earlier.sigma0, later.sigma0],
         redundancy: [earlier.redundancy, later.redundancy],
         independent,
+        covariance,
     }
 }
 
@@ -218,12 +259,12 @@ fn aligned(
     (new, later): (&Project, &Adjustment),
     pairs: &[(usize, usize)],
     joined: Joined,
-) -> (Alignment, Option<Similarity>) {
+) -> (Alignment, Option<Laid>) {
     if old.unit != new.unit {
         return (Alignment::Units { before: old.unit.clone(), after: new.unit.clone() }, None);
     }
     if same_system(old, new) {
-        return (Alignment::Same, Some(Similarity::identity()));
+        return (Alignment::Same, Some(Laid { transform: Similarity::identity(), carriers: None }));
     }
     let source: Vec<_> = pairs.iter().map(|&(i, _)| Vector3::from(earlier.points[i].xyz)).collect();
     let target: Vec<_> = pairs.iter().map(|&(_, k)| Vector3::from(later.points[k].xyz)).collect();
@@ -255,9 +296,10 @@ fn aligned(
         let scale = scaled.then_some(fit.transform.scale);
         return (Alignment::Unlike { common, agreeing: found.points, ratio: found.ratio, scale, mirrored }, None);
     }
-    let carried = kept.iter().filter(|kept| **kept).count();
-    let alignment = Alignment::Fitted { points: carried, scale: (!both_scaled).then_some(scale) };
-    (alignment, Some(laid))
+    let carriers: Vec<usize> = (0..kept.len()).filter(|k| kept[*k]).collect();
+    let alignment = Alignment::Fitted { points: carriers.len(), scale: (!both_scaled).then_some(scale) };
+    let parameters = if both_scaled { 6 } else { 7 };
+    (alignment, Some(Laid { transform: laid, carriers: Some((carriers, parameters)) }))
 }
 
 /// How well two networks agree under a transform.
@@ -304,19 +346,14 @@ fn has_scale(project: &Project, adjustment: &Adjustment) -> bool {
         || project.distances.iter().any(|d| !d.check && used(d.from.as_str(), d.to.as_str()))
 }
 
-/// Whether both have observations and share none. A photo is the same by the digest of its file, without one by identifier and name.
+/// Whether both have observations and share none.
 fn independent(old: &Project, new: &Project) -> bool {
-    let photos = |p: &Project| -> Vec<(String, String, String)> {
+    fn photos(p: &Project) -> Vec<&Photo> {
         let measured: BTreeSet<&str> = p.observations.iter().filter(|o| o.enabled).map(|o| o.photo.as_str()).collect();
-        let used = p.photos.iter().filter(|photo| photo.enabled && measured.contains(photo.id.as_str()));
-        used.map(|photo| (photo.sha256.clone(), photo.id.clone(), photo.file.clone())).collect()
-    };
+        p.photos.iter().filter(|photo| photo.enabled && measured.contains(photo.id.as_str())).collect()
+    }
     let (before, after) = (photos(old), photos(new));
-    let same = |a: &(String, String, String), b: &(String, String, String)| match (a.0.is_empty(), b.0.is_empty()) {
-        (false, false) => a.0 == b.0,
-        _ => a.1 == b.1 && a.2 == b.2,
-    };
-    let shared = before.iter().any(|a| after.iter().any(|b| same(a, b)));
+    let shared = before.iter().any(|a| after.iter().any(|b| same_photo(a, b)));
     let weighted = |p: &Point| p.sigma.iter().flatten().flatten().any(|s| *s > 0.0);
     let control = |p: &Project| -> Vec<(String, Option<[f64; 3]>)> {
         let by_control = p.datum.kind == DatumKind::Control;
@@ -332,11 +369,39 @@ fn independent(old: &Project, new: &Project) -> bool {
     !before.is_empty() && !after.is_empty() && !shared && !other
 }
 
-/// How two results are joined: whether they share nothing, and the limit of a single test.
+/// How two results are joined: whether they share nothing, the limit of a single test, and the covariance of the difference where it was
+/// computed.
 #[derive(Clone, Copy)]
 struct Joined {
     independent: bool,
     limit: f64,
+    computed: Option<Matrix3<f64>>,
+}
+
+/// Variances of a difference below this part of those of the two places are rounding: both results have the same observations there.
+const ROUNDING: f64 = 1e-9;
+
+/// dᵀC⁺d and rank(C) in the directions with variances above `least`; none where there is no such direction.
+fn vector_test(d: &Vector3<f64>, c: &Matrix3<f64>, least: f64) -> Option<(f64, usize)> {
+    let eigen = c.symmetric_eigen();
+    let free = (0..3).filter(|&k| eigen.eigenvalues[k] > least.max(ROUNDING * eigen.eigenvalues.max()));
+    let terms: Vec<f64> = free.map(|k| eigen.eigenvectors.column(k).dot(d).powi(2) / eigen.eigenvalues[k]).collect();
+    let statistic: f64 = terms.iter().sum();
+    (!terms.is_empty() && statistic.is_finite()).then_some((statistic, terms.len()))
+}
+
+impl ParameterChange {
+    fn quantity(&self) -> Quantity {
+        Quantity::Parameter(self.camera.clone(), self.photo.clone(), self.parameter)
+    }
+
+    /// Takes the computed variance of the difference in place of what was known before.
+    fn judge(&mut self, variance: f64) {
+        let Some(bound) = self.sigma else { return };
+        let sigma = variance.max(0.0).sqrt();
+        self.sigma = Some(sigma);
+        self.ratio = (variance > ROUNDING * bound * bound).then(|| (self.after - self.before).abs() / sigma);
+    }
 }
 
 /// A place with what is known of its errors.
@@ -380,25 +445,27 @@ fn moved(id: &str, before: Placed, after: Placed, transform: &Similarity, joined
             transform.scale * squares.sum::<f64>().sqrt()
         })
     });
-    let both = before.covariance.zip(after.covariance).filter(|_| joined.independent);
-    let sum = both.map(|(a, b)| transform.rotation * a * transform.rotation.transpose() * transform.scale.powi(2) + b);
-    let sigma = match (sum, turned, after.sigma) {
-        (Some(sum), ..) => Some(std::array::from_fn(|axis| sum[(axis, axis)].max(0.0).sqrt())),
+    let turn = |a: Matrix3<f64>| transform.rotation * a * transform.rotation.transpose() * transform.scale.powi(2);
+    let own = before.covariance.zip(after.covariance);
+    let sum = own.filter(|_| joined.independent).map(|(a, b)| turn(a) + b);
+    let covariance = joined.computed.or(sum);
+    let sigma = match (covariance, turned, after.sigma) {
+        (Some(c), ..) => Some(std::array::from_fn(|axis| c[(axis, axis)].max(0.0).sqrt())),
         (None, Some(a), Some(b)) if joined.independent => Some(std::array::from_fn(|axis| a[axis].hypot(b[axis]))),
         (None, Some(a), Some(b)) => Some(std::array::from_fn(|axis| a[axis].max(b[axis]))),
         (None, one, other) => one.or(other),
     };
-    let statistic = sum.and_then(Matrix3::try_inverse).map(|inverse| {
-        let d = Vector3::from(difference);
-        d.dot(&(inverse * d))
-    });
-    let statistic = statistic.filter(|t| t.is_finite() && *t >= 0.0);
-    let ratio = match statistic {
-        Some(statistic) => {
+    let squares = |s: Option<[f64; 3]>| s.map_or(0.0, |s| s.iter().map(|s| s * s).sum::<f64>());
+    let least = ROUNDING * (squares(turned) + squares(after.sigma));
+    let test = covariance.and_then(|c| vector_test(&Vector3::from(difference), &c, least));
+    let statistic = test.map(|(statistic, _)| statistic);
+    let ratio = match test {
+        Some((statistic, rank)) => {
             let alpha = Fisher::new(1, None).tails(joined.limit * joined.limit)[1];
-            let limit = (3.0 * Fisher::new(3, None).limit(alpha)).sqrt();
+            let limit = (rank as f64 * Fisher::new(rank, None).limit(alpha)).sqrt();
             Some(statistic.sqrt() * joined.limit / limit)
         }
+        None if covariance.is_some() => None,
         None => sigma.and_then(|sigma: [f64; 3]| {
             let ratios = (0..3).filter(|&axis| sigma[axis] > 0.0).map(|axis| difference[axis].abs() / sigma[axis]);
             ratios.reduce(f64::max)

@@ -34,6 +34,7 @@
 
 mod agisoft_lens;
 pub mod aicon;
+mod arrows;
 mod bal;
 mod bundler;
 mod calibration;

@@ -2,6 +2,7 @@
 
 mod cluster;
 mod coded;
+mod displaced;
 mod epipolar;
 mod epipolar_line;
 mod grid;
@@ -17,6 +18,7 @@ mod uncoded;
 use serde::{Deserialize, Serialize};
 
 pub use coded::{Coded, name_coded};
+pub use displaced::{PhotoVector, PhotoVectors, displaced};
 pub use grid::{
     Board, BoardKind, GridNaming, GridOptions, GridOrientation, NamedGrid, Unnamed, UnnamedReason, name_grid,
 };

@@ -17,7 +17,7 @@
 //! A. Chrzanowski and Y. Q. Chen, FIG 1981-1986; W. Baarda, S-transformations and criterion matrices, 1973.
 
 mod congruence;
-mod covariance;
+pub(crate) mod covariance;
 mod date;
 mod elimination;
 mod epoch;

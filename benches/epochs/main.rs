@@ -1,16 +1,21 @@
-//! Time of a comparison of epochs, natively: `cargo xtask bench epochs`. How often the tests are right is measured by
-//! `cargo test -p sightline --test engine monitoring::simulated -- --ignored --nocapture`.
+//! Time of a comparison of epochs and how often its tests are right, natively: `cargo xtask bench epochs`. The rates are those of the
+//! tests of the full extent, with their seeds and limits.
 
 #![allow(dead_code, reason = "epochs and networks are shared with the tests, which want more of them")]
 
-#[path = "../../tests/engine/support/epochs.rs"]
-mod epochs;
-#[path = "../../tests/engine/support/networks.rs"]
-mod networks;
+/// What the simulations share with the tests.
+mod support {
+    #[path = "../../../tests/engine/support/epochs.rs"]
+    pub mod epochs;
+    #[path = "../../../tests/engine/support/networks.rs"]
+    pub mod networks;
+}
+#[path = "../../tests/engine/monitoring/simulated.rs"]
+mod simulated;
 
 use std::time::Instant;
 
-use epochs::{Made, epoch, object, references};
+use support::epochs::{Made, epoch, object, references};
 use nalgebra::Vector3;
 use sightline::monitoring::{Epoch, Options, compare_epochs};
 
@@ -36,4 +41,5 @@ fn main() {
         };
         println!("{points:5} x {count:2}  {:.2}", (0..3).map(|_| once()).fold(f64::MAX, f64::min));
     }
+    simulated::in_full();
 }

@@ -6,6 +6,7 @@
 
 mod before;
 mod codecs;
+mod epochs;
 mod fault;
 mod photos;
 mod plain;

@@ -1566,6 +1566,27 @@ export interface PredictedPoint {
   covariance: [number, number, number, number, number, number] | null;
   /** Largest half axis of the standard ellipsoid. */
   axis: number | null;
+  /** Smallest displacement that a comparison with a second campaign like this finds; null where `PlanPrediction.repeated` is null. */
+  detectable: Detectable | null;
+}
+
+/** Smallest detectable displacement along X, Y, Z and along the least favourable direction; null along an axis on which the point is held. */
+export interface Detectable {
+  axes: [number | null, number | null, number | null];
+  worst: number;
+}
+
+/** How two campaigns as planned are compared, with the usual options of `compareEpochs`. */
+export interface RepeatedCampaign {
+  reference: string[];
+  reference_from: "control" | "datum" | "common";
+  significance: number;
+  power: number;
+  /** Degrees of freedom of both campaigns' variance factor. */
+  redundancy: number;
+  /** Point with the largest of the smallest detectable displacements, and that displacement. */
+  point: string | null;
+  largest: number | null;
 }
 
 /** Predicted accuracy of a plan; standard errors are 1σ. */
@@ -1587,6 +1608,8 @@ export interface PlanPrediction {
     | { kind: "forbidden"; stations: string[] }
   )[];
   advice: Advice[];
+  /** Null with fewer than four reference points or more than 500, and where the network is not determined without given coordinates. */
+  repeated: RepeatedCampaign | null;
 }
 
 export interface SuggestedPhoto {
@@ -2132,8 +2155,7 @@ export interface Displacement {
   moved: boolean;
   /** Confidence ellipsoid at 1 - significance. */
   ellipsoid: { semi_axes: [number, number, number]; directions: [[number, number, number], [number, number, number], [number, number, number]] } | null;
-  /** Smallest detectable displacement along X, Y, Z and along the least favourable direction. */
-  detectable: { axes: [number | null, number | null, number | null]; worst: number } | null;
+  detectable: Detectable | null;
 }
 
 /** Parameters with standard errors, tested against 0. */
@@ -2206,6 +2228,27 @@ export interface EpochPair {
   groups: GroupMovement[];
   left_out: { id: string; reason: LeftOutOfPair }[];
   notes: PairNote[];
+}
+
+/** Files of a comparison of epochs: "dxf" and "gltf" (binary) draw one pair, "report" is a page. */
+export type EpochsFormat = "csv" | "json" | "dxf" | "gltf" | "report";
+
+export interface EpochsExport {
+  /** Number of the pair that is drawn: 0. */
+  pair?: number;
+  /** Factor on the lengths of displacements in drawings: 1. */
+  factor?: number;
+  /** Options of the comparison without its epochs, for the report. */
+  options?: Omit<CompareOptions, "epochs">;
+  /** Language and paper of the report. */
+  settings?: ReportSettings;
+}
+
+/** What `displacementsInPhotos` gives for a photo, pixels. */
+export interface PhotoDisplacements {
+  photo: string;
+  /** From the point to where it would be, displaced by the factor; length in the unit of the epochs. */
+  vectors: { point: string; from: [number, number]; to: [number, number]; length: number; moved: boolean }[];
 }
 
 /** Result of `compareEpochs`. */

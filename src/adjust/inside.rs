@@ -1,6 +1,7 @@
 //! The adjustment laid open: its linearised observation equations, its normal equations and its iterations one by one, for teaching and
 //! for checking with other software.
 
+pub(crate) mod influence;
 pub mod linear_system;
 pub mod normal_equations;
 pub mod sparse;

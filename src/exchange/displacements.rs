@@ -1,4 +1,5 @@
-//! Displacements between epochs as files: a table of all pairs (CSV), a drawing of one pair (DXF of release 12), all of it as JSON.
+//! Displacements between epochs as files: a table of all pairs (CSV), one pair as a drawing (DXF of release 12) or as a scene of arrows (glTF),
+//! all of it as JSON.
 //!
 //! Units stand in the headings; an empty field is a value that does not exist. In the drawing a displacement d at the place x is a line from x
 //! to x + factor·d on the layer of its judgement, the ends are points, and names stand on a layer of their own; a comment says
@@ -6,31 +7,32 @@
 
 use std::fmt::Write;
 
+use super::arrows;
 use super::dxf::{Layers, ascii, entity, header, label, pair as group};
 use super::text::{disarmed, quoted};
 use crate::depiction::extent;
 use crate::error::{Error, Place, Reason, Result, Thing, shortened};
 use crate::monitoring::{Displacement, Monitoring, Pair, PointRole};
 
-/// Writes a file: `csv`, `json`, or `dxf` of the pair of this number with displacements `factor` times as long.
+/// Writes a file: `csv`, `json`, or `dxf` and `gltf` of the pair of this number with displacements `factor` times as long.
 ///
 /// # Errors
 /// [`Error::Unknown`] for another format or pair, [`Error::Invalid`] for a factor that is not positive.
-pub fn write(found: &Monitoring, format: &str, pair: usize, factor: f64) -> Result<String> {
+pub fn write(found: &Monitoring, format: &str, pair: usize, factor: f64) -> Result<Vec<u8>> {
     match format {
-        "csv" => Ok(csv(found)),
-        "json" => serde_json::to_string_pretty(found).map_err(|error| {
+        "csv" => Ok(csv(found).into_bytes()),
+        "json" => serde_json::to_vec_pretty(found).map_err(|error| {
             let reason = Reason::NotJson { message: error.to_string() };
             Error::Invalid { reason, at: Place::default() }
         }),
-        "dxf" => {
+        "dxf" | "gltf" => {
             let unknown = || Error::Unknown { kind: Thing::Epoch, name: pair.to_string(), at: Place::field("pair") };
             let pair = found.pairs.get(pair).ok_or_else(unknown)?;
             if !(factor > 0.0 && factor < 1e12) {
                 let reason = Reason::NotPositive { name: "factor".into(), value: factor.into() };
                 return Err(Error::Invalid { reason, at: Place::field("factor") });
             }
-            Ok(dxf(found, pair, factor))
+            Ok(if format == "dxf" { dxf(found, pair, factor).into_bytes() } else { arrows::write(found, pair, factor) })
         }
         _ => Err(Error::Unknown { kind: Thing::Format, name: shortened(format), at: Place::field("format") }),
     }
@@ -44,6 +46,17 @@ pub fn judgement(pair: &Pair, point: &Displacement) -> &'static str {
         (PointRole::Object, false) if point.test.is_none() => "not_tested",
         (PointRole::Object, false) if point.moved => "moved",
         (PointRole::Object, false) => "not_significant",
+    }
+}
+
+/// Colour of a judgement.
+pub fn colour(judgement: &str) -> [u8; 3] {
+    match judgement {
+        "moved" => [178, 78, 8],
+        "unstable_reference" => [179, 18, 60],
+        "reference" => [27, 108, 56],
+        "not_tested" => [128; 3],
+        _ => [11, 95, 168],
     }
 }
 
@@ -82,12 +95,14 @@ fn dxf(found: &Monitoring, pair: &Pair, factor: f64) -> String {
     let mut layers = Layers::default();
     let mut body = String::new();
     for point in &pair.points {
-        let (name, colour) = match judgement(pair, point) {
-            "moved" => ("MOVED", [178, 78, 8]),
-            "unstable_reference" => ("REFERENCE_UNSTABLE", [179, 18, 60]),
-            "reference" => ("REFERENCE_STABLE", [27, 108, 56]),
-            "not_tested" => ("NOT_TESTED", [128; 3]),
-            _ => ("NOT_SIGNIFICANT", [11, 95, 168]),
+        let judgement = judgement(pair, point);
+        let colour = colour(judgement);
+        let name = match judgement {
+            "moved" => "MOVED",
+            "unstable_reference" => "REFERENCE_UNSTABLE",
+            "reference" => "REFERENCE_STABLE",
+            "not_tested" => "NOT_TESTED",
+            _ => "NOT_SIGNIFICANT",
         };
         let tip = std::array::from_fn(|k| point.xyz[k] + factor * point.difference[k]);
         let places = layers.named(&format!("POINTS_{name}"), colour);
@@ -151,14 +166,37 @@ mod tests {
     #[test]
     fn a_drawing_has_a_vector_of_each_point_on_the_layer_of_its_judgement() {
         let found = found();
-        let text = write(&found, "dxf", 0, 100.0).expect("a drawing");
+        let text = String::from_utf8(write(&found, "dxf", 0, 100.0).expect("a drawing")).expect("text");
         assert_eq!(text.matches("\nLINE\n").count(), 9);
         assert!(text.contains("VECTORS_MOVED") && text.contains("VECTORS_REFERENCE_STABLE") && text.contains("x 100"));
         let tip = found.pairs[0].points[8].xyz[2] + 100.0 * found.pairs[0].points[8].difference[2];
         assert!(text.contains(&format!("31\n{tip}")), "{tip}");
         assert!(write(&found, "dxf", 1, 1.0).is_err() && write(&found, "dxf", 0, 0.0).is_err());
-        assert!(write(&found, "gltf", 0, 1.0).is_err());
-        let again: Monitoring = serde_json::from_str(&write(&found, "json", 0, 1.0).expect("text")).expect("the same");
+        assert!(write(&found, "obj", 0, 1.0).is_err());
+        let again: Monitoring =
+            serde_json::from_slice(&write(&found, "json", 0, 1.0).expect("text")).expect("the same");
         assert_eq!(again, found);
+    }
+
+    /// The tip of the arrow of a moved point is where the point came to, exaggerated; every judgement has a mesh of its own.
+    #[test]
+    fn a_scene_has_an_arrow_of_each_point() {
+        let found = found();
+        let bytes = write(&found, "gltf", 0, 100.0).expect("a scene");
+        assert_eq!((&bytes[..4], bytes.len() % 4), (&b"glTF"[..], 0));
+        let length = u32::from_le_bytes(bytes[12..16].try_into().expect("four bytes")) as usize;
+        let scene: serde_json::Value = serde_json::from_slice(&bytes[20..20 + length]).expect("a document");
+        let nodes = scene["nodes"].as_array().expect("nodes");
+        let node = |name: &str| nodes.iter().find(|n| n["name"] == name).unwrap_or_else(|| panic!("{name}"));
+        assert_eq!(node("arrows moved")["extras"]["exaggeration"], 100.0);
+        assert_eq!(node("arrows moved")["extras"]["names"], serde_json::json!(["p,8"]));
+        assert_eq!(node("arrows reference")["extras"]["names"].as_array().map(Vec::len), Some(8));
+        let primitive =
+            &scene["meshes"][node("arrows moved")["mesh"].as_u64().expect("a mesh") as usize]["primitives"][0];
+        let accessor = &scene["accessors"][primitive["attributes"]["POSITION"].as_u64().expect("positions") as usize];
+        let middle = node("object")["translation"][2].as_f64().expect("a middle");
+        let point = &found.pairs[0].points[8];
+        let tip = point.xyz[2] + 100.0 * point.difference[2] - middle;
+        assert!((accessor["max"][2].as_f64().expect("a number") - tip).abs() < 1e-3 * tip.abs(), "{accessor} {tip}");
     }
 }

@@ -15,15 +15,15 @@ use crate::project::Project;
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const UNSIGNED_BYTE: u32 = 5121;
-const POINTS: u32 = 0;
+pub(super) const POINTS: u32 = 0;
 const LINES: u32 = 1;
-const TRIANGLES: u32 = 4;
+pub(super) const TRIANGLES: u32 = 4;
 
 /// Colour of features.
 const FEATURE: [u8; 3] = [160, 0, 120];
 
 /// Metres of a unit; 1 where it is not known.
-fn metres(unit: &str) -> f64 {
+pub(super) fn metres(unit: &str) -> f64 {
     match unit {
         "mm" => 0.001,
         "cm" => 0.01,
@@ -36,7 +36,7 @@ fn metres(unit: &str) -> f64 {
 
 /// Buffers of the scene with what tells them apart.
 #[derive(Default)]
-struct Scene {
+pub(super) struct Scene {
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
@@ -97,7 +97,7 @@ pub fn write(project: &Project, adjustment: Option<&Adjustment>) -> Vec<u8> {
             scene.see_through(0.3);
         }
     }
-    scene.packed(&spatial, metres(&project.unit))
+    scene.packed(spatial.centre, metres(&project.unit))
 }
 
 impl Scene {
@@ -113,7 +113,7 @@ impl Scene {
         self.accessors.len() - 1
     }
 
-    fn positions(&mut self, places: &[[f32; 3]]) -> usize {
+    pub(super) fn positions(&mut self, places: &[[f32; 3]]) -> usize {
         let bytes: Vec<u8> = places.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
         let number = self.accessor(&bytes, (FLOAT, "VEC3"), places.len(), false);
         let limit = |pick: fn(f32, f32) -> f32, start: f32| -> [f32; 3] {
@@ -124,7 +124,7 @@ impl Scene {
         number
     }
 
-    fn mesh(
+    pub(super) fn mesh(
         &mut self,
         name: &str,
         attributes: Value,
@@ -145,7 +145,7 @@ impl Scene {
     }
 
     /// Lets what lies behind the last mesh be seen, from both of its sides.
-    fn see_through(&mut self, opacity: f64) {
+    pub(super) fn see_through(&mut self, opacity: f64) {
         if let Some(material) = self.materials.last_mut() {
             material["pbrMetallicRoughness"]["baseColorFactor"][3] = json!(opacity);
             material["alphaMode"] = json!("BLEND");
@@ -184,10 +184,11 @@ impl Scene {
         }
     }
 
-    fn packed(mut self, spatial: &Spatial, metres: f64) -> Vec<u8> {
+    /// The file of everything, about a middle.
+    pub(super) fn packed(mut self, centre: [f64; 3], metres: f64) -> Vec<u8> {
         let parts: Vec<usize> = (0..self.nodes.len()).collect();
         let middle = self.nodes.len();
-        let mut middle_node = json!({ "name": "object", "translation": spatial.centre });
+        let mut middle_node = json!({ "name": "object", "translation": centre });
         if !parts.is_empty() {
             middle_node["children"] = json!(parts);
         }

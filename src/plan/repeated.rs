@@ -101,8 +101,7 @@ fn filled(
     let scaled = setup.plan.distances.iter().any(|d| bar(&d.from) && bar(&d.to));
     let redundancy = adjustment.redundancy;
     let options = Options::default();
-    let network =
-        PlannedNetwork { places: &places, covariances: &covariances, reference: &rows, scaled, redundancy };
+    let network = PlannedNetwork { places: &places, covariances: &covariances, reference: &rows, scaled, redundancy };
     for (k, found) in at.iter().zip(detectable(&network, &options)) {
         points[*k].detectable = found;
     }

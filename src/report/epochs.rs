@@ -5,6 +5,8 @@
 use super::Report;
 use super::html::{Html, Table};
 use super::number::{count, decimals_for, fixed, maybe};
+use super::plots::displacements;
+use super::sections::figures;
 use super::style;
 use super::texts::{Words, words};
 use crate::monitoring::{
@@ -403,8 +405,9 @@ impl Pages<'_> {
         let w = self.w;
         for pair in self.pairs() {
             let object = |p: &Displacement| p.role == PointRole::Object && !pair.unstable.contains(&p.id);
+            html.h3(&w.epochs_against(&pair.to, &pair.from));
+            figures(html, displacements::plots(pair, &self.unit, decimals(pair), w).iter());
             if pair.points.iter().any(object) {
-                html.h3(&w.epochs_against(&pair.to, &pair.from));
                 self.table(pair, object, html);
             }
             let left = left_out(&pair.left_out, self.language);

@@ -7,6 +7,7 @@ mod chart;
 mod comparison;
 mod convergence;
 mod deviations;
+pub(super) mod displacements;
 mod distortion;
 mod histogram;
 pub(super) mod network;

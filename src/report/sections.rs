@@ -67,7 +67,7 @@ fn group(section: Section) -> Option<Group> {
 }
 
 /// Plots beside each other, those of single photos smaller.
-fn figures<'a>(html: &mut Html, plots: impl Iterator<Item = &'a Plot> + Clone) {
+pub(super) fn figures<'a>(html: &mut Html, plots: impl Iterator<Item = &'a Plot> + Clone) {
     for small in [false, true] {
         let mut chosen = plots.clone().filter(|plot| plot.small == small).peekable();
         if chosen.peek().is_none() {

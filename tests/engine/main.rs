@@ -32,6 +32,9 @@ mod calibration {
     mod uncertainty;
 }
 
+/// Two results of one object beside each other.
+mod comparison;
+
 /// Pictures: what is found, how well, and what is not.
 mod detect {
     mod cases;

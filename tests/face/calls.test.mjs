@@ -134,6 +134,8 @@ function calls() {
     convertCamera: [[project, project.cameras[0].id, 'opencv'], 5],
     nearestNames: [[project, project, 0.1], 10],
     compareEpochs: [[epochs()], 10],
+    exportEpochs: [[sightline.compareEpochs(epochs()), 'gltf', { factor: 10 }], 5],
+    displacementsInPhotos: [[project, adjustment, sightline.compareEpochs(epochs()).pairs[0], 10], 5],
     readList: [['a,1,2,3,0.1,0.1,0.1\nb,4,5,6,0.1,0.1,0.1', {}], 10],
     readCoordinates: [['a,1,2,3,0.1,0.1,0.1\nb,4,5,6,0.1,0.1,0.1', {}], 10],
     readCovariance: [['1\n0 1\n0 0 1', ['a']], 10],

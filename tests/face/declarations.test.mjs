@@ -156,8 +156,21 @@ test('every field that the engine returns is declared, and every declared field 
   const refusal = thrown(() => sightline.compareEpochs({ ...request, epochs: [lists[0], { ...lists[1], unit: 'm' }] }));
   assert.deepEqual([refusal.code, refusal.where.field, refusal.data.reason.kind], ['invalid', 'epochs[1].unit', 'epoch_unit']);
   assert.equal(thrown(() => sightline.compareEpochs({ ...request, referencs: [] })).data.reason.kind, 'no_such_option');
+  const exported = (format, options) => new TextDecoder().decode(sightline.exportEpochs(monitoring, format, options));
+  assert.equal(exported('csv').trim().split('\n').length, 1 + monitoring.pairs.reduce((sum, pair) => sum + pair.points.length, 0));
+  assert.deepEqual(JSON.parse(exported('json')), monitoring);
+  assert.match(exported('gltf', { pair: 1, factor: 100 }), /^glTF.*arrows/s);
+  assert.match(exported('dxf', { pair: 1, factor: 100 }), /displacements x 100/);
+  assert.match(exported('report', { settings: { language: 'ko' } }), /lang="ko".*변위/s);
+  assert.equal(thrown(() => sightline.exportEpochs(monitoring, 'obj')).code, 'unknown');
+  assert.equal(thrown(() => sightline.exportEpochs(monitoring, 'dxf', { pair: 99 })).code, 'unknown');
+  const shown = sightline.displacementsInPhotos(project, adjustments[0], monitoring.pairs[1], 1000);
+  assert.equal(shown.length, project.photos.length);
+  const arrow = shown[0].vectors.find(({ point }) => point === 'p4');
+  assert.ok(arrow.moved && Math.hypot(arrow.to[0] - arrow.from[0], arrow.to[1] - arrow.from[1]) > 1, JSON.stringify(arrow));
   const noisy = calibration();
   const literals = [
+    literal('shown', 'S.PhotoDisplacements[]', shown),
     literal('request', 'S.CompareOptions', request),
     literal('monitoring', 'S.Monitoring', monitoring),
     literal('cross', 'S.CrossValidation', sightline.crossValidate(noisy, { grid: [3, 3], camera: 'c' })),

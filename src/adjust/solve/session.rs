@@ -383,7 +383,7 @@ impl<'a> Session<'a> {
     }
 
     /// The free datum with the rows of its constraint, inverted for the S-transformation.
-    fn constraint(&self) -> Result<Option<(&FreeDatum, DMatrix<f64>)>> {
+    pub fn constraint(&self) -> Result<Option<(&FreeDatum, DMatrix<f64>)>> {
         let Some(datum) = &self.datum else { return Ok(None) };
         let inverse = datum.inverse_of_constrained(&self.state).ok_or_else(unsound)?;
         Ok(Some((datum, datum.constraint_rows(&self.state) * inverse.transpose())))
@@ -400,12 +400,21 @@ impl<'a> Session<'a> {
         if !self.network.points[point].fixed[axis] {
             e.add_at_point(&self.layout, point, axis, factor);
         }
-        if let Some((datum, d)) = constraint {
-            let g = at_point(&self.state.points[point])[axis];
-            for (k, &(carrier, carrier_axis)) in datum.carriers.iter().enumerate() {
-                let product: f64 = (0..datum.defect).map(|j| d[(k, j)] * g[j]).sum();
-                e.add_at_point(&self.layout, carrier, carrier_axis, -factor * product);
-            }
+        self.subtract_datum(e, constraint, &at_point(&self.state.points[point])[axis], factor);
+    }
+
+    /// Subtracts `factor` D(DᵀG)⁻ᵀg of a quantity with the datum's directions g: what is left of it is Sᵀe.
+    pub fn subtract_datum(
+        &self,
+        e: &mut Full,
+        constraint: Option<&(&FreeDatum, DMatrix<f64>)>,
+        g: &[f64; SIMILARITY],
+        factor: f64,
+    ) {
+        let Some((datum, d)) = constraint else { return };
+        for (k, &(carrier, axis)) in datum.carriers.iter().enumerate() {
+            let product: f64 = (0..datum.defect).map(|j| d[(k, j)] * g[j]).sum();
+            e.add_at_point(&self.layout, carrier, axis, -factor * product);
         }
     }
 

@@ -478,6 +478,11 @@ declare! {
     epochs_left_no_identity(n, epoch, names): "Automatically numbered in {epoch}, with too few points with names of their own to transform the epochs into one system, {n}: {names}.";
     epochs_left_held(n, names): "Held in both epochs, so no movement can be tested, {n}: {names}.";
     epochs_and_more(n): "and {n} more";
+    epochs_from_above: "from above";
+    epochs_from_front: "from the front";
+    epochs_from_side: "from the side";
+    epochs_figure(seen): "Displacements, seen {seen}";
+    epochs_figure_says(factor, bar, unit): "Displacements × {factor}; the bar is {bar} {unit} of displacement. Points that moved and unstable reference points are red, with their confidence ellipses at the tips; reference points are black.";
     epochs_variance_test: "Variance factors F";
     epochs_scale_test(ppm, sigma): "Scale {ppm} ± {sigma} ppm";
     epochs_congruence_all(n): "Congruence, all {n}";

@@ -473,6 +473,11 @@ translate! { Korean {
     epochs_left_no_identity(n, epoch, names): "{epoch}의 자동 번호 점으로, 고유한 이름의 점이 너무 적어 두 시기를 한 좌표계에 둘 수 없음, {n}점: {names}.";
     epochs_left_held(n, names): "두 시기 모두 고정하여 움직임을 검정할 수 없음, {n}점: {names}.";
     epochs_and_more(n): "외 {n}점";
+    epochs_from_above: "위에서";
+    epochs_from_front: "정면에서";
+    epochs_from_side: "측면에서";
+    epochs_figure(seen): "{seen} 본 변위";
+    epochs_figure_says(factor, bar, unit): "변위 × {factor}. 막대는 변위 {bar} {unit}입니다. 움직인 점과 불안정한 기준점은 붉은색이며 화살표 끝에 신뢰타원이 있습니다. 기준점은 검은색입니다.";
     epochs_variance_test: "분산 인자 F";
     epochs_scale_test(ppm, sigma): "축척 {ppm} ± {sigma} ppm";
     epochs_congruence_all(n): "합동성, {n}점 모두";

@@ -135,6 +135,14 @@ fn share(pairs: usize, seed: u64) {
     assert_eq!(half.silent, 0);
 }
 
+/// Every question with as many pairs as the figures in the documentation have.
+#[allow(dead_code, reason = "the benchmark's")]
+pub fn in_full() {
+    no_movement(4000, 110_000);
+    detectable(1000, 120_000);
+    share(1000, 130_000);
+}
+
 #[test]
 fn without_movement_the_tests_reject_as_often_as_they_say() {
     no_movement(200, 10_000);

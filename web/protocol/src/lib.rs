@@ -16,8 +16,10 @@ use sightline::comparison::Comparison;
 use sightline::detection::{ColoursApart, DetectOptions, Detection, Target};
 use sightline::exchange::foreign::CameraOptions;
 use sightline::experiments::{Experiment, ExperimentOptions};
-use sightline::matching::{Board, GridNaming, GridOptions, Matching, PhotoTargets, PredictOptions, Prediction};
-use sightline::monitoring::{Epoch, Monitoring, Options as MonitoringOptions};
+use sightline::matching::{
+    Board, GridNaming, GridOptions, Matching, PhotoTargets, PhotoVectors, PredictOptions, Prediction,
+};
+use sightline::monitoring::{Epoch, Monitoring, Options as MonitoringOptions, Pair};
 use sightline::orient::Note;
 use sightline::plan::{Criterion, Made, MakeOptions, Prediction as PlanPrediction, Suggested};
 use sightline::project::{Camera, ColourDifferences, LensColour, PhotoColours, Plan, Project, ReportSettings};
@@ -345,6 +347,13 @@ tasks! {
             /** The pair that is drawn. */ pub pair: usize,
             /** Times the length of displacements in the drawing. */ pub factor: f64,
         } => Nothing, ();
+        /// Displacements of a pair of epochs in the photos of one of them.
+        DisplacePhotos {
+            /** The epoch. */ pub project: Project,
+            /** Its adjustment. */ pub adjustment: Adjustment,
+            /** The pair. */ pub pair: Pair,
+            /** Times the length of displacements. */ pub factor: f64,
+        } => Nothing, Vec<PhotoVectors>;
         /// Make the report of a comparison of epochs.
         ReportEpochs {
             /** What was found. */ pub found: Monitoring,

@@ -191,6 +191,8 @@ pub struct Layers {
     pub predicted: bool,
     pub epipolar: bool,
     pub residuals: bool,
+    /// Displacements between epochs.
+    pub displacements: bool,
     /// The grid of the pixels and their values, where a photo is magnified enough for them.
     pub pixels: bool,
     /// How many times their length residuals are drawn.
@@ -208,6 +210,7 @@ impl Default for Layers {
             predicted: true,
             epipolar: true,
             residuals: false,
+            displacements: true,
             pixels: true,
             residual_factor: 100.0,
             brightness: 1.0,

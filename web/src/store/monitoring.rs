@@ -2,12 +2,15 @@
 //! lists of points; the comparison runs in a worker.
 
 mod coming;
+mod in_photos;
+mod remembered;
 
 use std::sync::Arc;
 
 use leptos::prelude::*;
 use leptos::task::spawn_local;
 use serde::Serialize;
+use sightline::depiction::{extent, round};
 use sightline::error::Error;
 use sightline::monitoring::{Epoch, Limits, Monitoring, Options, Pair, Thresholds};
 use sightline::project::ReportSettings;
@@ -124,7 +127,22 @@ pub struct Monitored {
     pub factor: RwSignal<Option<f64>>,
     /// The report of what was found.
     pub report: RwSignal<Option<ReportMade>>,
+    /// Displacements in photos.
+    pub in_photos: RwSignal<Option<in_photos::InPhotos>>,
     given: StoredValue<u64>,
+}
+
+/// Share of the extent that the largest displacement, or where it is larger the median ellipse, takes by itself.
+const SHARE: f64 = 0.14;
+
+/// The factor at which displacements are well seen.
+fn exaggeration(pair: &Pair) -> f64 {
+    let (_, size) = extent(pair.points.iter().map(|p| p.xyz));
+    let largest = pair.points.iter().map(|p| p.length).fold(0.0, f64::max);
+    let mut axes: Vec<f64> = pair.points.iter().filter_map(|p| Some(p.ellipsoid.as_ref()?.semi_axes[0])).collect();
+    axes.sort_by(f64::total_cmp);
+    let seen = largest.max(axes.get(axes.len() / 2).copied().unwrap_or(0.0));
+    if seen > 0.0 && size > 0.0 { round(SHARE * size / seen).max(1.0) } else { 1.0 }
 }
 
 impl Monitored {
@@ -143,6 +161,12 @@ impl Monitored {
         let ran = self.current()?;
         let number = self.later.get().clamp(1, ran.found.epochs.len() - 1) - 1;
         Some((number, ran.found.pairs.get(number)?.clone()))
+    }
+
+    /// Times the length of displacements in pictures.
+    pub fn shown_factor(self) -> f64 {
+        let own = || self.pair().map_or(1.0, |(_, pair)| exaggeration(&pair));
+        self.factor.get().unwrap_or_else(own)
     }
 
     /// Names of points that every epoch has, in the order of the first.
@@ -174,7 +198,7 @@ impl Desk {
     pub fn show_monitoring(self) {
         self.read_shelf();
         let none = self.monitoring.epochs.with_untracked(Vec::is_empty);
-        if none && self.document.with_untracked(|d| d.current().is_some()) {
+        if none && !self.recall_epochs() && self.document.with_untracked(|d| d.current().is_some()) {
             self.add_open_epoch();
         }
         self.go(Step::Monitoring);
@@ -350,10 +374,10 @@ impl Desk {
                     points: Default::default(),
                     groups: Default::default(),
                 });
-                monitored.options.set(Options { thresholds, ..Options::default() });
                 for epoch in epochs {
                     self.put_epoch(epoch, None, words::simulated().to_owned(), None);
                 }
+                monitored.options.set(Options { thresholds, ..Options::default() });
                 self.go(Step::Monitoring);
                 self.compare_epochs();
             }
@@ -386,19 +410,21 @@ impl Desk {
         self.ask(Stop(lasting::report, || ()), task, Vec::new(), on_outcome);
     }
 
-    /// Hands over what was found: `csv`, `json`, or `dxf` of the pair that is shown.
+    /// Hands over what was found: `csv`, `json`, or `dxf` and `gltf` of the pair that is shown.
     pub fn export_monitoring(self, format: &'static str, factor: f64) {
         let Some((ran, pair)) = untrack(|| self.monitoring.current().zip(self.monitoring.pair())) else { return };
         let (number, pair) = pair;
         let stem = match format {
-            "dxf" => file_stem(&format!("{} {}", pair.from, pair.to)),
+            "dxf" | "gltf" => file_stem(&format!("{} {}", pair.from, pair.to)),
             _ => "displacements".to_owned(),
         };
+        // glTF in its binary form, one file.
+        let ending = if format == "gltf" { "glb" } else { format };
         let task = ExportMonitoring { found: ran.found.clone(), format: format.to_owned(), pair: number, factor };
         let on_outcome = move |outcome: Outcome<ExportMonitoring>| match outcome {
             Outcome::Done((), bytes) => {
                 let kind = if format == "csv" { "text/csv" } else { "application/octet-stream" };
-                bytes.iter().for_each(|bytes| self.hand_over(&format!("{stem}.{format}"), kind, bytes));
+                bytes.iter().for_each(|bytes| self.hand_over(&format!("{stem}.{ending}"), kind, bytes));
             }
             Outcome::Failed(failure) => self.tell_failure(failure),
             Outcome::Progress(nothing) => match nothing {},

@@ -17,6 +17,7 @@ const OPEN: &str = "open";
 impl Desk {
     /// Remembers what is open in this window and at which step, as either changes.
     pub(super) fn start_remembering(self) {
+        self.remember_monitoring();
         Effect::new(move || {
             // A project has its key from the time when it is written first.
             self.kept.track();
@@ -56,6 +57,9 @@ impl Desk {
             let empty = self.document.with_untracked(Document::is_empty);
             if there && empty && self.open_call("open", &id).await {
                 self.returning.set(None);
+                if step == Step::Monitoring {
+                    self.recall_epochs();
+                }
                 self.go(step);
             } else {
                 self.return_nowhere();

@@ -2,13 +2,14 @@
 
 use leptos::prelude::*;
 use sightline::adjustment::PhotoUnit;
-use sightline::matching::PhotoPrediction;
+use sightline::matching::{PhotoPrediction, PhotoVector};
 
+use super::photo_view::Stroke;
 use super::transform::Placement;
 use crate::browser::canvas::Surface;
 use crate::browser::event;
 use crate::format;
-use crate::i18n::{Text, text};
+use crate::i18n::{Text, monitoring, text};
 use crate::store::document::Document;
 use crate::store::{Desk, Layers};
 
@@ -78,13 +79,42 @@ pub fn draw_residuals(surface: &Surface, placement: Placement, residuals: &[Resi
             let [x, y] = placement.to_screen(residual.at);
             let [x2, y2] = placement.to_screen([0, 1].map(|k| residual.at[k] + factor * residual.by[k]));
             surface.line(x, y, x2, y2);
-            let (length, angle) = ((x2 - x).hypot(y2 - y), (y2 - y).atan2(x2 - x));
-            if length > 6.0 {
-                for turn in [-2.6, 2.6] {
-                    surface.line(x2, y2, x2 + 6.0 * (angle + turn).cos(), y2 + 6.0 * (angle + turn).sin());
-                }
-            }
+            draw_head(surface, [x, y], [x2, y2]);
         }
+    }
+}
+
+/// The head of an arrow at a place of the screen that comes from another; none of a short one.
+fn draw_head(surface: &Surface, [x, y]: [f64; 2], [x2, y2]: [f64; 2]) {
+    let (length, angle) = ((x2 - x).hypot(y2 - y), (y2 - y).atan2(x2 - x));
+    if length > 6.0 {
+        for turn in [-2.6, 2.6] {
+            surface.line(x2, y2, x2 + 6.0 * (angle + turn).cos(), y2 + 6.0 * (angle + turn).sin());
+        }
+    }
+}
+
+/// Draws displacements between epochs from where the targets are; those that moved in their colour, above the others.
+pub fn draw_displacements(surface: &Surface, placement: Placement, vectors: &[PhotoVector]) {
+    for moved in [false, true] {
+        surface.pen(&surface.token(if moved { "--p-bad" } else { "--p-a" }), if moved { 2.5 } else { 1.5 }, &[]);
+        for vector in vectors.iter().filter(|v| v.moved == moved) {
+            let (from, to) = (placement.to_screen(vector.from), placement.to_screen(vector.to));
+            surface.line(from[0], from[1], to[0], to[1]);
+            draw_head(surface, from, to);
+        }
+    }
+}
+
+/// Draws strokes.
+pub fn draw_strokes(surface: &Surface, placement: Placement, strokes: &[Stroke]) {
+    if strokes.is_empty() {
+        return;
+    }
+    surface.pen(&surface.token("--p-b"), 1.5, &[]);
+    for stroke in strokes {
+        let ([x1, y1], [x2, y2]) = (placement.to_screen(stroke.from), placement.to_screen(stroke.to));
+        surface.line(x1, y1, x2, y2);
     }
 }
 
@@ -129,6 +159,13 @@ pub fn LayerChoice() -> impl IntoView {
                                 let chosen = event::value(&e).parse::<usize>().ok().and_then(|k| FACTORS.get(k));
                                 if let Some(factor) = chosen { desk.layers.update(|l| l.residual_factor = *factor) }
                             }/>
+                    </label>
+                </Show>
+                <Show when=move || desk.shows_displacements()>
+                    <label class="tick">
+                        <input type="checkbox" name="layer-displacements" prop:checked=move || desk.layers.with(|l| l.displacements)
+                            on:change=move |e| desk.layers.update(|l| l.displacements = event::checked(&e))/>
+                        <span>{move || monitoring::layer_displacements(format::count(desk.monitoring.shown_factor().round() as usize))}</span>
                     </label>
                 </Show>
                 {slide(text::brightness, "brightness", |l| l.brightness, |l, v| l.brightness = v)}

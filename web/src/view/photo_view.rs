@@ -8,7 +8,7 @@ use leptos::prelude::*;
 
 use super::icon::{Glyph, Icon};
 use super::keys;
-use super::layers::{LayerChoice, draw_prediction, draw_residuals, residuals_in};
+use super::layers::{LayerChoice, draw_displacements, draw_prediction, draw_residuals, draw_strokes, residuals_in};
 use super::pixels::draw_pixels;
 use super::transform::Placement;
 use crate::browser::canvas::{SizeWatch, Surface, TEXT_SIZE};
@@ -97,6 +97,7 @@ pub fn PhotoView(
 ) -> impl IntoView {
     let desk = expect_context::<Desk>();
     desk.begin_showing();
+    desk.follow_displacements();
     on_cleanup(move || desk.end_showing());
     let canvas = NodeRef::<Canvas>::new();
     // The picture has a canvas of its own, so that brightness and contrast leave the marks alone.
@@ -251,6 +252,9 @@ pub fn PhotoView(
             if layers.residuals {
                 let residuals = desk.document.with(|document| residuals_in(document, &photo));
                 draw_residuals(&surface, placement, &residuals, layers.residual_factor);
+            }
+            if layers.displacements {
+                draw_displacements(&surface, placement, &desk.displacements_in(&photo));
             }
             if let Some([x, y]) = cross.get() {
                 surface.pen(&surface.token("--p-accent"), 1.0, &[]);
@@ -553,17 +557,6 @@ fn draw_labels(surface: &Surface, placement: Placement, marks: &[&Mark]) {
                 surface.label(label, at, mark.strong, colour, &outline);
             }
         }
-    }
-}
-
-fn draw_strokes(surface: &Surface, placement: Placement, strokes: &[Stroke]) {
-    if strokes.is_empty() {
-        return;
-    }
-    surface.pen(&surface.token("--p-b"), 1.5, &[]);
-    for stroke in strokes {
-        let ([x1, y1], [x2, y2]) = (placement.to_screen(stroke.from), placement.to_screen(stroke.to));
-        surface.line(x1, y1, x2, y2);
     }
 }
 

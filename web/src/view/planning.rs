@@ -7,6 +7,7 @@ mod inputs;
 mod labels;
 mod object;
 mod print;
+mod repeated;
 mod stations;
 mod verdict;
 
@@ -24,6 +25,7 @@ use crate::store::document::Change;
 use drawing::Views;
 use inputs::{Beginnings, Inputs};
 use print::ShootingPlan;
+use repeated::SecondCampaign;
 use stations::{Checklist, Stations};
 use verdict::{Compared, Next, Reached, Verdict};
 
@@ -54,6 +56,7 @@ pub fn Planning() -> impl IntoView {
                     <Verdict/>
                     <Next/>
                     <Compared/>
+                    <SecondCampaign/>
                     <Stations/>
                     <Checklist/>
                     <Reached/>

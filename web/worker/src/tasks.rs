@@ -15,7 +15,9 @@ use sightline::exchange::displacements;
 use sightline::exchange::package::{self, Held, Package};
 use sightline::exchange::{self, export};
 use sightline::experiments::{self, Experiment};
-use sightline::matching::{GridNaming, MatchOptions, Matching, Prediction, match_uncoded, name_grid, predict};
+use sightline::matching::{
+    GridNaming, MatchOptions, Matching, PhotoVectors, Prediction, displaced, match_uncoded, name_grid, predict,
+};
 use sightline::monitoring::{self, Epoch, Monitoring};
 use sightline::orient::{Note, orient};
 use sightline::plan::{self, Made, Prediction as PlanPrediction, Suggested};
@@ -28,12 +30,12 @@ use sightline::tiles::{self, Pyramid};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
     Adjust, Adjusted, Adjusting, BeginPlan, CompareEpochs, CompareModels, CompareResults, Content, ConvertCamera,
-    Detect, DifferColours, DrawSheets, Drawn, Export, ExportExperiment, ExportMonitoring, Foreign, Given, Glance,
-    Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, NameGrid, Nothing, Open,
-    Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReadForeign, ReportEpochs, ReportMade, RunExperiment, Sample,
-    SampleEpochs, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto, ShowValues, Shown, Situate,
-    Situated, Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteCamera, WriteNetwork, WriteSheets, Written,
-    from_pieces, written,
+    Detect, DifferColours, DisplacePhotos, DrawSheets, Drawn, Export, ExportExperiment, ExportMonitoring, Foreign,
+    Given, Glance, Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, NameGrid,
+    Nothing, Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReadForeign, ReportEpochs, ReportMade,
+    RunExperiment, Sample, SampleEpochs, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto,
+    ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteCamera, WriteNetwork,
+    WriteSheets, Written, from_pieces, written,
 };
 
 use crate::codecs::{shot_of, unpack};
@@ -312,8 +314,13 @@ impl Service<CompareEpochs> for Engine {
 
 impl Service<ExportMonitoring> for Engine {
     fn serve(&self, task: ExportMonitoring, _: Files, _: Progress<Nothing>) -> Served<()> {
-        let text = displacements::write(&task.found, &task.format, task.pair, task.factor)?;
-        Ok(((), vec![text.into_bytes()]))
+        Ok(((), vec![displacements::write(&task.found, &task.format, task.pair, task.factor)?]))
+    }
+}
+
+impl Service<DisplacePhotos> for Engine {
+    fn serve(&self, task: DisplacePhotos, _: Files, _: Progress<Nothing>) -> Served<Vec<PhotoVectors>> {
+        Ok((displaced(&task.project, &task.adjustment, &task.pair, task.factor)?, Vec::new()))
     }
 }
 

@@ -78,12 +78,7 @@ impl Session<'_> {
                     taken.iter_mut().zip(row).for_each(|(sum, g)| *sum += by * g);
                 }
             }
-            if let Some((datum, d)) = &constraint {
-                for (k, &(carrier, axis)) in datum.carriers.iter().enumerate() {
-                    let product: f64 = (0..datum.defect).map(|j| d[(k, j)] * taken[j]).sum();
-                    e.add_at_point(&self.layout, carrier, axis, -product);
-                }
-            }
+            self.subtract_datum(&mut e, constraint.as_ref(), &taken, 1.0);
             functions.push(e);
         }
         let mut solved = functions.clone();

@@ -15,6 +15,7 @@ declare! { lasting {
     report_stopped: "The report was stopped. It is written again after the next change.";
     plots: "Drawing plots";
     comparison: "Comparing the results";
+    displaced: "Displacements are being computed for the photos";
     sheets: "Drawing targets";
     file: "Writing a file";
     plan: "Computing the plan";

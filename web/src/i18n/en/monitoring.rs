@@ -156,6 +156,9 @@ declare! { monitoring {
     legend_reference: "reference";
     legend_out: "reference, not stable";
     drawing: "Drawing (DXF)";
+    scene: "Arrows (glTF)";
+    in_photos: "In the photos";
+    layer_displacements(times): "Displacements × {times}";
     table_file: "Table (CSV)";
     all_file: "All (JSON)";
 

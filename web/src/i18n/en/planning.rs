@@ -136,6 +136,15 @@ declare! { planning {
     rms: "rms";
     fewest_rays: "fewest rays";
     sigma_c: "σ of c";
+    second: "Second campaign";
+    second_aside: "smallest detectable displacement";
+    second_control(n): "Reference points: the {n} control points; their given coordinates take no part in the comparison.";
+    second_datum(n): "Reference points: the {n} datum points.";
+    second_all(n): "Reference points: all {n} points.";
+    second_largest(point, length, unit, power, level): "The same photos are taken again and both results compared: every displacement of {length} {unit} or more is found with a probability of at least {power} %, point {point} being the weakest. Error probability {level} %.";
+    second_least: "weakest direction";
+    second_show_all(n): "Show all {n}";
+    second_none: "Detectable displacements need between 4 and 500 reference points: control points, else datum points, else all points that at least two photos see. Without given coordinates the network must be determined.";
     reached_adjusted: "Predicted and adjusted";
     reached_words: "Largest standard errors of the points in both plan and adjustment, 1σ.";
     predicted: "predicted";

@@ -23,6 +23,7 @@ translate! { Korean comparing {
     apart(common): "좌표는 비교하지 않았습니다. 두 결과의 공통점이 {common}개로 너무 적거나 한 직선 위에 있어 변환할 수 없습니다.";
     other_units(before, after): "좌표는 비교하지 않았습니다. 길이 단위가 {before}에서 {after}{after:으로|로} 바뀌었습니다.";
     ratios_independent: "두 결과는 관측값을 공유하지 않으므로 분산을 더합니다. ‘× σ’는 점의 공분산을 쓴 벡터 검정의 값을 단일 검정의 한계에 맞춘 것입니다.";
+    ratios_union: "표준오차는 두 결과의 모든 관측값에서 계산한 차이의 표준오차이며, 공유한 관측값의 오차는 상쇄됩니다. ‘× σ’는 벡터 검정을 단일 검정의 한계에 맞춘 값입니다.";
     ratios_mean: "표준오차는 두 결과 중 큰 값이고, ‘× σ’는 세 축 가운데 가장 큰 값입니다.";
     gone(n, points): "지금 결과에 없는 점 {n}개: {points}.";
     only_now(n, points): "지금 결과에 새로 들어온 점 {n}개: {points}.";

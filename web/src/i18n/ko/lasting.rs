@@ -15,6 +15,7 @@ translate! { Korean lasting {
     report_stopped: "보고서 작성을 멈췄습니다. 다음 변경 후 다시 만듭니다.";
     plots: "그림을 그리는 중";
     comparison: "결과를 비교하는 중";
+    displaced: "사진에 나타낼 변위를 계산하고 있습니다";
     sheets: "표적을 그리는 중";
     file: "파일을 쓰는 중";
     plan: "계획을 계산하는 중";

@@ -149,6 +149,9 @@ translate! { Korean monitoring {
     legend_reference: "기준점";
     legend_out: "불안정한 기준점";
     drawing: "도면 (DXF)";
+    scene: "화살표 (glTF)";
+    in_photos: "사진에서 보기";
+    layer_displacements(times): "변위 × {times}";
     table_file: "표 (CSV)";
     all_file: "전체 (JSON)";
 

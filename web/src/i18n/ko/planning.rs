@@ -136,6 +136,15 @@ translate! { Korean planning {
     rms: "RMS";
     fewest_rays: "최소 광선";
     sigma_c: "c의 σ";
+    second: "2차 측정";
+    second_aside: "최소 검출 가능 변위";
+    second_control(n): "비교의 기준: 프로젝트의 기준점 {n}점. 주어진 좌표는 비교에 쓰지 않습니다.";
+    second_datum(n): "비교의 기준: 데이텀 점 {n}점.";
+    second_all(n): "비교의 기준: 모든 점 {n}점.";
+    second_largest(point, length, unit, power, level): "같은 사진을 다시 찍어 두 결과를 비교하면 {length} {unit} 이상의 변위는 모두 {power} % 이상의 확률로 검출됩니다. 가장 약한 점은 {point}입니다. 유의수준 {level} %.";
+    second_least: "가장 약한 방향";
+    second_show_all(n): "{n}점 모두 보기";
+    second_none: "검출 가능 변위를 계산하려면 비교의 기준이 되는 점이 4점 이상 500점 이하여야 합니다. 프로젝트의 기준점, 데이텀 점, 두 장 이상의 사진에 보이는 모든 점의 순서로 씁니다. 주어진 좌표 없이도 네트워크가 결정되어야 합니다.";
     reached_adjusted: "예측과 조정 결과";
     reached_words: "계획과 조정에 모두 있는 점의 최대 표준오차, 1σ.";
     predicted: "예측";

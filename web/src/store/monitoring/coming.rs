@@ -109,6 +109,9 @@ impl Desk {
         monitored.given.update_value(|n| *n += 1);
         let entry = Entry { id: monitored.given.get_value(), epoch: Arc::new(epoch), key, source, matrix };
         monitored.failure.set(None);
+        if monitored.epochs.with_untracked(Vec::is_empty) {
+            self.recall_options(&entry);
+        }
         monitored.epochs.update(|all| all.push(entry));
     }
 

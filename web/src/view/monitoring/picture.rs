@@ -1,7 +1,7 @@
 //! Displacements as a picture: from above, from the front or from the side, at a stated exaggeration.
 
 use leptos::prelude::*;
-use sightline::depiction::{extent, round};
+use sightline::depiction::round;
 use sightline::monitoring::{Displacement, Pair, PointRole};
 
 use super::unit;
@@ -16,8 +16,6 @@ const HEIGHT: f64 = 500.0;
 const MARGIN: f64 = 56.0;
 /// More points than this have their names where they are chosen or moved.
 const NAMED: usize = 60;
-/// Share of the extent that the largest displacement, or where it is larger the median ellipse, takes by itself.
-const SHARE: f64 = 0.14;
 /// The slider reaches from this factor to its power of ten above, in steps of a tenth of a decade.
 const DECADES: [f64; 2] = [0.0, 6.0];
 
@@ -25,20 +23,9 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The factor at which displacements are well seen.
-fn own_factor(pair: &Pair) -> f64 {
-    let (_, size) = extent(pair.points.iter().map(|p| p.xyz));
-    let largest = pair.points.iter().map(|p| p.length).fold(0.0, f64::max);
-    let mut axes: Vec<f64> = pair.points.iter().filter_map(|p| Some(p.ellipsoid.as_ref()?.semi_axes[0])).collect();
-    axes.sort_by(f64::total_cmp);
-    let seen = largest.max(axes.get(axes.len() / 2).copied().unwrap_or(0.0));
-    if seen > 0.0 && size > 0.0 { round(SHARE * size / seen).max(1.0) } else { 1.0 }
-}
-
 /// The factor in use.
 pub fn factor(desk: Desk) -> f64 {
-    let own = || desk.monitoring.pair().map_or(1.0, |(_, pair)| own_factor(&pair));
-    desk.monitoring.factor.get().unwrap_or_else(own)
+    desk.monitoring.shown_factor()
 }
 
 fn look(pair: &Pair, point: &Displacement) -> &'static str {
@@ -94,8 +81,12 @@ pub fn Picture() -> impl IntoView {
                         on:click=move |_| monitored.seen.set(one)>{name}</button>
                 }).collect_view()}
                 <span class="gap"></span>
+                <Show when=move || desk.shows_displacements()>
+                    <button class="toggle" data-action="in-photos" on:click=move |_| desk.show_in_photo()>{words::in_photos}</button>
+                </Show>
                 <button class="toggle" data-action="csv" on:click=move |_| desk.export_monitoring("csv", 1.0)>{words::table_file}</button>
                 <button class="toggle" data-action="dxf" on:click=move |_| desk.export_monitoring("dxf", untrack(|| factor(desk)))>{words::drawing}</button>
+                <button class="toggle" data-action="gltf" on:click=move |_| desk.export_monitoring("gltf", untrack(|| factor(desk)))>{words::scene}</button>
                 <button class="toggle" data-action="json" on:click=move |_| desk.export_monitoring("json", 1.0)>{words::all_file}</button>
             </div>
             <div class="picture-host">{move || drawn(desk)}</div>

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use sightline::comparison::{Alignment, Moved, ParameterChange};
+use sightline::comparison::{Alignment, CovarianceOf, Moved, ParameterChange};
 
 use super::cameras::parameter_cells;
 use super::units::length_unit;
@@ -26,6 +26,15 @@ fn alignment_words(alignment: &Alignment) -> String {
         }
         Alignment::Unlike { common, agreeing, .. } => words::unlike(common, agreeing),
         Alignment::Units { before, after } => words::other_units(before, after),
+    }
+}
+
+/// Where the standard errors come from.
+fn ratio_words(covariance: CovarianceOf) -> &'static str {
+    match covariance {
+        CovarianceOf::Union => words::ratios_union(),
+        CovarianceOf::Sum => words::ratios_independent(),
+        _ => words::ratios_mean(),
     }
 }
 
@@ -65,7 +74,7 @@ pub(super) fn Compared() -> impl IntoView {
                 (!found.unlike_cameras.is_empty()).then(|| words::unlike_cameras(found.unlike_cameras.join(", ")));
             Some(view! {
                 <p data-compared="figures">{words::figures(&sigma0[0], &sigma0[1], &redundancy[0], &redundancy[1])} " " {rms}</p>
-                <p class="note" data-compared="alignment">{alignment_words(&found.alignment)} " " {if found.independent { words::ratios_independent() } else { words::ratios_mean() }}</p>
+                <p class="note" data-compared="alignment">{alignment_words(&found.alignment)} " " {ratio_words(found.covariance)}</p>
                 {[gone, new, unlike].into_iter().flatten().map(|line| view! { <p class="note">{line}</p> }).collect_view()}
             })
         })
