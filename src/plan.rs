@@ -105,15 +105,15 @@ pub struct PredictedPoint {
     pub covariance: Option<[f64; 6]>,
     /// Largest half axis of its standard ellipsoid.
     pub axis: Option<f64>,
-    /// The smallest displacement that a comparison with a second campaign like this finds; null where it is not determined, and where
-    /// [`Prediction::repeated`] is.
+    /// Smallest displacement that a comparison with a second, identical campaign detects; null if undetermined or if [`Prediction::repeated`]
+    /// is null.
     #[serde(default)]
     pub detectable: Option<Detectable>,
 }
 
-/// What two campaigns as planned are compared by: the tests of [`crate::monitoring`] with their usual options, in the datum of the
-/// reference points. Displacements of object points are found with this power; those of a reference point, which the global test has to
-/// find as well, at least so often.
+/// Comparison of two campaigns as planned: the tests of [`crate::monitoring`] with their default options, in the datum of the reference points.
+/// Detectable displacements of object points are found with `power`, those of reference points, which the global test must reject first, with at
+/// least that power.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Repeated {
@@ -127,9 +127,9 @@ pub struct Repeated {
     pub power: f64,
     /// Degrees of freedom of both campaigns' variance factor; with 0 the standard errors count as exact.
     pub redundancy: usize,
-    /// The point of which the least is seen.
+    /// Point with the largest of the smallest detectable displacements.
     pub point: Option<String>,
-    /// Its smallest detectable displacement along the least favourable direction.
+    /// That displacement, along the least favourable direction.
     pub largest: Option<f64>,
 }
 

@@ -4,10 +4,11 @@
 #![allow(dead_code, reason = "epochs and networks are shared with the tests, which want more of them")]
 
 /// What the simulations share with the tests.
+#[path = "."]
 mod support {
-    #[path = "../../../tests/engine/support/epochs.rs"]
+    #[path = "../../tests/engine/support/epochs.rs"]
     pub mod epochs;
-    #[path = "../../../tests/engine/support/networks.rs"]
+    #[path = "../../tests/engine/support/networks.rs"]
     pub mod networks;
 }
 #[path = "../../tests/engine/monitoring/simulated.rs"]
@@ -15,9 +16,9 @@ mod simulated;
 
 use std::time::Instant;
 
-use support::epochs::{Made, epoch, object, references};
 use nalgebra::Vector3;
 use sightline::monitoring::{Epoch, Options, compare_epochs};
+use support::epochs::{Made, epoch, object, references};
 
 fn main() {
     println!(

@@ -5,7 +5,7 @@
 //!
 //! - an object point is tested by itself at α/m (m object points, Holm's correction for the largest): δ² uᵀQ_d⁻¹u = λ₀(3, f);
 //! - a reference point has to be found by the global test first, and then by itself, in the datum of the others:
-//!   δ² uᵀQ'⁻¹u = max(λ₀(h, f), λ₀(3, f)). In the global test the point weighs at least as much, so that it is found at least as often.
+//!   δ² uᵀQ'⁻¹u = max(λ₀(h, f), λ₀(3, f)). Its weight in the global test is at least Q'⁻¹, so that it is found at least with the stated power.
 //!
 //! In the datum of the other reference points a point's covariance is Q' = K Q Kᵀ, K = (I - G_i (ΣG_jᵀG_j)⁻¹ G_iᵀ)⁻¹: inner constraints
 //! say Σ G_jᵀx_j = 0, so that those of the others are missing just the point's own share -G_iᵀx_i.
@@ -34,9 +34,9 @@ pub struct PlannedNetwork<'a> {
     pub redundancy: usize,
 }
 
-/// Smallest displacements of every point that a comparison of two such campaigns finds with the power of the options. None of a reference
-/// point where only [`LEAST`] are there, of which none can be told from the others, or where the others lie on a line; of all points
-/// where the reference points lie on a line.
+/// Smallest displacement of each point that a comparison of two such campaigns finds with the power of the options. `None` for all points if
+/// the reference points lie on a line; `None` for a reference point if there are only [`LEAST`] of them (the elimination stops there, so that
+/// the comparison cannot name it) or if the others lie on a line.
 pub fn detectable(network: &PlannedNetwork<'_>, options: &Options) -> Vec<Option<Detectable>> {
     let n = network.places.len();
     let defect = if network.scaled { 6 } else { 7 };

@@ -1,4 +1,4 @@
-//! What a comparison of two campaigns that are taken as planned will find: the plan's network in the datum that the comparison will use.
+//! Detectable displacements of two campaigns taken as planned: the plan's network in the datum that the comparison will use.
 //!
 //! Reference points are chosen as [`crate::monitoring::compare_epochs`] chooses them where none are named: the control points, else the
 //! datum points, else all. Given coordinates take no part in either: they are the same in both campaigns, see
@@ -57,8 +57,8 @@ fn is_own(setup: &Setup<'_>, takes_part: &[bool], reference: &[usize]) -> bool {
     setup.plan.datum.kind == DatumKind::Free && carriers == reference
 }
 
-/// Fills in what of each point a second campaign will find, and says against what. Nothing where the network is not determined without
-/// what is given.
+/// Fills in the detectable displacement of each point and returns the reference it is against. `None` if the network is not determined without
+/// given coordinates.
 pub fn repeated(
     setup: &Setup<'_>,
     shots: &[&Shot],

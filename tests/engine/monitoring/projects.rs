@@ -3,8 +3,10 @@
 use crate::support::networks::{Wanted, brown, exact, noisy};
 use sightline::adjust::adjust;
 use sightline::adjustment::AdjustOptions;
+use sightline::matching::displaced;
 use sightline::monitoring::{
-    Epoch, EpochNote, Method, Monitoring, Options, Outcome, PointRole, ReferenceFrom, VarianceUsed, compare_epochs,
+    Epoch, EpochNote, ListedPoint, Method, Monitoring, Options, Outcome, PointRole, ReferenceFrom, VarianceUsed,
+    compare_epochs,
 };
 use sightline::noise::Noise;
 use sightline::project::{Camera, Datum, DatumKind, Distance, Observation, Parameter, Photo, Point, Project};
@@ -183,4 +185,49 @@ fn the_joint_method_is_the_adjustment_of_both_epochs_together() {
     }
     assert_eq!(compared, 8);
     assert!(pair.points.iter().filter(|p| p.role == PointRole::Reference).all(|p| p.length == 0.0 && p.test.is_none()));
+}
+
+/// Displacements in the photos of epoch 0 end where the photos of the next epoch, taken from the same places, show the points, in
+/// whatever system the epochs are compared.
+#[test]
+fn displacements_in_photos_end_where_the_later_photos_show_the_points() {
+    let moved = [(9, [0.0, 25.0, 5.0]), (12, [20.0, 0.0, -15.0])];
+    let projects = projects(DatumKind::Free, 23, &moved);
+    let adjustment = adjust(&projects[0], &AdjustOptions::default(), &mut |_| true).unwrap();
+    let reference: Vec<String> = (0..8).map(|k| format!("p{k}")).collect();
+    let options = Options { reference: Some(reference), ..Options::default() };
+    let turn = nalgebra::Rotation3::from_euler_angles(0.4, -0.7, 2.1);
+    let turned = adjustment.points.iter().map(|p| {
+        let xyz = turn * nalgebra::Vector3::from(p.xyz) + nalgebra::Vector3::new(5e3, -2e3, 300.0);
+        ListedPoint { id: p.id.clone(), xyz: xyz.into(), sigma: p.sigma }
+    });
+    let turned = Epoch { name: "turned".into(), points: Some(turned.collect()), ..Epoch::default() };
+    let [first, second] = epochs(&projects);
+    for first in [first, turned] {
+        let found = compare_epochs(&[first, second.clone()], &options).unwrap();
+        let shown = displaced(&projects[0], &adjustment, &found.pairs[0], 1.0).unwrap();
+        assert_eq!(shown.len(), projects[0].photos.len());
+        let place = |project: &Project, photo: &str, point: &str| {
+            let o = project.observations.iter().find(|o| o.photo == photo && o.point == point).expect("measured");
+            [o.u, o.v]
+        };
+        let (mut count, mut longest) = (0, 0.0_f64);
+        for photo in &shown {
+            for vector in &photo.vectors {
+                let ends = [0, 1].map(|k| place(&projects[k], &photo.photo, &vector.point));
+                let off = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+                assert!(off(vector.from, ends[0]) < 1.0, "{} {vector:?} {ends:?}", photo.photo);
+                assert!(off(vector.to, ends[1]) < 1.5, "{} {vector:?} {ends:?}", photo.photo);
+                assert_eq!(vector.moved, ["p9", "p12"].contains(&vector.point.as_str()), "{vector:?}");
+                longest = longest.max(off(vector.from, vector.to));
+                count += 1;
+            }
+        }
+        let measured = projects[0].observations.iter().filter(|o| o.enabled).count();
+        assert!(count == measured && longest > 10.0, "{count} of {measured}, longest {longest} px");
+    }
+    assert!(
+        displaced(&projects[0], &adjustment, &compare_epochs(&epochs(&projects), &options).unwrap().pairs[0], 0.0)
+            .is_err()
+    );
 }

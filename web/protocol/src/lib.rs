@@ -340,7 +340,7 @@ tasks! {
         } => Nothing, Comparison;
         /// Compare epochs of an object; progress in steps done of all.
         CompareEpochs { /** The first is the reference. */ pub epochs: Vec<Epoch>, /** How. */ pub options: MonitoringOptions } => (usize, usize), Monitoring;
-        /// Write what a comparison of epochs found as a file: csv, json or dxf.
+        /// Write what a comparison of epochs found as a file: csv, json, dxf or gltf.
         ExportMonitoring {
             /** What was found. */ pub found: Monitoring,
             /** Which file. */ pub format: String,

@@ -4,6 +4,7 @@
 use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::monitoring::Options;
+use sightline_protocol::{from_text, to_text};
 
 use super::Entry;
 use crate::browser::page;
@@ -28,9 +29,7 @@ impl Desk {
             if page::preference(&name).is_none() && options == Options::default() {
                 return;
             }
-            if let Ok(text) = serde_json::to_string(&options) {
-                page::set_preference(&name, &text);
-            }
+            page::set_preference(&name, &to_text(&options));
         });
         Effect::new(move |before: Option<()>| {
             let kept = monitored.epochs.with(|all| {
@@ -38,10 +37,8 @@ impl Desk {
                 kept.collect::<Vec<(String, String)>>()
             });
             // The first time there is nothing yet, and what was remembered is still wanted.
-            if before.is_some()
-                && let Ok(text) = serde_json::to_string(&kept)
-            {
-                page::set_visit(EPOCHS, &text);
+            if before.is_some() {
+                page::set_visit(EPOCHS, &to_text(&kept));
             }
         });
     }
@@ -49,14 +46,14 @@ impl Desk {
     /// The options that were chosen for the series that this epoch begins.
     pub(super) fn recall_options(self, first: &Entry) {
         let remembered = page::preference(&name_of(first));
-        if let Some(options) = remembered.and_then(|text| serde_json::from_str::<Options>(&text).ok()) {
+        if let Some(options) = remembered.and_then(|text| from_text::<Options>(&text).ok()) {
             self.monitoring.options.set(options);
         }
     }
 
     /// Takes the projects again that were compared before the page was loaded again; whether there are any.
     pub(in crate::store) fn recall_epochs(self) -> bool {
-        let kept = page::visit(EPOCHS).and_then(|text| serde_json::from_str::<Vec<(String, String)>>(&text).ok());
+        let kept = page::visit(EPOCHS).and_then(|text| from_text::<Vec<(String, String)>>(&text).ok());
         let kept = kept.unwrap_or_default();
         if kept.is_empty() || self.storage().is_none() || !self.monitoring.epochs.with_untracked(Vec::is_empty) {
             return false;

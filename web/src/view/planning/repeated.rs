@@ -53,7 +53,7 @@ fn found(desk: Desk, all: RwSignal<bool>, prediction: &Prediction, repeated: &Re
         let [x, y, z] = found.axes.map(&length);
         view! {
             <tr data-detectable=id.clone()>
-                <td class="left id">{id}</td><td class="left">{reference.then(monitoring::legend_reference)}</td>
+                <td class="left id">{id.clone()}</td><td class="left">{reference.then(monitoring::legend_reference)}</td>
                 <td>{x}</td><td>{y}</td><td>{z}</td><td><b>{length(Some(found.worst))}</b></td>
             </tr>
         }
