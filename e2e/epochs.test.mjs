@@ -65,8 +65,8 @@ function stopped() {
   const points = Array.from({ length: 9 }, (_, k) => ({ id: `P${'ABCDEFGHI'[k]}`, role: 'tie', xyz: [0, 1, 2].map((axis) => spread(k, axis)) }));
   const stations = [[-900, -300, 1500], [900, -200, 1400], [0, 900, 1500], [100, -900, 1600]].map((position, k) => ({ id: `s${k}`, camera: 'c', position, look_at: [0, 0, 0] }));
   const project = sightline.simulate({
-    cameras: [{ id: 'c', width: 4000, height: 3000, pixel_pitch: [0.006, 0.006], interior: { model: 'brown', c: 24 } }],
-    stations, points, sigma: 0.2, noise: 0.2, observations: 'noisy', seed: 5, max_incidence: 3.2,
+    cameras: [{ id: 'c', width: 4000, height: 3000, pixel_pitch: [0.006, 0.006], model: 'brown', c: 24 }],
+    stations, points, sigma: 0.2, datum: { kind: 'free', points: null }, seed: 5, max_incidence: 3.2,
   });
   project.name = 'stopped';
   project.points = project.points.map((point) => ({ ...point, xyz: point.xyz?.map((x, axis) => x + 15 * Math.sin(axis + x)) ?? null }));

@@ -25,8 +25,11 @@ pub fn pages(settings: &ReportSettings, title: &str, kind: &str, holds: &str) ->
         ("bottom-center", "center", 30, quoted(&version)),
         ("bottom-right", "right", 35, quoted(&settings.date)),
     ];
-    // A report without a title of its own is called what it is: that stands once.
-    let boxes = boxes.into_iter().filter(|(place, ..)| *place != "top-center" || title != kind);
+    // A report without a title of its own is called what it is: that stands once, and the line goes on.
+    let boxes = boxes.map(|(place, align, width, content)| {
+        let again = place == "top-center" && title == kind;
+        (place, align, width, if again { quoted("") } else { content })
+    });
     let mut text = format!("@page {{\n  size: {size};\n  margin: 24mm 18mm 22mm;\n");
     for (place, align, width, content) in boxes {
         let (edge, baseline) = if place.starts_with("top") { ("bottom", "bottom") } else { ("top", "top") };

@@ -19,6 +19,27 @@ const DEEP: f64 = 0.15;
 /// More points than this have names only where they moved.
 const NAMED: usize = 80;
 
+/// Labels that do not overlap.
+#[derive(Default)]
+struct Names {
+    /// Left, top, right and bottom of the labels so far.
+    taken: Vec<[f64; 4]>,
+}
+
+impl Names {
+    /// Writes a label to the right of a place; one that would overlap another only if it must.
+    fn put(&mut self, svg: &mut Svg, class: &str, at: [f64; 2], text: &str, must: bool) {
+        let long = 6.5 * text.chars().count() as f64;
+        let room = [at[0], at[1] - 10.0, at[0] + long, at[1] + 2.0];
+        let apart =
+            |other: &[f64; 4]| room[2] < other[0] || other[2] < room[0] || room[3] < other[1] || other[3] < room[1];
+        if must || self.taken.iter().all(apart) {
+            self.taken.push(room);
+            svg.label(class, at, Anchor::Start, text);
+        }
+    }
+}
+
 /// Views of a pair; none without points.
 pub fn plots(pair: &Pair, unit: &str, decimals: usize, w: &'static dyn Words) -> Vec<Plot> {
     let (_, size) = extent(pair.points.iter().map(|p| p.xyz));
@@ -80,7 +101,11 @@ impl Drawing<'_> {
         let mut svg = Svg::new(WIDTH, high + 34.0, title, sentence);
         let (mut still, mut reference) = (Vec::new(), Vec::new());
         let few = self.pair.points.len() <= NAMED;
-        for point in &self.pair.points {
+        let mut names = Names::default();
+        // What moved has its name and length first.
+        let strong = |p: &&Displacement| self.is_strong(p);
+        let order = self.pair.points.iter().filter(strong).chain(self.pair.points.iter().filter(|p| !strong(p)));
+        for point in order {
             let (place, strong) = (at(point.xyz), self.is_strong(point));
             let tip = at(std::array::from_fn(|a| point.xyz[a] + self.factor * point.difference[a]));
             self.arrow(&mut svg, point, place, tip);
@@ -90,16 +115,13 @@ impl Drawing<'_> {
                 still.push(place)
             }
             if few || strong {
-                svg.label(
-                    if strong { "strong" } else { "axis" },
-                    [place[0] + 6.0, place[1] - 5.0],
-                    Anchor::Start,
-                    &point.id,
-                );
+                let class = if strong { "strong" } else { "axis" };
+                names.put(&mut svg, class, [place[0] + 6.0, place[1] - 5.0], &point.id, strong);
             }
             if strong {
-                let below = if tip[1] < place[1] { tip[1] - 5.0 } else { tip[1] + 14.0 };
-                svg.label("b", [tip[0] + 4.0, below], Anchor::Start, &fixed(point.length, self.decimals));
+                let below = if tip[1] < place[1] { tip[1] - 8.0 } else { tip[1] + 16.0 };
+                let length = fixed(point.length, self.decimals);
+                names.put(&mut svg, "b", [tip[0] + 5.0, below], &length, true);
             }
         }
         svg.dots("point", &still, 4.0);
