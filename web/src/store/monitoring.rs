@@ -24,6 +24,9 @@ use crate::browser::page;
 use crate::edit::epoch;
 use crate::i18n::{lasting, monitoring as words, speech};
 
+/// Source of the epochs of the sample, shown in the language of the page.
+pub const SAMPLE: &str = "sample";
+
 /// An epoch as it was brought.
 #[derive(Clone)]
 pub struct Entry {
@@ -375,7 +378,7 @@ impl Desk {
                     groups: Default::default(),
                 });
                 for epoch in epochs {
-                    self.put_epoch(epoch, None, words::simulated().to_owned(), None);
+                    self.put_epoch(epoch, None, SAMPLE.to_owned(), None);
                 }
                 monitored.options.set(Options { thresholds, ..Options::default() });
                 self.go(Step::Monitoring);

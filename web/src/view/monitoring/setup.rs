@@ -10,7 +10,7 @@ use crate::browser::{event, file};
 use crate::format;
 use crate::i18n::{errors, monitoring as words, text};
 use crate::store::Desk;
-use crate::store::monitoring::Entry;
+use crate::store::monitoring::{Entry, SAMPLE};
 use crate::view::field::Field;
 use crate::view::icon::{Glyph, Icon};
 use crate::view::shell::{Progress, problem_sentence};
@@ -217,6 +217,7 @@ fn EpochRow(k: usize, entry: Entry, count: usize) -> impl IntoView {
         (Some(matrix), ..) => words::with_matrix(matrix),
         (None, true, _) => words::list_of_points().to_owned(),
         (None, false, true) => words::kept_project().to_owned(),
+        (None, false, false) if source == SAMPLE => words::simulated().to_owned(),
         (None, false, false) => source.clone(),
     };
     let (up, away) = (epoch.name.clone(), epoch.name.clone());
