@@ -41,16 +41,16 @@ test('HEIC and RAW are opened and measured, and without one no decoder is fetche
     // A RAW of the same name is the same shot: it is named, not measured as a second one.
     await drop(page, [join(folder, 'photo.dng')]);
     await page.waitForSelector('.problems li');
-    assert.match(await page.textContent('.problems li'), /photo\.dng.*same shot as photo\.heic/);
+    assert.match(await page.textContent('.problems li'), /photo\.dng.*same exposure as photo\.heic/);
     assert.equal(await page.locator('.tile').count(), 1);
     // The user chooses: the RAW in its place, back again by undo, and the other one by another click.
     const shown = () => page.$$eval('.tile', (all) => all.map((tile) => tile.textContent).join());
     await page.click('[data-action="swap"]');
     await page.waitForFunction(() => document.querySelector('.tile').textContent.includes('photo.dng'));
-    assert.match(await page.textContent('.problems li'), /photo\.heic.*same shot as photo\.dng/);
+    assert.match(await page.textContent('.problems li'), /photo\.heic.*same exposure as photo\.dng/);
     await page.keyboard.press('Control+z');
     await page.waitForFunction(() => document.querySelector('.tile').textContent.includes('photo.heic'));
-    assert.match(await page.textContent('.problems li'), /photo\.dng.*same shot as photo\.heic/);
+    assert.match(await page.textContent('.problems li'), /photo\.dng.*same exposure as photo\.heic/);
     await page.keyboard.press('Control+Shift+Z');
     await page.waitForFunction(() => document.querySelector('.tile').textContent.includes('photo.dng'));
     await page.click('[data-action="swap"]');

@@ -111,7 +111,7 @@ test('a scale bar gives its distance by itself where its codes are read, and onc
     await go(page, 'targets');
     await page.click('[data-action=detect]');
     await idle(page);
-    assert.match(await notice(page), /Scale bars seen in the photos gave their distances: Bar A/);
+    assert.match(await notice(page), /Distances added from scale bars seen in the photos: Bar A/);
     await go(page, 'control');
     assert.deepEqual(await lengths(), [500]);
     // Taken away it is offered, and not forced on anybody.

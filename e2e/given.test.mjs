@@ -82,9 +82,9 @@ test('a file of another day with the name of a measured photo replaces nothing b
     await opened(page, project());
     await drop(page, [scratch('DSC_0001.JPG', other)]);
     await asked(page);
-    assert.match(await page.textContent('.asking'), /1 file with the name of a photo of this project, but other contents: DSC_0001\.JPG/);
+    assert.match(await page.textContent('.asking'), /1 file has the name of a photo of this project, but other contents: DSC_0001\.JPG/);
     assert.equal(await page.locator('.asking').getByRole('button', { name: 'The same photos' }).count(), 0);
-    assert.match(await page.textContent('.problems'), /DSC_0001\.JPG.*not attached before you choose/);
+    assert.match(await page.textContent('.problems'), /DSC_0001\.JPG.*attached only if you choose so/);
     await pictures(page, 'photos-differ');
     assert.equal(await tiles(page), 2);
     assert.equal((await saved(page)).observations.length, 3);
@@ -198,7 +198,7 @@ test('a document in a unit of its own opens, says so and asks', longer, async ()
     await page.fill('[name=unit]', 'cm');
     await page.press('[name=unit]', 'Enter');
     await asked(page);
-    assert.match(await page.textContent('.asking'), /nothing can be converted from it\. Are the numbers in cm\?/);
+    assert.match(await page.textContent('.asking'), /nothing can be converted\. Are the numbers in cm\?/);
     await answer(page, 'Yes, change the unit');
     const now = await saved(page);
     assert.deepEqual([now.unit, now.distances[0].length], ['cm', 250]);
@@ -218,7 +218,7 @@ test('numbers and tables with two readings are asked', longer, async () => {
     const length = page.locator('[name=distance-length]');
     await length.fill('1,234');
     await length.press('Enter');
-    assert.match(await notice(page), /"1,234" can be read in two ways: 1\.234 with a decimal comma, 1234 with a thousands separator/);
+    assert.match(await notice(page), /"1,234" is ambiguous: 1\.234 with a decimal comma, 1234 with a thousands separator/);
     assert.equal(await length.inputValue(), '250');
     await length.fill('1,5');
     await length.press('Enter');

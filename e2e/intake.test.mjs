@@ -24,7 +24,7 @@ test('what cannot be read is told on the start page', { timeout: 120_000 }, asyn
     await drop(page, [scratch('nothing.txt', ''), scratch('story.txt', 'It was a dark and stormy night;\nthe rain fell in torrents.\n')]);
     await page.waitForFunction(() => document.querySelectorAll('.problems li').length === 2);
     assert.match(await page.textContent('.problems'), /nothing\.txt.*empty/i);
-    assert.match(await page.textContent('.problems'), /story\.txt.*neither marks.*nor control points/i);
+    assert.match(await page.textContent('.problems'), /story\.txt.*neither image measurements.*nor control points/i);
     await drop(page, [scratch('nothing.json', '')]);
     await page.waitForSelector('.notice');
     assert.match(await notice(page), /nothing\.json: the file is empty/);
@@ -55,7 +55,7 @@ test('texts are sorted by what is in them, and only what can be both is asked', 
     await go(page, 'results');
     await drop(page, [scratch('either.txt', 'sample-1 7 100.5 200.5\nsample-2 7 101.5 201.5\n')]);
     await page.waitForSelector('.asking');
-    assert.match(await page.textContent('.asking'), /either\.txt can be read as marks.*or as control points/);
+    assert.match(await page.textContent('.asking'), /either\.txt can be read as image measurements.*or as control points/);
     await page.locator('.asking').getByRole('button', { name: 'Control points' }).click();
     await page.waitForSelector('.preview tr.new');
     assert.equal(await page.locator('.asking').count(), 0);
@@ -70,7 +70,7 @@ test('photos, marks and control dropped together go where they belong', { skip: 
   try {
     await photos(page, [...files(join(folder, 'photos'), '.jpg').slice(0, 3), join(folder, 'markpts.txt'), join(folder, 'camcal-fixed.txt')]);
     await page.waitForSelector('.notice');
-    assert.match(await notice(page), /camcal-fixed\.txt holds control points.*markpts\.txt holds image measurements/);
+    assert.match(await notice(page), /camcal-fixed\.txt contains control points.*markpts\.txt contains image measurements/);
     assert.equal(await page.locator('.tile').count(), 3);
     await go(page, 'identities');
     assert.match(await page.textContent('.panel.marks'), /markpts\.txt/);
@@ -150,7 +150,7 @@ test('what the camera corrected is told, and is another camera\'s', { timeout: 1
     await photos(page, [scratch('plain.jpg', whole), scratch('straight.jpg', straightened(whole))]);
     assert.equal(await page.locator('[data-result=corrections]').count(), 1);
     const said = () => page.textContent('[data-result=corrections]');
-    assert.match(await said(), /corrected: distortion, where it knows the lens \(Sony 0x2013\).*calibrate and measure with the same setting.*left uncorrected: vignetting \(Sony 0x2011\)/);
+    assert.match(await said(), /corrected: distortion, if the lens is known \(Sony 0x2013\).*calibrate and measure with the same setting.*not corrected: vignetting \(Sony 0x2011\)/);
     assert.equal(await page.locator('.photos .tiles:has(.tile)').count(), 2, 'two cameras');
     assert.deepEqual(errors, []);
   } finally {

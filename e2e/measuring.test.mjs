@@ -28,7 +28,7 @@ test('a target that has a name shows it at every step, and renaming says what it
     assert.ok(await unchanged(page));
 
     await page.selectOption('[name=rename-where]', 'here');
-    assert.match(await page.textContent('.panel.point .hint'), /Only what photo sample-1 shows/);
+    assert.match(await page.textContent('.panel.point .hint'), /Renames only the observation in photo sample-1/);
     await page.fill('[name=point-name]', '9500');
     await page.press('[name=point-name]', 'Enter');
     assert.match(await notice(page), /was point 11 in photo sample-1; it is 9500 now/);
@@ -160,7 +160,7 @@ test('a click before detection measures, typing names, Alt-click and the button 
     await page.getByRole('button', { name: 'Remove the observation' }).click();
     assert.equal(await page.locator('.columns tr[data-key="edge"]').count(), 0);
     assert.doesNotMatch(await page.textContent('.foot'), /in 0 photos/);
-    assert.match(await notice(page), /edge was measured nowhere else/);
+    assert.match(await notice(page), /edge had no other observation/);
     assert.deepEqual(errors, []);
   } finally {
     await close();

@@ -143,7 +143,7 @@ test('photos that do not fit are told, and stay in use', { timeout: 600_000 }, a
     // document, and not for all that is missing of the photos.
     await room(2_500_000);
     // It stands there for as long as it is so, whatever else is told.
-    await storageLine(page, '\\d photos? (is|are) not copied .*\\(no room\\).*saved with photos');
+    await storageLine(page, '\\d photos? (is|are) not copied .*\\(storage full\\).*saved with photos');
     await page.waitForFunction(() => /saved \S+( [AP]M)?, without \d photos?/.test(document.querySelector('.project span')?.textContent));
     // What cannot be written is tried every few seconds, and takes no more room for that.
     await room(0);
