@@ -12,6 +12,7 @@ mod given;
 mod left_out;
 mod patterns;
 mod questions;
+mod rig;
 
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +30,7 @@ pub use patterns::{PatternKind, Remedy, ResidualPattern};
 pub use questions::{
     CameraDoubt, Exchange, ImplausibleCamera, MirroredControl, OneStation, UndecidedAxes, UnitOf, UnitRatio,
 };
+pub use rig::{RelativeDeviation, RelativePose};
 
 /// How the iteration ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -444,6 +446,9 @@ pub struct Adjustment {
     pub cameras: Vec<AdjustedCamera>,
     /// Enabled photos.
     pub photos: Vec<AdjustedPhoto>,
+    /// Relative poses of cameras that are fixed to each other; empty without a rig.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rig: Vec<RelativePose>,
     /// Points that took part.
     pub points: Vec<AdjustedPoint>,
     /// Image observations in the project's order.

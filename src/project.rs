@@ -10,6 +10,7 @@ mod origin;
 mod parameter;
 mod plan;
 mod report;
+mod rig;
 mod rows;
 mod scaling;
 mod validation;
@@ -26,6 +27,7 @@ pub use origin::{Assumed, Conversion, Ignored, Origin};
 pub use parameter::{CameraModel, Interior, Parameter};
 pub use plan::{Form, Lens, Plan, PlanDistance, PlanFace, PlanStation, Region, Variant, Wanted};
 pub use report::{ColourShift, LengthLimit, Paper, PhotoColours, ReportLanguage, ReportSettings, Section};
+pub use rig::Rig;
 pub use rows::Rows;
 pub use scaling::scaled;
 pub use validation::LARGEST;
@@ -61,6 +63,9 @@ pub struct Project {
     /// Datum.
     #[serde(default)]
     pub datum: Datum,
+    /// Cameras fixed to each other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rig: Option<Box<Rig>>,
     /// Observations that the last orientation (or matching) disabled, with the reason; the next orientation looks at them anew, and an
     /// adjustment takes back what fits.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -108,6 +113,7 @@ impl Default for Project {
             observations: Rows::new(),
             distances: Vec::new(),
             datum: Datum::default(),
+            rig: None,
             set_aside: Vec::new(),
             features: Vec::new(),
             systems: Vec::new(),

@@ -5,6 +5,7 @@ pub mod eccentric;
 pub mod far_points;
 pub mod network;
 pub mod numbering;
+pub mod rig;
 pub mod state;
 mod surface;
 pub mod unmodelled;

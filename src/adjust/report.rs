@@ -3,4 +3,5 @@
 pub mod additional;
 mod extent;
 pub mod result;
+mod rig;
 pub mod values;

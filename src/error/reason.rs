@@ -43,6 +43,10 @@ reasons! {
     DistanceEnds => "a distance needs two different points";
     DistanceLength => "a distance must be greater than 0";
     DistanceSigma => "the standard error of a distance must be greater than 0";
+    RigPosition => "the standard error of a rig's positions is greater than 0";
+    RigRotation => "the standard error of a rig's rotations is at least 1e-8 radians: no mount holds better";
+    RigColumns => "every exposure of a rig has one place for each of its cameras, two or more; null where a camera took no photo";
+    RigCamera => "the photos of one column of a rig are of one camera: another photo of the column is of another camera";
     NotFinite => "a number is not finite or too large";
     NegativeSigma => "a standard error must be 0 (fixed) or greater";
     PrincipalDistance => "the principal distance must be greater than 0";

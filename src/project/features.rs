@@ -247,6 +247,7 @@ impl Project {
             observations,
             distances,
             datum,
+            rig,
             set_aside,
             features: _,
             systems: _,
@@ -262,7 +263,7 @@ impl Project {
             && photos.len() == other.photos.len()
             && photos.iter().zip(&other.photos).all(|(a, b)| same_photo(a, b))
             && (observations, distances, datum) == (&other.observations, &other.distances, &other.datum)
-            && *set_aside == other.set_aside
+            && (rig, set_aside) == (&other.rig, &other.set_aside)
     }
 
     /// Another name of a point in features, systems and lines.

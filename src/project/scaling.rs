@@ -1,12 +1,13 @@
 //! A project in another unit: every length multiplied by one factor.
 //!
 //! Lengths are object coordinates, their standard errors, diameters, distances, projection centres, given coordinates of features
-//! and coordinate systems, the permitted length error, and the lengths of the plan. Image coordinates, interior orientations, angles, normals
+//! and coordinate systems, the standard error of a rig's positions, the permitted length error, and the lengths of the plan. Image coordinates, interior orientations, angles, normals
 //! and ratios stay. Each type is taken apart field by field, so that a new field does not compile before somebody has decided what it is.
 
 use super::{
     CoordinateSystem, Distance, Feature, FeatureKind, Form, GivenPoint, LengthLimit, Lens, Photo, Plan, PlanDistance,
-    PlanFace, PlanStation, Point, Project, Region, ReportSettings, SystemKind, Variant, Wanted, validation::LARGEST,
+    PlanFace, PlanStation, Point, Project, Region, ReportSettings, Rig, SystemKind, Variant, Wanted,
+    validation::LARGEST,
 };
 use crate::error::{Error, Place, Reason, Result};
 
@@ -89,6 +90,7 @@ impl Scale {
             observations: _,
             distances,
             datum: _,
+            rig,
             set_aside: _,
             features,
             systems,
@@ -105,6 +107,11 @@ impl Scale {
             let Distance { from, to: _, length, sigma, check: _ } = distance;
             self.at = Place::point(from.as_str()).with_field("distances");
             self.lengths([length, sigma]);
+        }
+        if let Some(rig) = rig {
+            let Rig { exposures: _, sigma_position, sigma_rotation: _ } = rig.as_mut();
+            self.at = Place::field("rig.sigma_position");
+            self.length(sigma_position);
         }
         features.iter_mut().for_each(|feature| self.feature(feature));
         systems.iter_mut().for_each(|system| self.system(system));

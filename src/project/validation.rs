@@ -59,6 +59,7 @@ impl Project {
         if let Some(list) = &self.datum.points {
             unique(Thing::DatumPoint, list.iter().map(String::as_str), Place::point)?;
         }
+        self.validate_rig(&photos)?;
         self.validate_features()
     }
 

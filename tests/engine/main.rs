@@ -21,6 +21,7 @@ mod adjust {
     mod order;
     mod published;
     mod reports;
+    mod rig;
     mod slips;
 }
 

@@ -247,6 +247,13 @@ impl Full {
         }
     }
 
+    /// Scalar product.
+    pub fn product(&self, other: &Self) -> f64 {
+        let reduced: f64 = self.reduced.iter().zip(&other.reduced).map(|(a, b)| a * b).sum();
+        let points = self.points.iter().zip(&other.points).flat_map(|(a, b)| a.iter().zip(b));
+        reduced + points.map(|(a, b)| a * b).sum::<f64>()
+    }
+
     /// The reduced right-hand side after the points' elimination, and L⁻¹ of the points' own part.
     pub fn forward(&mut self, network: &Network, layout: &Layout, eliminated: &Eliminated) {
         for point in (0..network.points.len()).filter(|p| !network.points[*p].kept) {

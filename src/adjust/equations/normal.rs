@@ -7,12 +7,15 @@
 //! S += GᵀG - (GᵀB)(GᵀB)ᵀ,   right-hand side -= Gᵀe - (GᵀB)h,   δX = -L⁻ᵀ(h + BᵀGδ)
 //! ```
 //!
-//! Points that a distance ties to another stay in S. Damping (Levenberg-Marquardt) multiplies the diagonals of the
+//! Distances, given values and the relative poses of a rig come on top. Points that a distance ties to another stay in S. Damping (Levenberg-Marquardt) multiplies the diagonals of the
 //! normal equations by 1 + λ. Pins, a weight on seven photo unknowns, take up a free datum; see [`crate::adjust::datum::free`].
+
+use std::collections::BTreeMap;
 
 use crate::adjust::linear::tiles::TileMatrix;
 use crate::adjust::problem::additional::distance_row;
 use crate::adjust::problem::network::Network;
+use crate::adjust::problem::rig::Deviation;
 use crate::adjust::problem::state::Step;
 
 use super::back_substitution::{Eliminated, Full};
@@ -122,7 +125,7 @@ impl Normal {
     }
 
     /// Distances and observed values of photos and interior orientations, in the matrix too if `whole`.
-    fn add_given(&mut self, Context { network, layout, state, .. }: Context<'_>, whole: bool) {
+    fn add_given(&mut self, Context { network, layout, state, weighting }: Context<'_>, whole: bool) {
         for bar in &network.bars {
             let (e, rows) = distance_row(network, state, bar);
             self.cost += e * e;
@@ -135,6 +138,7 @@ impl Normal {
                 }
             }
         }
+        self.add_rig(Context { network, layout, state, weighting }, whole);
         let add = |normal: &mut Self, at: usize, scale: f64, (given, weight): (f64, f64), value: f64| {
             if weight > 0.0 {
                 let e = (value - given) * weight;
@@ -154,6 +158,31 @@ impl Normal {
             for (n, estimated) in interior.estimated.iter().enumerate() {
                 let value = state.interiors[k].get(estimated.parameter).unwrap_or_default();
                 add(self, layout.interior[k] + n, estimated.scale, estimated.prior, value);
+            }
+        }
+    }
+
+    /// Relative poses of the cameras of a rig: Σ JᵀJ - (ΣJ)ᵀ(ΣJ)/n, and the right-hand side -Σ Jᵀd.
+    fn add_rig(&mut self, Context { network, layout, state, .. }: Context<'_>, whole: bool) {
+        for member in &network.rig {
+            let equations = member.equations(state);
+            let mut sums: BTreeMap<usize, Deviation> = BTreeMap::new();
+            for (exposure, (d, j)) in equations.iter().enumerate() {
+                let at = |column: usize| member.place(&layout.photo, exposure, column);
+                self.cost += d.norm_squared();
+                for a in 0..12 {
+                    self.rhs[at(a)] -= j.column(a).dot(d);
+                    *sums.entry(at(a)).or_default() += j.column(a);
+                    for b in (0..=a).filter(|_| whole) {
+                        self.add(at(a), at(b), j.column(a).dot(&j.column(b)));
+                    }
+                }
+            }
+            let share = 1.0 / equations.len() as f64;
+            for (a, of_a) in sums.iter().filter(|_| whole) {
+                for (b, of_b) in sums.range(..=a) {
+                    self.add(*a, *b, -share * of_a.dot(of_b));
+                }
             }
         }
     }

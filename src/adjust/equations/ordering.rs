@@ -37,7 +37,7 @@ pub fn layout(network: &mut Network) -> Layout {
     layout
 }
 
-/// Photos that share an eliminated point, ascending, without the photo itself.
+/// Photos that share an eliminated point or are of one rig, ascending, without the photo itself.
 fn neighbours(network: &Network) -> Vec<Vec<usize>> {
     let n = network.photos.len();
     let mut shared = vec![false; n * n];
@@ -47,6 +47,11 @@ fn neighbours(network: &Network) -> Vec<Vec<usize>> {
                 shared[a.photo * n + b.photo] = true;
             }
         }
+    }
+    // The mean of a camera's relative poses ties all its exposures.
+    for member in &network.rig {
+        let photos = || member.exposures.iter().flat_map(|(_, photos)| *photos);
+        photos().for_each(|a| photos().for_each(|b| shared[a * n + b] = true));
     }
     (0..n).map(|a| (0..n).filter(|b| *b != a && shared[a * n + b]).collect()).collect()
 }

@@ -31,6 +31,7 @@ pub fn cost(context: Context<'_>) -> Option<(f64, usize)> {
         }
     }
     sum += network.bars.iter().map(|bar| distance_row(network, state, bar).0.powi(2)).sum::<f64>();
+    sum += network.rig.iter().map(|member| member.cost(state)).sum::<f64>();
     sum.is_finite().then_some((sum, behind))
 }
 

@@ -7,8 +7,12 @@
 //! | interior orientation | that of the parameter |
 //!
 //! Rows are the observations that take part: image coordinates (photo coordinates x, y; millimetres where the pixel pitch is known, else
-//! pixels), then given coordinates, projection centres, distances and camera parameters. l is observed minus computed, p = 1/σ². The
+//! pixels), then given coordinates, projection centres, distances and camera parameters,
+//! then comparisons of a rig's relative poses (the relative pose itself is eliminated).
+//! l is observed minus computed, p = 1/σ². The
 //! corrections are δ = (AᵀPA)⁻¹ AᵀPl; without control they also fulfil the datum's constraints D δ = 0.
+
+use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +24,7 @@ use crate::adjust::equations::normal::with_interior_size;
 use crate::adjust::problem::additional::{self, Observed, distance_row};
 use crate::adjust::problem::eccentric;
 use crate::adjust::problem::network::Network;
+use crate::adjust::problem::rig::Member;
 use crate::adjust::solve::session::{Session, unsound};
 use crate::adjustment::{AdjustOptions, Given};
 use crate::camera::{parameter_unit, photo_unit};
@@ -167,6 +172,7 @@ pub(super) fn of_session(session: &Session<'_>, options: &AdjustOptions) -> Resu
     rows.sort_by_key(|row| row.0);
     let mut rows: Vec<Row> = rows.into_iter().map(|row| row.1).collect();
     rows.extend(additional::all(network).into_iter().map(|observed| additional_row(session, &columns, observed)));
+    network.rig.iter().for_each(|member| rows.extend(rig_rows(session, &columns, member)));
     let constraints = session.datum.as_ref().map_or_else(Vec::new, |datum| constraints(session, datum, &columns));
     let p = rows.iter().map(|row| row.equation.sigma.powi(-2)).collect();
     let l = rows.iter().map(|row| row.l).collect();
@@ -340,6 +346,48 @@ fn additional_row(session: &Session<'_>, columns: &Columns, observed: Observed) 
     let sigma = unit / observed.sqrt_weight(network);
     let l = -observed.residual(network, state) * unit;
     Row { equation: Equation { name, photo, point, given: Some(given), axis, value, sigma, unit: of }, a, l }
+}
+
+/// The relative poses of a rig's camera, without unknowns of their own: exposure k minus the mean of those before it, times
+/// √(k / (k + 1)), has the standard error of one exposure and nothing in common with the others (Helmert's contrasts).
+fn rig_rows(session: &Session<'_>, columns: &Columns, member: &Member) -> Vec<Row> {
+    let (network, state) = (&session.network, &session.state);
+    let mean = member.mean(state);
+    let id = |photo: usize| &session.project.photos[network.photos[photo].index].id;
+    let mut rows = Vec::new();
+    for k in 1..member.exposures.len() {
+        let size = (k as f64 / (k + 1) as f64).sqrt();
+        let factor = |exposure: usize| if exposure == k { size } else { -size / k as f64 };
+        let [first, own] = member.exposures[k].1.map(id);
+        for row in 0..6 {
+            let scale = if row < 3 { 1.0 } else { network.frame.scale };
+            let mut a = BTreeMap::new();
+            let mut l = 0.0;
+            for exposure in 0..=k {
+                let by_photos = member.by_photos(state, exposure);
+                for column in 0..12 {
+                    let at = columns.photo(member.exposures[exposure].1[column / 6]).start + column % 6;
+                    let of_unknown = if column % 6 < 3 { 1.0 } else { network.frame.scale };
+                    *a.entry(at).or_insert(0.0) += factor(exposure) * by_photos[(row, column)] * scale / of_unknown;
+                }
+                l -= factor(exposure) * mean.deviations[exposure][row] * scale;
+            }
+            let axis = ["x", "y", "z"][row % 3].to_owned();
+            let of = if row < 3 { "rotation" } else { "position" };
+            let equation = Equation {
+                name: format!("{own} - {first} {of} {axis}"),
+                photo: Some(own.clone()),
+                point: None,
+                given: None,
+                axis: Some(axis),
+                value: 0.0,
+                sigma: scale / member.sqrt_weight[row / 3],
+                unit: if row < 3 { "rad".to_owned() } else { session.project.unit.clone() },
+            };
+            rows.push(Row { equation, a: a.into_iter().collect(), l });
+        }
+    }
+    rows
 }
 
 /// D': inner constraints, or the held coordinates; a row a constraint.

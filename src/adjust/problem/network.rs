@@ -9,6 +9,7 @@ use crate::project::{Camera, DatumKind, Interior, Parameter, Project, Role};
 
 use super::additional::{Key, LeftOut};
 use super::numbering::Numbering;
+use super::rig::{self, Member};
 use super::state::{Frame, Pose, State};
 
 /// An image observation that takes part.
@@ -122,6 +123,8 @@ pub struct Network {
     pub rays: Vec<Ray>,
     /// Distances whose ends both take part.
     pub bars: Vec<Bar>,
+    /// Cameras of the rig beside its first one.
+    pub rig: Vec<Member>,
     /// Kind of datum.
     pub datum: DatumKind,
     /// Points that carry the datum, where the document names them.
@@ -191,6 +194,7 @@ impl Network {
             points: Vec::new(),
             rays: Vec::new(),
             bars: Vec::new(),
+            rig: Vec::new(),
             datum: project.datum.kind,
             datum_points: None,
             left_out: left_out.given.clone(),
@@ -275,6 +279,9 @@ impl Network {
                 network.bars.push(Bar { index, from, to, length, sqrt_weight });
             }
         }
+        if let Some(rig) = &project.rig {
+            network.rig = rig::members(rig, &numbering.together, &place_of_photo, &frame);
+        }
         network.datum_points = numbering.datum.as_ref().map(|points| {
             let places = points.iter().map(|point| place_of_point[*point]);
             places.filter(|p| *p != usize::MAX).collect()
@@ -297,6 +304,7 @@ impl Network {
         let weighted = |prior: &Prior| prior.iter().filter(|(_, w)| *w > 0.0).count();
         2 * self.rays.len()
             + self.bars.len()
+            + self.rig.iter().map(Member::observations).sum::<usize>()
             + self.points.iter().map(|p| weighted(&p.prior)).sum::<usize>()
             + self.photos.iter().map(|p| weighted(&p.prior)).sum::<usize>()
             + self.interiors.iter().flat_map(|i| &i.estimated).filter(|e| e.prior.1 > 0.0).count()

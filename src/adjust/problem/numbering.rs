@@ -14,6 +14,8 @@ pub struct Numbering {
     pub cameras: Vec<usize>,
     /// Of every distance its ends.
     pub ends: Vec<[usize; 2]>,
+    /// Of every exposure of the rig its photos; a photo that is not in the document is none.
+    pub together: Vec<Vec<Option<usize>>>,
     /// Points that carry the datum, where the document names them.
     pub datum: Option<Vec<usize>>,
 }
@@ -32,6 +34,12 @@ impl Numbering {
             sights: project.observations.iter().map(|o| (photos[o.photo.as_str()], point(&o.point))).collect(),
             cameras: project.photos.iter().map(|p| cameras[p.camera.as_str()]).collect(),
             ends: project.distances.iter().map(|d| [point(&d.from), point(&d.to)]).collect(),
+            together: project
+                .rig
+                .iter()
+                .flat_map(|rig| &rig.exposures)
+                .map(|row| row.iter().map(|id| photos.get(id.as_deref()?).copied()).collect())
+                .collect(),
             datum: project.datum.points.as_ref().map(|ids| ids.iter().map(point).collect()),
         }
     }

@@ -46,6 +46,8 @@ pub struct Solved<'a> {
     pub redundancy: usize,
     /// What stands for the variance factor after robust estimation.
     pub robust: Option<RobustVariance>,
+    /// Covariances of the relative poses of the rig; empty without statistics.
+    pub relative_poses: &'a [Matrix6<f64>],
     /// Standard errors of the distances that are compared only.
     pub check_lengths: &'a [Option<f64>],
 }
@@ -58,7 +60,7 @@ fn turn_by_angles([_, phi, kappa]: [f64; 3]) -> Matrix3<f64> {
 }
 
 /// Square root of a variance, 0 where rounding made it negative.
-fn root(variance: f64) -> f64 {
+pub(super) fn root(variance: f64) -> f64 {
     variance.max(0.0).sqrt()
 }
 
@@ -91,6 +93,7 @@ impl<'a> Solved<'a> {
             constraints: session.datum.as_ref().map_or(0, |d| d.defect),
             redundancy: session.redundancy,
             robust: session.robust,
+            relative_poses: &solution.relative_poses,
             check_lengths: &solution.check_lengths,
         }
     }
@@ -136,6 +139,7 @@ impl Solved<'_> {
             criteria: Criteria::of(redundancy),
             cameras: self.cameras(),
             photos,
+            rig: self.relative_poses(),
             precision: self.precision(&points),
             points,
             observations,

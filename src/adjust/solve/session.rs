@@ -1,8 +1,9 @@
 //! The session that solves one network: iteration and cofactors; the gross error search is in [`crate::adjust::gross_errors::search`].
 
 mod calibration;
+mod rig;
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, Matrix6, Vector3};
 
 use crate::adjust::datum::free::{self, FreeDatum, SIMILARITY, at_point};
 use crate::adjust::diagnosis::{rank_defect, slips, structure};
@@ -98,8 +99,17 @@ pub struct Solution {
     pub cofactors: Option<Cofactors>,
     /// Covariance of the points asked for.
     pub covariance: Option<Covariance>,
+    /// Covariances of the relative poses of the rig, in the network's order of its cameras.
+    pub relative_poses: Vec<Matrix6<f64>>,
     /// Standard errors of the check distances, in the document's order of these.
     pub check_lengths: Vec<Option<f64>>,
+}
+
+impl Solution {
+    /// Without statistics.
+    fn of_cost(cost: f64) -> Self {
+        Self { cost, cofactors: None, covariance: None, relative_poses: Vec::new(), check_lengths: Vec::new() }
+    }
 }
 
 /// Where the equations cannot be set up.
@@ -251,7 +261,7 @@ impl<'a> Session<'a> {
         let (mut last, mut refused) = (None, None);
         if options.statistics == StatisticsChoice::None {
             let (cost, _) = right_hand_side::cost(context!(self, options.residuals)).ok_or_else(unsound)?;
-            return Ok(Solution { cost, cofactors: None, covariance: None, check_lengths: Vec::new() });
+            return Ok(Solution::of_cost(cost));
         }
         // The equations are factored for the statistics anyway: further steps with that factor, until the unknowns keep
         // all their digits.
@@ -285,8 +295,7 @@ impl<'a> Session<'a> {
         let cofactors = cofactors.ok_or_else(unsound)?;
         if !cofactors.are_sound() {
             // What has come to rest there is determined by nothing; what ended on its way has no standard errors to state.
-            let nothing = Solution { cost, cofactors: None, covariance: None, check_lengths: Vec::new() };
-            return if polish { Err(self.rank_defect()) } else { Ok(nothing) };
+            return if polish { Err(self.rank_defect()) } else { Ok(Solution::of_cost(cost)) };
         }
         let cofactors = Some(cofactors);
         let variance = self.variance(cost);
@@ -296,10 +305,11 @@ impl<'a> Session<'a> {
             Some(self.covariance_of(&options.covariance_of, variance)?)
         };
         let check_lengths = self.check_lengths(variance);
+        let relative_poses = self.relative_poses(cost)?;
         if let Some(last) = last {
             self.state = last;
         }
-        Ok(Solution { cost, cofactors, covariance, check_lengths })
+        Ok(Solution { cost, cofactors, covariance, relative_poses, check_lengths })
     }
 
     /// The state after a few steps with the factor at hand, the last of them negligible, and whether the first was already,

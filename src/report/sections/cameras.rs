@@ -18,6 +18,36 @@ pub fn write(context: &Context, html: &mut Html) {
             colours_held(context, camera, html);
         }
     }
+    rig(context, html);
+}
+
+/// Relative poses of cameras that are fixed to each other.
+fn rig(context: &Context, html: &mut Html) {
+    let (words, poses) = (context.words, &context.adjustment.rig);
+    let Some(rig) = context.project.rig.as_deref().filter(|_| !poses.is_empty()) else { return };
+    let unit = &context.project.unit;
+    html.h3(words.rig());
+    let position = format!("{} {unit}", compact(rig.sigma_position));
+    html.note(&words.rig_means(&position, &format!("{} mrad", compact(1000.0 * rig.sigma_rotation))));
+    let mut table = Table::new().words(words.camera()).words(words.rig_relative_to());
+    for head in ["X", "Y", "Z", words.rig_base(), "σ"] {
+        table = table.low(head, "", unit);
+    }
+    for head in ["ω", "φ", "κ"] {
+        table = table.low(head, "", "°");
+    }
+    table = table.number(words.rig_exposures()).low(words.rig_scatter(), "", unit).low(words.rig_scatter(), "", "mrad");
+    for pose in poses {
+        let decimals = pose.sigma_base.map_or(3, decimals_for);
+        let mut row = vec![pose.camera.clone(), pose.relative_to.clone()];
+        row.extend(pose.position.map(|x| fixed(x, decimals)));
+        row.extend([fixed(pose.base, decimals), maybe(pose.sigma_base, decimals)]);
+        row.extend(pose.rotation.map(|angle| fixed(angle.to_degrees(), 4)));
+        row.push(count(pose.exposures.len()));
+        row.extend([maybe(pose.scatter_position, decimals), maybe(pose.scatter_rotation.map(|s| 1000.0 * s), 4)]);
+        table.row(row);
+    }
+    html.table(table);
 }
 
 fn one(context: &Context, adjusted: &AdjustedCamera, html: &mut Html) {

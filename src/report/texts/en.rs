@@ -149,6 +149,12 @@ declare! {
     decentring_distortion: "decentring distortion";
     affinity: "affinity";
     shear: "shear";
+    rig: "Cameras fixed to each other";
+    rig_means(position, rotation): "One relative pose of each camera to the first one, in the first camera's axes; the mount keeps it within {position} and {rotation} (1σ). Scatter: of the single exposures about it.";
+    rig_relative_to: "relative to";
+    rig_base: "base";
+    rig_exposures: "exposures";
+    rig_scatter: "scatter";
     lateral_colour: "Lateral chromatic aberration";
     lateral_colour_means(corner): "Red and blue relative to green, positive outwards, at the corner of the picture, {corner} px from its middle. It shows the shift of another colour than the measured one; coordinates are corrected by it only if the camera holds a set for that colour.";
     colours_held: "Interior orientation in other colours";

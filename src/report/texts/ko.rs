@@ -146,6 +146,12 @@ translate! { Korean {
     decentring_distortion: "편심왜곡";
     affinity: "축척차";
     shear: "전단";
+    rig: "서로 고정된 카메라";
+    rig_means(position, rotation): "첫 카메라의 축에서 본 각 카메라의 공통 상대 자세입니다. 고정 틀은 이를 {position}, {rotation} 안에서 유지합니다(1σ). 산포는 각 촬영이 여기서 벗어난 정도입니다.";
+    rig_relative_to: "기준 카메라";
+    rig_base: "기선";
+    rig_exposures: "촬영 수";
+    rig_scatter: "산포";
     lateral_colour: "배율 색수차";
     lateral_colour_means(corner): "녹색에 대한 적색과 청색의 차이로, 바깥쪽이 양(+)이며 사진 모서리(중심에서 {corner} px)에서의 값입니다. 측정한 색이 아닌 다른 색이 얼마나 벗어나는지를 나타내며, 카메라가 그 색의 값을 갖지 않는 한 좌표 보정에는 쓰지 않습니다.";
     colours_held: "다른 색에서의 내부표정";

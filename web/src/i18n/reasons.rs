@@ -60,6 +60,14 @@ pub fn reason(reason: &Reason) -> String {
         R::DistanceLength => "거리는 0보다 커야 합니다",
         R::DistanceSigma => "거리의 표준오차는 0보다 커야 합니다",
         R::NotFinite => "유한하지 않거나 너무 큰 수가 있습니다",
+        R::RigPosition => "리그 위치의 표준오차는 0보다 커야 합니다",
+        R::RigRotation => "리그 회전의 표준오차는 1e-8 라디안 이상이어야 합니다. 그보다 단단한 고정 장치는 없습니다",
+        R::RigColumns => {
+            "리그의 각 촬영에는 카메라마다 한 자리씩 두 자리 이상이 있어야 합니다. 사진이 없는 카메라 자리는 null입니다"
+        }
+        R::RigCamera => {
+            "리그의 한 열에 있는 사진은 모두 같은 카메라의 것이어야 합니다. 같은 열에 다른 카메라의 사진이 있습니다"
+        }
         R::NegativeSigma => "표준오차는 0(고정) 이상이어야 합니다",
         R::PrincipalDistance => "주점거리는 0보다 커야 합니다",
         R::ParameterNotFinite => "매개변수는 유한한 수여야 합니다",

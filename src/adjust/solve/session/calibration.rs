@@ -83,18 +83,13 @@ impl Session<'_> {
         }
         let mut solved = functions.clone();
         self.normal.solve_all(&self.network, &self.layout, &mut solved);
-        let product = |a: &Full, b: &Full| {
-            let reduced: f64 = a.reduced.iter().zip(&b.reduced).map(|(a, b)| a * b).sum();
-            let points = a.points.iter().zip(&b.points).flat_map(|(a, b)| a.iter().zip(b));
-            reduced + points.map(|(a, b)| a * b).sum::<f64>()
-        };
         let scale = |k: usize| match k.checked_sub(estimated.len()) {
             None => estimated[k].scale,
             Some(0..3) => 1.0,
             Some(_) => self.network.frame.scale,
         };
         let n = functions.len();
-        let q = DMatrix::from_fn(n, n, |i, j| product(&functions[i], &solved[j]) * scale(i) * scale(j));
+        let q = DMatrix::from_fn(n, n, |i, j| functions[i].product(&solved[j]) * scale(i) * scale(j));
         Ok((&q + q.transpose()) * 0.5)
     }
 }
