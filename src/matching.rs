@@ -8,10 +8,12 @@ mod epipolar_line;
 mod grid;
 mod gross;
 mod join;
+mod known;
 mod photo;
 mod poses;
 mod predict;
 mod rounds;
+mod size;
 mod snap;
 mod uncoded;
 

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::gross::disagreeing;
 use super::uncoded::{MatchOptions, Matching, one_round};
-use super::{Doubt, Doubtful, PhotoTargets, join, poses};
+use super::{Doubt, Doubtful, PhotoTargets, join, poses, size};
 use crate::adjust::{adjust, apply};
 use crate::adjustment::{AdjustOptions, StatisticsChoice, Termination};
 use crate::project::{Observation, Project, Role};
@@ -73,6 +73,7 @@ pub(super) fn settled(project: &Project, targets: &[PhotoTargets], options: &Mat
     for point in &mut all.points {
         point.xyz = places.get(point.id.as_str()).copied().flatten().or(point.xyz);
     }
+    size::measure(&current, targets, &mut all);
     let named: BTreeSet<(&str, [u64; 2])> =
         all.observations.iter().map(|o| (o.photo.as_str(), [o.u.to_bits(), o.v.to_bits()])).collect();
     let open = |d: &Doubtful| !named.contains(&(d.photo.as_str(), [d.u.to_bits(), d.v.to_bits()]));

@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::cluster::Search;
+use super::known;
 use super::photo::OrientedPhoto;
 use super::{Doubt, Doubtful, PhotoTargets};
 use crate::detection::{Polarity, Target};
@@ -77,7 +78,9 @@ pub(super) struct View<'a> {
 /// Names targets of oriented photos that have no name yet.
 ///
 /// `project` is oriented (better: adjusted) and holds the observations named so far; `targets` are all detected ones.
-/// New points are called "u1", "u2" … as far as these identifiers are free. Matching and adjusting take turns until nothing more is
+/// Targets where the project has a control point that no photo names yet are that point, as soon as three control points are named and seen in
+/// their places. New points are called "u1", "u2" … as far as these identifiers are free; they have the diameter that their images show
+/// where the project fixes the scale. Matching and adjusting take turns until nothing more is
 /// found ([`super::rounds`]); the project is left as it is.
 ///
 /// # Errors
@@ -181,13 +184,33 @@ pub(super) fn similar(a: f64, b: f64) -> bool {
     a < SIZE_RATIO * b && b < SIZE_RATIO * a
 }
 
-/// Looks for points that have coordinates, and two rays to vouch for them, in the photos that lack them.
-fn predict(project: &Project, views: &mut [View], tolerance: f64, matching: &mut Matching) {
-    let mut seen: BTreeMap<&str, Vec<(&str, [f64; 2])>> = BTreeMap::new();
+/// Looks for points that have coordinates, and two rays to vouch for them or coordinates that are given ([`known`]), in the photos that lack them.
+fn predict<'a>(project: &'a Project, views: &mut [View], tolerance: f64, matching: &mut Matching) {
+    let mut seen = known::Seen::new();
     for o in project.observations.iter().filter(|o| o.enabled) {
         seen.entry(&o.point).or_default().push((&o.photo, [o.u, o.v]));
     }
     let mut claims: BTreeMap<(usize, usize), Vec<&str>> = BTreeMap::new();
+    let mut claim = |at: (usize, usize), point: &'a str, alone: bool| {
+        let claim = claims.entry(at).or_default();
+        claim.push(point);
+        if !alone {
+            // Two targets where one is expected: a second claim without a name keeps both out.
+            claim.push(point);
+        }
+    };
+    let given = known::is_their_system(project, views, &seen, tolerance);
+    for point in project.points.iter().filter(|point| given && point.role == Role::Control) {
+        let rays = seen.get(point.id.as_str()).map_or(&[][..], Vec::as_slice);
+        // Two rays vouch for a point by themselves.
+        for (k, view) in views.iter().enumerate().filter(|_| rays.len() < 2) {
+            if rays.iter().all(|(photo, _)| *photo != view.photo.id)
+                && let Some((free, alone)) = known::target(view, point, tolerance)
+            {
+                claim((k, free), &point.id, alone);
+            }
+        }
+    }
     for point in &project.points {
         let (Some(xyz), Some(rays)) = (point.xyz.map(Vector3::from), seen.get(point.id.as_str())) else { continue };
         if rays.len() < 2 || point.role == Role::Check {
@@ -212,12 +235,7 @@ fn predict(project: &Project, views: &mut [View], tolerance: f64, matching: &mut
             let size = quantile(&sizes, 0.5);
             let fits = |f: &Free| sizes.is_empty() || similar(view.size(f.diameter_px, &xyz), size);
             if let Some((free, alone)) = view.nearest(image, tolerance, fits).map(|(f, more)| (f, !more)) {
-                let claim = claims.entry((k, free)).or_default();
-                claim.push(&point.id);
-                if !alone {
-                    // Two targets where one is expected: a second claim without a name keeps both out.
-                    claim.push(&point.id);
-                }
+                claim((k, free), &point.id, alone);
             }
         }
     }

@@ -54,7 +54,7 @@ fn distances(sheets: &Sheets) -> String {
     text
 }
 
-/// The calibration field as control points.
+/// The calibration field as control points, with the diameter of their dots.
 fn field(sheets: &Sheets) -> Vec<Point> {
     let last = |f: fn(&super::Printed) -> bool| sheets.targets.iter().filter(|t| f(t)).map(|t| t.sheet).max();
     let first = sheets.targets.iter().filter(|t| t.plate.is_some()).map(|t| t.sheet).min();
@@ -68,6 +68,7 @@ fn field(sheets: &Sheets) -> Vec<Point> {
             role: Role::Control,
             xyz: Some([rounded(x), rounded(y), 0.0]),
             sigma: Some([Some(sigma); 3]),
+            diameter: Some(rounded(sheets.diameter)),
             ..Point::default()
         })
     };

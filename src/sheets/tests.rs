@@ -157,7 +157,9 @@ fn the_scale_of_the_print_goes_into_what_is_told() {
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["targets.csv", "distances.csv", "control.csv"]);
     let table = crate::exchange::control_csv::parse(std::str::from_utf8(&files[2].1).expect("text"));
-    assert_eq!(table.into_points().expect("points").len(), plate.len());
+    let points = table.into_points().expect("points");
+    assert_eq!(points.len(), plate.len());
+    assert!(points.iter().all(|point| point.diameter == Some(9.85)));
     assert!(String::from_utf8_lossy(&files[0].1).contains("9.8500"));
 }
 

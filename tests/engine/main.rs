@@ -117,6 +117,7 @@ mod sample;
 
 /// Targets to print.
 mod sheets {
+    mod calibrated;
     mod printed;
 }
 
