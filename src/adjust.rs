@@ -113,7 +113,7 @@ pub fn adjust(
         && options.statistics == StatisticsChoice::Full
         && termination == Termination::Converged
     {
-        adjustment.patterns = patterns::patterns(&mut session, options.residuals, solution.cost);
+        adjustment.patterns = patterns::patterns(&mut session, options, solution.cost);
         let named = named_pattern(&adjustment);
         adjustment.advice.extend(named);
     }
@@ -194,7 +194,7 @@ fn tell_of_what_is_outside(document: &Project, session: &Session, left_out: &Lef
     let mut found = None;
     if document.datum.kind == DatumKind::Control && stated && asked {
         let numbering = session.numbering;
-        found = outside::control::compare(&report::values::applied(session), numbering, &options);
+        found = outside::control::compare(&solve::values::applied(session), numbering, &options);
     }
     let found = found.unwrap_or_default();
     adjustment.left_out = outside::list::left_out(document, adjustment, &predicted, &found.compared);
@@ -292,7 +292,7 @@ pub(crate) fn ending(project: &Project, options: &AdjustOptions) -> Result<(Term
     let mut session = Session::new(project, &numbering, &LeftOut::nothing(project))?;
     session.start_at(&far_points::control_starts(project, &numbering));
     let termination = session.iterate(options, &mut Log { iterations: Vec::new(), on_iteration: &mut |_| true })?;
-    Ok((termination, report::values::applied(&session)))
+    Ok((termination, solve::values::applied(&session)))
 }
 
 /// The values alone of a sound document without circular targets, for orientations that adjust on their way: no
@@ -310,7 +310,7 @@ pub(crate) fn values(
     let mut session = Session::new(project, numbering, &LeftOut::nothing(project)).ok()?;
     session.start_at(&far_points::control_starts(project, numbering));
     let (termination, singular) = session.steps(ResidualPlace::Corrected, max_iterations, negligible, &mut |_| true);
-    (!singular && termination != Termination::Diverged).then(|| report::values::applied(&session))
+    (!singular && termination != Termination::Diverged).then(|| solve::values::applied(&session))
 }
 
 /// Standard errors of the estimated parameters of every camera of a sound document without circular targets, read by its

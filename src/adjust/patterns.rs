@@ -12,13 +12,14 @@
 //! (G. Schwarz 1978), or one of fewer fields that explains nearly as much: the fields are linear, and what a strong cause leaves of higher
 //! order belongs to it. Single observations compete: a gross error is taken out first and named by data snooping, not here.
 
+mod alone;
 mod basis;
 mod gram;
 
 use crate::adjust::equations::right_hand_side::weighted_residuals;
 use crate::adjust::problem::state::Step;
 use crate::adjust::solve::session::Session;
-use crate::adjustment::{Advice, PatternKind, Remedy, ResidualPattern, ResidualPlace};
+use crate::adjustment::{AdjustOptions, Advice, PatternKind, Remedy, ResidualPattern, ResidualPlace};
 use crate::project::{Camera, CameraModel, Parameter};
 use crate::statistics::fisher::Fisher;
 
@@ -117,12 +118,30 @@ impl Squares {
 
 /// Tests the residuals of factored equations, with `cost` = eᵀPe. A row a camera and kind of pattern; at most one pattern is named. Empty
 /// where nothing is left to be tested.
-pub fn patterns(session: &mut Session<'_>, place: ResidualPlace, cost: f64) -> Vec<ResidualPattern> {
-    let remaining = session.remaining_step(place);
-    remaining.and_then(|step| found(session, place, cost, &step)).unwrap_or_default()
+pub fn patterns(session: &mut Session<'_>, options: &AdjustOptions, cost: f64) -> Vec<ResidualPattern> {
+    let Some(Looked { mut rows, suspect }) = looked(session, options.residuals, cost) else { return Vec::new() };
+    let named = rows.iter_mut().find(|row| row.named && row.kind == PatternKind::Photo);
+    if let (Some(named), Some(suspect)) = (named, suspect)
+        && let Some(odd) = alone::odd(session, options, suspect)
+    {
+        named.photos = odd.into_iter().map(|photo| session.project.photos[photo].id.clone()).collect();
+    }
+    rows
 }
 
-fn found(session: &Session<'_>, place: ResidualPlace, cost: f64, remaining: &Step) -> Option<Vec<ResidualPattern>> {
+/// The patterns with their tests, and the photo whose own interior orientation explains most where a pattern of photos is named.
+struct Looked {
+    rows: Vec<ResidualPattern>,
+    /// Index into the network's photos.
+    suspect: Option<usize>,
+}
+
+fn looked(session: &mut Session<'_>, place: ResidualPlace, cost: f64) -> Option<Looked> {
+    let remaining = session.remaining_step(place)?;
+    found(session, place, cost, &remaining)
+}
+
+fn found(session: &Session<'_>, place: ResidualPlace, cost: f64, remaining: &Step) -> Option<Looked> {
     let residuals = weighted_residuals(session.context(place))?;
     let photos = photos(session);
     let basis = Basis::new(session, &photos, &largest(&residuals));
@@ -186,7 +205,12 @@ fn found(session: &Session<'_>, place: ResidualPlace, cost: f64, remaining: &Ste
             named: name == Some((*kind, *camera)),
         })
     };
-    rows.iter().map(row).collect()
+    let suspect = name.filter(|(kind, _)| *kind == PatternKind::Photo).and_then(|(_, camera)| {
+        let own = (0..basis.photos.len()).filter(|k| basis.photos[*k].1 == camera);
+        let explained = own.map(|k| (k, gram.explained(&basis.interior(k).collect::<Vec<_>>()).0));
+        explained.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| basis.photos[k].0)
+    });
+    Some(Looked { rows: rows.iter().map(row).collect::<Option<_>>()?, suspect })
 }
 
 /// The photos that are tested one by one: all, or of large networks as many as fit, evenly spread.

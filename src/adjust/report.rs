@@ -4,4 +4,3 @@ pub mod additional;
 mod extent;
 pub mod result;
 mod rig;
-pub mod values;

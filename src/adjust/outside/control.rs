@@ -10,8 +10,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::adjust::problem::additional::LeftOut;
 use crate::adjust::problem::numbering::Numbering;
-use crate::adjust::report::values::applied;
 use crate::adjust::solve::session::{Log, Session};
+use crate::adjust::solve::values::applied;
 use crate::adjustment::{AdjustOptions, StatisticsChoice, Termination};
 use crate::camera::ideal_from_pixel;
 use crate::error::{Error, Result};
