@@ -7,10 +7,12 @@
 //! Source: D. Kogan, mrcal, "Projection uncertainty" and "Differencing", <https://mrcal.secretsauce.net>.
 
 mod conversion;
+mod coverage;
 mod difference;
 mod models;
 mod motion;
 mod places;
+mod proposal;
 mod split;
 mod uncertainty;
 mod validation;
@@ -18,8 +20,10 @@ mod validation;
 use serde::{Deserialize, Serialize};
 
 pub use conversion::{ModelConversion, convert_camera};
+pub use coverage::{Coverage, CoverageLack, coverage};
 pub use difference::{CameraDifference, DifferenceOptions, compare_cameras};
 pub use models::{ComparedModel, ModelVerdict, ModelsOptions, compare_models};
+pub use proposal::{diagonal_field, proposed_models};
 pub use uncertainty::{ProjectionUncertainty, UncertaintyOptions, WorstPlace, projection_uncertainty};
 pub use validation::{CrossOptions, CrossPart, CrossValidation, CrossVerdict, cross_validate};
 

@@ -5,6 +5,7 @@
 //! errors that name the field. Errors are thrown as Error with `code`, `message`, `where` and `data`.
 
 mod before;
+mod calibrating;
 mod codecs;
 mod epochs;
 mod fault;

@@ -206,6 +206,16 @@ export interface Datum {
   points?: (string | number)[] | null;
 }
 
+/** Cameras on one mount that release together: one relative pose each to the first one, the same at every exposure up to these sigmas. */
+export interface Rig {
+  /** A row an exposure, a column a camera: the photos taken together, null where a camera took none. */
+  exposures: (string | null)[][];
+  /** Standard error of the relative position per axis, in the project's unit; greater than 0. */
+  sigma_position: number;
+  /** Standard error of the relative rotation per axis, radians; at least 1e-8. */
+  sigma_rotation: number;
+}
+
 /** The document. Optional fields may be left out; documents returned by the engine have all fields. */
 export interface Project {
   format: "sightline";
@@ -218,6 +228,8 @@ export interface Project {
   observations?: Observation[];
   distances?: Distance[];
   datum?: Datum;
+  /** Cameras fixed to each other. */
+  rig?: Rig;
   /** Observations disabled by the last orientation, with the reason; the next orientation tests them again. */
   set_aside?: {
     photo: string;
@@ -842,6 +854,29 @@ export interface Criteria {
   sigma0: number;
 }
 
+/** A camera of a rig relative to the first one: rotation M_own M_firstᵀ, position M_first (X_own - X_first), means over the exposures. */
+export interface RelativePose {
+  /** Its column in the rig's exposures. */
+  column: number;
+  camera: string;
+  relative_to: string;
+  /** Projection centre in the first camera's axes (x right, y up, z back), in the project's unit. */
+  position: [number, number, number];
+  sigma_position: [number, number, number] | null;
+  /** Omega, phi, kappa from the first camera's axes to its own, radians. */
+  rotation: [number, number, number];
+  /** Of small turns about its own camera axes, radians. */
+  sigma_rotation: [number, number, number] | null;
+  /** Distance of the two projection centres. */
+  base: number;
+  sigma_base: number | null;
+  /** What each exposure is off: position in the first camera's axes, turn about its own, radians. */
+  exposures: { exposure: number; photos: [string, string]; position: [number, number, number]; rotation: [number, number, number] }[];
+  /** Rms of the deviations per axis with n - 1 exposures; null with one. */
+  scatter_position: number | null;
+  scatter_rotation: number | null;
+}
+
 /** The result; no number in it is NaN or infinite. */
 export interface Adjustment {
   /** The options used. */
@@ -861,6 +896,8 @@ export interface Adjustment {
   criteria: Criteria;
   cameras: AdjustedCamera[];
   photos: AdjustedPhoto[];
+  /** There when the project has a rig: every camera of it but the first, as far as they have an exposure together. */
+  rig?: RelativePose[];
   points: AdjustedPoint[];
   /** In the project's order; created when first read. */
   observations: AdjustedObservation[];
@@ -2066,6 +2103,28 @@ export interface ConvertedCamera {
   conversion: ModelConversion;
 }
 
+/** What `calibrationCoverage` gives. */
+export interface Coverage {
+  camera: string;
+  /** Photos with measurements that take part. */
+  photos: number;
+  measurements: number;
+  /** Measurements by six rows and eight columns of cells of the picture. */
+  cells: number[][];
+  /** Measurements by five rings from the middle to the corner. */
+  rings: number[];
+  /** Radius of the outermost measurement in parts of that of the corner. */
+  reach: number;
+  /** Photos with a known orientation: of these are rolls, tilts and distances. */
+  oriented: number;
+  /** Photos by their roll against the first one: 0, 90, 180, 270 degrees. */
+  rolls: [number, number, number, number];
+  /** Photos by the tilt of their axis against the normal of the points' plane: up to 15, 30, 45 and 90 degrees. */
+  tilts: [number, number, number, number];
+  distances: [number, number] | null;
+  lacks: ("photos" | "radius" | "cells" | "roll" | "tilt")[];
+}
+
 /** Options of `compareModels`. */
 export interface ModelsOptions {
   /** May be left out where the project has one camera. */
@@ -2076,7 +2135,7 @@ export interface ModelsOptions {
   adjust?: AdjustOptions;
 }
 
-/** Result of `compareModels` for one camera model. */
+/** A camera model on the network; `compareModels` gives one each, of the rational model one without and one with K5 and K6. */
 export interface ComparedModel {
   model: CameraModelName;
   /** Difference of its initial values from the current camera; null if it could not be converted. */

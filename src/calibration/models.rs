@@ -95,7 +95,7 @@ pub struct ComparedModel {
 
 /// A model that was adjusted.
 struct Adjusted {
-    model: &'static str,
+    variant: usize,
     converted: Project,
     adjustment: Adjustment,
     held_out: Option<Adjustment>,
@@ -104,7 +104,17 @@ struct Adjusted {
     estimated: Vec<Parameter>,
 }
 
-/// Adjusts the network with every camera model and compares them; a row a model in the order of [`CameraModel::ALL`].
+/// The coefficients of the rational model that stand in for its others: compared with them and without.
+const STAND_INS: [Parameter; 2] = [Parameter::K5, Parameter::K6];
+
+/// The models that are compared: all, those with coefficients that stand in for others without and with these.
+fn variants() -> Vec<(&'static CameraModel, bool)> {
+    let has = |model: &CameraModel| STAND_INS.iter().all(|p| model.parameters.contains(p));
+    CameraModel::ALL.iter().flat_map(|m| [Some((m, false)), has(m).then_some((m, true))]).flatten().collect()
+}
+
+/// Adjusts the network with every camera model and compares them; a row a model in the order of [`CameraModel::ALL`], the rational model
+/// without K5 and K6 and then with them.
 ///
 /// # Errors
 /// [`Error::Invalid`] for options that would let every model choose its own observations; [`Error::Unknown`] for a camera that is not there;
@@ -126,11 +136,14 @@ pub fn compare_models(project: &Project, options: &ModelsOptions) -> Result<Vec<
     // What stays set aside is so for every model alike.
     project.set_aside.clear();
     let held_out = held_out(&project, options.seed);
-    let mut rows = Vec::with_capacity(CameraModel::ALL.len());
-    for model in &CameraModel::ALL {
+    let mut rows = Vec::new();
+    for (variant, (model, whole)) in variants().into_iter().enumerate() {
         let converted = convert_camera(&project, &id, model.name);
         let conversion = converted.as_ref().ok().map(|(_, conversion)| conversion.clone());
-        let adjusted = converted.and_then(|(project, _)| adjusted(project, &id, model, &adjust_options, &held_out));
+        let adjusted = converted.and_then(|(mut project, _)| {
+            project.cameras.iter_mut().filter(|c| c.id == id).for_each(|camera| complete(camera, model, whole));
+            adjusted(project, &id, variant, &adjust_options, &held_out)
+        });
         rows.push((model, conversion, adjusted));
     }
     let most = rows.iter().filter_map(|(.., a)| a.as_ref().ok().map(|a| a.count)).max().unwrap_or(0);
@@ -145,11 +158,11 @@ pub fn compare_models(project: &Project, options: &ModelsOptions) -> Result<Vec<
     let predicted = predicted(&held_out, rows.iter().filter_map(|(.., a)| a.as_ref().ok()));
     let n = most.max(1) as f64;
     let bic = |a: &Adjusted| n * (a.cost.max(f64::MIN_POSITIVE) / n).ln() + a.estimated.len() as f64 * n.ln();
-    let sound = || rows.iter().filter_map(|(model, _, a)| a.as_ref().ok().map(|a| (*model, a)));
-    let best = sound().min_by(|(_, a), (_, b)| bic(a).total_cmp(&bic(b)));
-    let verdict = |model: &CameraModel, a: &Adjusted| {
-        let Some((best_model, best)) = best else { return ModelVerdict::Failed };
-        if model == best_model {
+    let sound = || rows.iter().filter_map(|(.., a)| a.as_ref().ok());
+    let best = sound().min_by(|a, b| bic(a).total_cmp(&bic(b)));
+    let verdict = |a: &Adjusted| {
+        let Some(best) = best else { return ModelVerdict::Failed };
+        if a.variant == best.variant {
             return ModelVerdict::Best;
         }
         let worse = n * (a.cost.max(f64::MIN_POSITIVE) / best.cost.max(f64::MIN_POSITIVE)).ln();
@@ -181,9 +194,9 @@ pub fn compare_models(project: &Project, options: &ModelsOptions) -> Result<Vec<
                 row.sigma0 = a.adjustment.sigma0;
                 row.parameters = a.estimated.clone();
                 row.insignificant = insignificant(&a.adjustment, &id);
-                row.held_out_rms = predicted.get(model.name).copied();
-                row.bic = best.map(|(_, best)| bic(a) - bic(best));
-                row.verdict = verdict(model, a);
+                row.held_out_rms = predicted.get(&a.variant).copied();
+                row.bic = best.map(|best| bic(a) - bic(best));
+                row.verdict = verdict(a);
             }
         }
         row
@@ -191,17 +204,14 @@ pub fn compare_models(project: &Project, options: &ModelsOptions) -> Result<Vec<
     Ok(rows.iter().map(row).collect())
 }
 
-/// One model: all observations, then without those that are held out.
+/// One model, its camera complete: all observations, then without those that are held out.
 fn adjusted(
-    mut project: Project,
+    project: Project,
     id: &str,
-    model: &CameraModel,
+    variant: usize,
     options: &AdjustOptions,
     held_out: &HashSet<usize>,
 ) -> Result<Adjusted> {
-    if let Some(camera) = project.cameras.iter_mut().find(|c| c.id == id) {
-        complete(camera, model);
-    }
     let not_converged = || Error::Invalid { reason: Reason::ModelNotConverged, at: Place::camera(id) };
     let adjustment = adjust::adjust(&project, options, &mut |_| true)?;
     if adjustment.termination != Termination::Converged {
@@ -218,19 +228,24 @@ fn adjusted(
     // what the rest cannot predict is told by its absence
     let found = found.and_then(Result::ok).filter(|found| found.termination == Termination::Converged);
     let count = adjustment.observations_count;
-    Ok(Adjusted { model: model.name, converted: project, adjustment, held_out: found, cost, count, estimated })
+    Ok(Adjusted { variant, converted: project, adjustment, held_out: found, cost, count, estimated })
 }
 
-/// Estimates all coefficients of a radial distortion of which some are: models are compared with all that they have. Of the rational model the
-/// fifth and sixth only stand in for the others.
-fn complete(camera: &mut Camera, model: &CameraModel) {
+/// Estimates all coefficients of a radial distortion of which some are: models are compared with all that they have, those that stand in for
+/// others if `whole`, else they are 0.
+fn complete(camera: &mut Camera, model: &CameraModel, whole: bool) {
     let estimated = camera.estimated();
     if !model.radial.iter().any(|(p, _)| estimated.contains(p)) {
         return;
     }
     let missing = model.radial.iter().map(|(p, _)| *p);
-    let missing = missing.filter(|p| !matches!(p, Parameter::K5 | Parameter::K6) && !estimated.contains(p));
+    let missing = missing.filter(|p| (whole || !STAND_INS.contains(p)) && !estimated.contains(p));
     camera.free.extend(missing.collect::<Vec<_>>());
+    if !whole && STAND_INS.iter().any(|p| estimated.contains(p)) {
+        camera.free.retain(|p| !STAND_INS.contains(p));
+        camera.sigma.retain(|p, _| !STAND_INS.contains(p));
+        STAND_INS.iter().for_each(|p| camera.interior.set(*p, 0.0));
+    }
 }
 
 /// Indices of a seeded share of the image points, such that every point keeps [`RAYS`] others and every photo [`POINTS`].
@@ -268,9 +283,9 @@ fn held_out(project: &Project, seed: u32) -> HashSet<usize> {
     held_out
 }
 
-/// Rms of the held out coordinates of every model, over those that all of them predict.
-fn predicted<'a>(held_out: &HashSet<usize>, all: impl Iterator<Item = &'a Adjusted>) -> BTreeMap<String, f64> {
-    let mut sums: Vec<(String, HashMap<usize, f64>)> = Vec::new();
+/// Rms of the held out coordinates of every variant, over those that all of them predict.
+fn predicted<'a>(held_out: &HashSet<usize>, all: impl Iterator<Item = &'a Adjusted>) -> BTreeMap<usize, f64> {
+    let mut sums: Vec<(usize, HashMap<usize, f64>)> = Vec::new();
     for a in all {
         let Some(found) = &a.held_out else { continue };
         let pixels: HashMap<&str, [f64; 2]> = found.photos.iter().map(|p| (p.id.as_str(), p.pixel)).collect();
@@ -281,7 +296,7 @@ fn predicted<'a>(held_out: &HashSet<usize>, all: impl Iterator<Item = &'a Adjust
             a.adjustment.observations.get(*k).filter(|row| row.enabled)?;
             Some((*k, (vx / width).powi(2) + (vy / height).powi(2)))
         };
-        sums.push((a.model.to_owned(), held_out.iter().filter_map(square).collect()));
+        sums.push((a.variant, held_out.iter().filter_map(square).collect()));
     }
     let Some((_, first)) = sums.first() else { return BTreeMap::new() };
     let common: Vec<usize> =
@@ -295,7 +310,7 @@ fn predicted<'a>(held_out: &HashSet<usize>, all: impl Iterator<Item = &'a Adjust
         own.sort_by(f64::total_cmp);
         (own.iter().sum::<f64>() / (2 * own.len()) as f64).sqrt()
     };
-    sums.iter().map(|(model, squares)| (model.clone(), rms(squares))).collect()
+    sums.iter().map(|(variant, squares)| (*variant, rms(squares))).collect()
 }
 
 /// Parameters of distortion whose size is below so many standard errors that they are not told from 0, in every photo where each has its own.

@@ -131,6 +131,8 @@ function calls() {
     compareCameras: [[project.cameras[0], project.cameras[0], { grid: [3, 3] }], 10],
     crossValidate: [[project, { grid: [3, 3], adjust: { max_iterations: 5 } }], 2],
     compareModels: [[project, { adjust: { max_iterations: 5 } }], 1],
+    calibrationCoverage: [[project, project.cameras[0].id], 10],
+    proposedModels: [[project.cameras[0], 1500], 10],
     convertCamera: [[project, project.cameras[0].id, 'opencv'], 5],
     nearestNames: [[project, project, 0.1], 10],
     compareEpochs: [[epochs()], 10],

@@ -174,6 +174,8 @@ test('every field that the engine returns is declared, and every declared field 
     literal('request', 'S.CompareOptions', request),
     literal('monitoring', 'S.Monitoring', monitoring),
     literal('cross', 'S.CrossValidation', sightline.crossValidate(noisy, { grid: [3, 3], camera: 'c' })),
+    literal('coverage', 'S.Coverage', sightline.calibrationCoverage(noisy, 'c')),
+    literal('proposed', 'S.CameraModelName[]', sightline.proposedModels(noisy.cameras[0], 300)),
     literal('models', 'S.ComparedModel[]', sightline.compareModels(noisy)),
     literal('converted', 'S.ConvertedCamera', sightline.convertCamera(project, 'c', 'opencv')),
     literal('list', 'S.PointList', sightline.readList('id,X,Y,Z,sigma,diameter\na,1.5,2.5,3.5,0.1,12.5\nb,4,x,6,0.1,5\n', { sigma: { constant: 2, unit: 'mm', ppm: 2 } })),

@@ -1,0 +1,35 @@
+//! Calibrations: what the photos cover, which models a field of view asks for.
+
+use wasm_bindgen::prelude::*;
+
+use super::fault::thrown;
+use super::{Thrown, value};
+use sightline::calibration;
+use sightline::error::Error;
+use sightline::project::Camera;
+
+/// What the photos of a camera cover: radius, parts of the picture, rolls, tilts.
+#[wasm_bindgen(js_name = calibrationCoverage, unchecked_return_type = "Coverage")]
+pub fn calibration_coverage(
+    #[wasm_bindgen(unchecked_param_type = "Project")] project: JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "string")] camera: JsValue,
+) -> Thrown {
+    let found = || {
+        let id = if camera.is_undefined() || camera.is_null() { None } else { Some(value::text(&camera, "camera")?) };
+        calibration::coverage(&value::project(&project)?, id.as_deref())
+    };
+    found().map(|found| value::write(&found)).map_err(|error: Error| thrown(&error))
+}
+
+/// Names of the camera models that a lens of this principal distance is likely to need, the likeliest first.
+#[wasm_bindgen(js_name = proposedModels, unchecked_return_type = "CameraModelName[]")]
+pub fn proposed_models(
+    #[wasm_bindgen(unchecked_param_type = "Camera")] camera: JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] principal_distance_px: JsValue,
+) -> Thrown {
+    let found = || {
+        let camera = value::read::<Camera>(&camera, "camera")?;
+        Ok(calibration::proposed_models(&camera, value::number(&principal_distance_px, "principal_distance_px")?))
+    };
+    found().map(|found| value::write(&found)).map_err(|error: Error| thrown(&error))
+}
