@@ -11,7 +11,7 @@ use std::io::{Read, Seek};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sightline::adjustment::{AdjustOptions, Adjustment, Measured};
-use sightline::calibration::{ComparedModel, ModelConversion, ModelsOptions};
+use sightline::calibration::{ComparedModel, Coverage, CrossOptions, CrossValidation, ModelConversion, ModelsOptions};
 use sightline::comparison::Comparison;
 use sightline::detection::{ColoursApart, DetectOptions, Detection, Target};
 use sightline::exchange::foreign::CameraOptions;
@@ -269,6 +269,10 @@ tasks! {
         } => Nothing, (Project, ModelConversion);
         /// Adjust a network with every camera model, oriented first where it is not.
         CompareModels { /** The network. */ pub project: Project, /** Whose, and how. */ pub options: ModelsOptions } => Nothing, Vec<ComparedModel>;
+        /// Calibrate a camera from parts of the photos and compare the parts; the network is oriented first where it is not.
+        CrossValidate { /** The network. */ pub project: Project, /** Whose, and how. */ pub options: CrossOptions } => Nothing, CrossValidation;
+        /// What the photos of a camera cover.
+        CoverPhotos { /** The photos. */ pub project: Project, /** Of which camera. */ pub camera: String } => Nothing, Coverage;
         /// Measure the features of a project at the values that an adjustment with these options gave it.
         MeasureFeatures { /** With the adjusted values. */ pub project: Project, /** Of the adjustment. */ pub options: AdjustOptions } => Nothing, Measured;
         /// Name the dots of a board of circles.

@@ -279,6 +279,8 @@ pub fn remove_photos(document: &mut Document, photos: &BTreeSet<String>) {
     project.photos.retain(|p| !photos.contains(&p.id));
     project.observations.retain(|o| !photos.contains(&o.photo));
     project.report.colours.retain(|c| !photos.contains(&c.photo));
+    let rig = project.rig.take();
+    project.rig = rig.and_then(|rig| rig.without(|id| photos.contains(id))).map(Box::new);
     drop_unused(project);
     super::points::tidy(project);
     document.detections_mut().retain(|photo, _| !photos.contains(photo));

@@ -17,6 +17,7 @@ pub fn next(document: &Document, key: Option<String>) -> Document {
         photos: Default::default(),
         observations: Default::default(),
         set_aside: Vec::new(),
+        rig: None,
         ..(**of).clone()
     };
     project.report.date.clear();

@@ -18,6 +18,7 @@ pub mod plan;
 pub mod points;
 pub mod questions;
 pub mod report;
+pub mod rig;
 pub mod sample;
 pub mod sheet;
 pub mod targets;

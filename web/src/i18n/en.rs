@@ -7,6 +7,7 @@ use sightline::initial::Degeneracy;
 use sightline::project::ReportLanguage;
 
 pub mod adjusting;
+pub mod calibrating;
 pub mod changes;
 pub mod comparing;
 pub mod control;
@@ -22,6 +23,7 @@ pub mod lasting;
 pub mod lists;
 pub mod modelling;
 pub mod monitoring;
+pub mod mounted;
 pub mod names;
 pub mod object;
 pub mod photos;

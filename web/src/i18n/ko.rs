@@ -10,6 +10,7 @@ use sightline::report::texts::particles::after as choose;
 use super::reasons;
 
 mod adjusting;
+mod calibrating;
 mod changes;
 mod comparing;
 mod control;
@@ -25,6 +26,7 @@ mod lasting;
 mod lists;
 mod modelling;
 mod monitoring;
+mod mounted;
 mod names;
 mod object;
 mod photos;

@@ -17,8 +17,8 @@ use sightline::initial::Degeneracy;
 use sightline::project::ReportLanguage;
 
 pub use en::{
-    comparing, equipment, experiments, first, grids, inside, interchange, lasting, lists, modelling, monitoring,
-    object, planning, printing, systematic,
+    calibrating, comparing, equipment, experiments, first, grids, inside, interchange, lasting, lists, modelling,
+    monitoring, mounted, object, planning, printing, systematic,
 };
 
 use crate::browser::page;
@@ -241,6 +241,8 @@ mod tests {
                 first::words(language).every_text(),
                 systematic::words(language).every_text(),
                 modelling::words(language).every_text(),
+                calibrating::words(language).every_text(),
+                mounted::words(language).every_text(),
                 grids::words(language).every_text(),
                 inside::words(language).every_text(),
             ];

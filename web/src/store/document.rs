@@ -148,4 +148,6 @@ pub enum Change {
     ColoursTaken { camera: String },
     ColoursForgotten { camera: String },
     ModelChosen { camera: String, model: String },
+    RigEdited,
+    DotsNamed(usize),
 }

@@ -23,7 +23,7 @@ impl Desk {
                 self.end_job();
                 if !naming.observations.is_empty() {
                     let (count, taken) = (naming.observations.len(), naming.clone());
-                    self.change(Change::Matched(count), |document| {
+                    self.change(Change::DotsNamed(count), |document| {
                         grids::take(document.project_mut(), taken);
                     });
                 }

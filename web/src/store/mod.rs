@@ -2,6 +2,7 @@
 
 pub mod adjusting;
 mod apart;
+mod calibrating;
 pub mod calls;
 pub mod cameras;
 mod cleared;
@@ -39,6 +40,7 @@ pub mod questions;
 mod reading;
 pub mod report;
 mod returning;
+mod rig;
 pub mod sample;
 pub mod saving;
 pub mod selection;

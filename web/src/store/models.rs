@@ -5,7 +5,7 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use sightline::adjust::apply;
 use sightline::adjustment::AdjustOptions;
-use sightline::calibration::{ComparedModel, ModelConversion, ModelsOptions};
+use sightline::calibration::{ComparedModel, Coverage, CrossValidation, ModelConversion, ModelsOptions};
 use sightline::project::{Camera, Project};
 use sightline_protocol::{CompareModels, ConvertCamera};
 
@@ -27,17 +27,32 @@ pub struct Compared {
     pub rows: Vec<ComparedModel>,
 }
 
+/// What was found of a camera, with the document that it was found on.
+#[derive(Clone, Debug)]
+pub struct Of<T> {
+    pub camera: String,
+    pub project: Arc<Project>,
+    pub found: Arc<T>,
+}
+
 /// What is known of camera models.
 #[derive(Clone, Copy, Debug)]
 pub struct Models {
     compared: RwSignal<Option<Compared>>,
+    pub(super) crossed: RwSignal<Option<Of<CrossValidation>>>,
+    pub(super) covered: RwSignal<Vec<Of<Coverage>>>,
     /// What conversions have left, the latest of each camera.
     converted: RwSignal<Vec<ModelConversion>>,
 }
 
 impl Models {
     pub fn new() -> Self {
-        Self { compared: RwSignal::new(None), converted: RwSignal::new(Vec::new()) }
+        Self {
+            compared: RwSignal::new(None),
+            crossed: RwSignal::new(None),
+            covered: RwSignal::new(Vec::new()),
+            converted: RwSignal::new(Vec::new()),
+        }
     }
 }
 

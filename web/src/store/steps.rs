@@ -32,6 +32,8 @@ pub enum Step {
     Equipment,
     /// Epochs of an object beside each other.
     Monitoring,
+    /// A camera calibrated with a board or a sheet.
+    Calibrate,
     /// Files for other programs.
     Files,
     /// Matrices, steps, datums and errors of an adjustment.
@@ -63,6 +65,7 @@ impl Step {
             Self::Print => "print",
             Self::Equipment => "equipment",
             Self::Monitoring => "monitoring",
+            Self::Calibrate => "calibrate",
             Self::Files => "files",
             Self::Inside => "inside",
         }
@@ -71,8 +74,9 @@ impl Step {
     pub(super) fn from_name(name: &str) -> Self {
         // A lesson and its state may follow.
         let name = if name.starts_with("inside/") { Self::Inside.name() } else { name };
-        let beside =
-            [Self::Tables, Self::Object, Self::Monitoring, Self::Files, Self::Inside].into_iter().chain(Self::BEFORE);
+        let beside = [Self::Tables, Self::Object, Self::Monitoring, Self::Calibrate, Self::Files, Self::Inside]
+            .into_iter()
+            .chain(Self::BEFORE);
         Self::ROW.into_iter().chain(beside).find(|s| s.name() == name).unwrap_or_default()
     }
 

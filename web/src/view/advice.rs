@@ -180,8 +180,14 @@ fn follow(desk: Desk, target: &Target) {
             desk.set_options(|options| options.variance_components = None);
             desk.adjust();
         }
-        Target::Estimate { camera, parameters } => parameters.iter().for_each(|p| desk.set_free(camera, *p, true)),
-        Target::Hold { camera, parameter } => desk.set_free(camera, *parameter, false),
+        Target::Estimate { camera, parameters } => {
+            parameters.iter().for_each(|p| desk.set_free(camera, *p, true));
+            desk.adjust();
+        }
+        Target::Hold { camera, parameter } => {
+            desk.set_free(camera, *parameter, false);
+            desk.adjust();
+        }
     }
 }
 
@@ -248,7 +254,9 @@ fn items(desk: Desk) -> Vec<Item> {
             items.splice(0..0, spoils.map(|advice| network_item(advice, &adjustment.criteria, &unit)));
             let (first, others): (Vec<_>, Vec<_>) = rest.into_iter().partition(|a| of_the_fit(a));
             let first = first.into_iter().filter(|a| !grouping::is_one_of_several(a, &adjustment.advice));
-            items.extend(first.map(|advice| network_item(advice, &adjustment.criteria, &unit)));
+            let with_tested =
+                |advice| systematic::with_tested(network_item(advice, &adjustment.criteria, &unit), advice, adjustment);
+            items.extend(first.map(with_tested));
             items.extend(grouping::insignificant(&adjustment.advice));
             let others = others.into_iter().filter(|a| !is_correlation(a));
             items.extend(others.map(|advice| network_item(advice, &adjustment.criteria, &unit)));

@@ -2,7 +2,7 @@
 
 use super::models::name_of as model_words;
 use super::tables::table_words;
-use crate::i18n::{equipment, modelling, object as words, planning, text};
+use crate::i18n::{equipment, grids, modelling, mounted, object as words, planning, text};
 use crate::store::document::Change;
 
 pub fn change_words(change: &Change) -> String {
@@ -35,6 +35,8 @@ pub fn change_words(change: &Change) -> String {
         Change::AxesExchanged => text::change_axes().to_owned(),
         Change::ParametersChosen(camera) => text::change_parameters(camera),
         Change::ModelChosen { camera, model } => modelling::change_model(camera, model_words(model)),
+        Change::RigEdited => mounted::change_rig().to_owned(),
+        Change::DotsNamed(n) => grids::change_dots(n),
         Change::OptionsChosen => text::change_options().to_owned(),
         Change::Adjusted => text::change_adjusted().to_owned(),
         Change::UnitSet => text::change_unit().to_owned(),

@@ -1,5 +1,7 @@
 //! The panel that names the dots of a board of circles.
 
+use std::collections::BTreeMap;
+
 use leptos::prelude::*;
 use sightline::matching::{Board, BoardKind, GridNaming, GridOptions, GridOrientation, UnnamedReason};
 
@@ -22,6 +24,17 @@ fn reason_words(reason: &UnnamedReason) -> String {
     }
 }
 
+/// What a field of lengths takes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Takes {
+    /// A length greater than 0.
+    Length,
+    /// The same, or nothing where it is not known.
+    LengthOrNothing,
+    /// 0 or greater, or nothing.
+    Sigma,
+}
+
 /// Rows, columns, pitch and what else is known of the board; then what was named and what was not, and why.
 #[component]
 pub fn GridPanel() -> impl IntoView {
@@ -36,21 +49,41 @@ pub fn GridPanel() -> impl IntoView {
         mark: None,
     });
     let naming = RwSignal::new(None::<GridNaming>);
+    // What was typed and is not taken, by the field's name: the field shows the earlier value again, and says so.
+    let refused = RwSignal::new(BTreeMap::<&'static str, (fn(&str) -> String, String)>::new());
+    let said = move |name: &'static str| {
+        move || {
+            let (words, typed) = refused.with(|all| all.get(name).cloned())?;
+            Some(view! { <small class="warn" role="alert" data-refused=name>{words(&typed)}</small> })
+        }
+    };
+    let answer = move |name: &'static str, is_taken: bool, words: fn(&str) -> String, typed: String| {
+        refused.update(|all| {
+            all.remove(name);
+            if !is_taken {
+                all.insert(name, (words, typed.trim().to_owned()));
+            }
+        });
+    };
     let count =
         move |read: fn(&Board) -> u32, write: fn(&mut Board, u32), name: &'static str, label: fn() -> &'static str| {
             view! {
                 <label class="field">
                     <span>{label}</span>
                     <Field value=Signal::derive(move || board.with(read).to_string()) commit=move |typed: String| {
-                        if let Ok(count) = typed.trim().parse() {
+                        let count = typed.trim().parse().ok().filter(|count| *count >= 2);
+                        if let Some(count) = count {
                             board.update(|b| write(b, count));
                         }
+                        answer(name, count.is_some(), |typed: &str| grids::no_count(typed), typed);
                     } attr:class="short" attr:inputmode="numeric" attr:name=name/>
+                    {said(name)}
                 </label>
             }
         };
     let length = move |read: fn(&Board) -> Option<f64>,
                        write: fn(&mut Board, Option<f64>),
+                       takes: Takes,
                        name: &'static str,
                        label: fn() -> &'static str| {
         view! {
@@ -59,10 +92,21 @@ pub fn GridPanel() -> impl IntoView {
                 <Field value=Signal::derive(move || board.with(read).map(format::editable).unwrap_or_default())
                     commit=move |typed: String| {
                         let value = format::parse(&typed);
-                        if value.is_some() || typed.trim().is_empty() {
+                        let is_taken = match value {
+                            Some(value) if takes == Takes::Sigma => value >= 0.0,
+                            Some(value) => value > 0.0,
+                            None => takes != Takes::Length && typed.trim().is_empty(),
+                        };
+                        if is_taken {
                             board.update(|b| write(b, value));
                         }
+                        let words: fn(&str) -> String = match takes {
+                            Takes::Sigma => |typed: &str| grids::no_sigma(typed),
+                            _ => |typed: &str| grids::no_length(typed),
+                        };
+                        answer(name, is_taken, words, typed);
                     } attr:class="short" attr:inputmode="decimal" attr:name=name/>
+                {said(name)}
             </label>
         }
     };
@@ -92,9 +136,9 @@ pub fn GridPanel() -> impl IntoView {
                 </label>
                 {count(|b| b.rows, |b, n| b.rows = n, "grid-rows", grids::rows)}
                 {count(|b| b.columns, |b, n| b.columns = n, "grid-columns", grids::columns)}
-                {length(|b| Some(b.pitch), |b, x| b.pitch = x.unwrap_or(b.pitch), "grid-pitch", grids::pitch)}
-                {length(|b| b.sigma, |b, x| b.sigma = x, "grid-sigma", grids::sigma)}
-                {length(|b| b.diameter, |b, x| b.diameter = x, "grid-diameter", grids::diameter)}
+                {length(|b| Some(b.pitch), |b, x| b.pitch = x.unwrap_or(b.pitch), Takes::Length, "grid-pitch", grids::pitch)}
+                {length(|b| b.sigma, |b, x| b.sigma = x, Takes::Sigma, "grid-sigma", grids::sigma)}
+                {length(|b| b.diameter, |b, x| b.diameter = x, Takes::LengthOrNothing, "grid-diameter", grids::diameter)}
             </div>
             <p class="hint">{grids::hint}</p>
             <p class="hint" data-grid="first">{move || match first.get() {

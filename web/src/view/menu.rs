@@ -4,7 +4,9 @@ use leptos::html::Button;
 use leptos::prelude::*;
 
 use super::shell::choose_project;
-use crate::i18n::{equipment, experiments, first, inside, interchange, monitoring, planning, printing, text};
+use crate::i18n::{
+    calibrating, equipment, experiments, first, inside, interchange, monitoring, planning, printing, text,
+};
 use crate::store::document::Document;
 use crate::store::{Desk, Menu, Step};
 
@@ -60,6 +62,7 @@ pub fn FileMenu() -> impl IntoView {
                     }>{text::save_all}</button>
                 </Show>
                 <Show when=move || photos.get()>
+                    {place(calibrating::calibrate, Step::Calibrate, |desk| desk.go(Step::Calibrate))}
                     {place(interchange::files_for_others, Step::Files, |desk| desk.go(Step::Files))}
                 </Show>
                 <span class="rule"></span>

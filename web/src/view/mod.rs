@@ -3,6 +3,7 @@
 pub mod adjust;
 pub mod advice;
 mod apart;
+mod calibrating;
 pub mod changes;
 pub mod control;
 mod corrections;
@@ -42,6 +43,7 @@ pub mod projects;
 pub mod questions;
 pub mod report;
 pub mod results;
+mod rig;
 mod rooms;
 pub mod shell;
 pub mod start;

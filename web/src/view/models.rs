@@ -5,6 +5,7 @@ use sightline::calibration::{ComparedModel, ModelVerdict};
 use sightline::project::{Camera, CameraModel, Parameter};
 use sightline::report::names::parameter_name;
 
+use super::calibrating::CrossCheck;
 use crate::browser::event;
 use crate::format;
 use crate::i18n::{errors, modelling as words, text};
@@ -66,6 +67,11 @@ pub fn ModelMenu(camera: String) -> impl IntoView {
     }
 }
 
+/// Whether the coefficients of the rational model are estimated that stand in for its others.
+fn has_all(parameters: &[Parameter]) -> bool {
+    parameters.contains(&Parameter::K5)
+}
+
 /// All models of a camera on the network, with one click to take one.
 #[component]
 pub fn ModelComparison(camera: String) -> impl IntoView {
@@ -75,7 +81,7 @@ pub fn ModelComparison(camera: String) -> impl IntoView {
     let present = Memo::new(move |_| {
         desk.document.with(|d| {
             let of = |c: &&Camera| c.id == id.get_value();
-            d.project.cameras.iter().find(of).map(|c| c.interior.model().name)
+            d.project.cameras.iter().find(of).map(|c| (c.interior.model().name, has_all(&c.estimated())))
         })
     });
     let row = move |row: ComparedModel| {
@@ -91,7 +97,9 @@ pub fn ModelComparison(camera: String) -> impl IntoView {
             (ModelVerdict::Failed, None) => words::failed().to_owned(),
         };
         let small = (!row.insignificant.is_empty()).then(|| words::not_told(names(&row.insignificant)));
-        let is_present = present.get() == Some(row.model.as_str());
+        // The rational model stands there without and with K5 and K6.
+        let is_present =
+            present.get().is_some_and(|(model, whole)| model == row.model && whole == has_all(&row.parameters));
         let taken = row.clone();
         let action = match (is_present, row.camera.is_some()) {
             (true, _) => view! { <span class="aside">{words::in_use}</span> }.into_any(),
@@ -111,7 +119,7 @@ pub fn ModelComparison(camera: String) -> impl IntoView {
         };
         view! {
             <tr class:chosen=best data-model=model data-verdict=code>
-                <td class="left"><b>{name_of(&row.model)}</b></td>
+                <td class="left"><b>{name_of(&row.model)}</b>{has_all(&row.parameters).then_some(", K₁–K₆")}</td>
                 <td>{number(row.sigma0, 2)}</td>
                 <td>{(!row.parameters.is_empty()).then(|| format::count(row.parameters.len()))}</td>
                 <td>{row.held_out_rms.map(px)}</td>
@@ -135,6 +143,7 @@ pub fn ModelComparison(camera: String) -> impl IntoView {
                 </table>
                 <p class="note">{words::compared_note}</p>
             })}
+            <CrossCheck camera=id.get_value()/>
             </td></tr>
         </Show>
     }

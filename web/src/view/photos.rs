@@ -5,11 +5,13 @@ use std::collections::BTreeSet;
 use leptos::prelude::*;
 use sightline::project::Camera;
 
+use super::calibrating::ProposedModel;
 use super::equipment::KnownCameraOffer;
 use super::field::Field;
 use super::icon::{Glyph, Icon};
 use super::models::ModelMenu;
 use super::origin::ProjectOrigin;
+use super::rig::RigPanel;
 use super::shell::{TitleBar, choose_photos, problem_sentence};
 use super::strip::{NoThumbnail, Thumbnail};
 use crate::browser::event;
@@ -65,6 +67,7 @@ pub fn Photos() -> impl IntoView {
                 <ProjectOrigin/>
                 <Picked picked/>
                 {move || cameras.get().into_iter().map(|camera| view! { <CameraPanel id=camera/> }).collect_view()}
+                <RigPanel/>
             </aside>
         </main>
     }
@@ -284,6 +287,7 @@ fn CameraPanel(id: String) -> impl IntoView {
                 <Field value=Signal::stored(id.get_value()) commit=move |typed: String| desk.rename_camera(&id.get_value(), &typed) attr:data-field="name"/>
             </label>
             <ModelMenu camera=id.get_value()/>
+            <ProposedModel camera=id.get_value()/>
             <label class="field">
                 <span>{text::pixel_pitch} " " <u>"µm"</u></span>
                 <Field value=Signal::derive(move || with(|c| c.pixel_pitch.map(pitch_text).unwrap_or_default()))

@@ -10,8 +10,8 @@ use leptos::task::spawn_local;
 
 use super::start::Start;
 use super::{
-    adjust, control, equipment, experiments, files, identities, import, inside, monitoring, object, photos, planning,
-    printing, report, results, tables, targets,
+    adjust, calibrating, control, equipment, experiments, files, identities, import, inside, monitoring, object,
+    photos, planning, printing, report, results, tables, targets,
 };
 use crate::browser::worker;
 use crate::i18n::text;
@@ -38,6 +38,7 @@ part! { beside, fn beside_the_path(step: Step) -> AnyView, fetched by fetch_besi
         Step::Print => view! { <printing::Printing/> }.into_any(),
         Step::Equipment => view! { <equipment::Equipment/> }.into_any(),
         Step::Monitoring => view! { <monitoring::Monitoring/> }.into_any(),
+        Step::Calibrate => view! { <calibrating::Calibrate/> }.into_any(),
         Step::Files => view! { <files::Files/> }.into_any(),
         Step::Inside => view! { <inside::Inside/> }.into_any(),
         _ => view! { <report::Report/> }.into_any(),
@@ -71,6 +72,7 @@ impl Part {
             | Step::Print
             | Step::Equipment
             | Step::Monitoring
+            | Step::Calibrate
             | Step::Files
             | Step::Inside => Some(Self::Beside),
         }

@@ -226,6 +226,7 @@ pub fn step_label(step: Step) -> &'static str {
         Step::Print => before::targets_to_print(),
         Step::Equipment => i18n::equipment::equipment(),
         Step::Monitoring => monitoring::monitoring(),
+        Step::Calibrate => i18n::calibrating::calibrate(),
         Step::Files => i18n::interchange::files_for_others(),
         Step::Inside => i18n::inside::inside(),
     }

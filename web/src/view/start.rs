@@ -7,7 +7,7 @@ use super::photos::Problems;
 use super::picture::Purpose;
 use super::projects::Projects;
 use super::shell::{Progress, choose_photos, choose_project};
-use crate::i18n::{Text, equipment, experiments as words, first, monitoring, planning, printing, text};
+use crate::i18n::{Text, calibrating, equipment, experiments as words, first, monitoring, planning, printing, text};
 use crate::store::{Desk, Step};
 
 #[component]
@@ -37,6 +37,7 @@ pub fn Start() -> impl IntoView {
                     <h2 id="begin-without">{first::without_photos}</h2>
                     <Entry class="sample" open="sample" name=text::open_sample said=text::sample_words waits=true go=|desk| desk.open_sample()/>
                     <Entry open="plan" name=planning::plan said=planning::plan_words go=|desk| desk.go(Step::Plan)/>
+                    <Entry open="calibrate" name=calibrating::calibrate said=calibrating::calibrate_words waits=true go=|desk| desk.calibrate_anew()/>
                     <Entry open="print" name=printing::targets_to_print said=printing::targets_to_print_words go=|desk| desk.go(Step::Print)/>
                     <Entry open="equipment" name=equipment::equipment said=equipment::equipment_words go=|desk| desk.go(Step::Equipment)/>
                     <Entry open="monitoring" name=monitoring::monitoring said=monitoring::monitoring_words go=|desk| desk.show_monitoring()/>

@@ -5,7 +5,9 @@ use std::io::{Cursor, Read, Seek};
 
 use sightline::adjust::{adjust, apply, measured_at};
 use sightline::adjustment::{AdjustOptions, Measured, StatisticsChoice, Termination};
-use sightline::calibration::{ComparedModel, ModelConversion, compare_models, convert_camera};
+use sightline::calibration::{
+    ComparedModel, Coverage, CrossValidation, ModelConversion, compare_models, convert_camera, coverage, cross_validate,
+};
 use sightline::camera::colour_differences;
 use sightline::comparison::{Comparison, compare};
 use sightline::decode::Packed;
@@ -30,12 +32,12 @@ use sightline::tiles::{self, Pyramid};
 use sightline::{Result, decode, detect, exif, sample};
 use sightline_protocol::{
     Adjust, Adjusted, Adjusting, BeginPlan, CompareEpochs, CompareModels, CompareResults, Content, ConvertCamera,
-    Detect, DifferColours, DisplacePhotos, DrawSheets, Drawn, Export, ExportExperiment, ExportMonitoring, Foreign,
-    Given, Glance, Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours, MeasureFeatures, NameGrid,
-    Nothing, Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReadForeign, ReportEpochs, ReportMade,
-    RunExperiment, Sample, SampleEpochs, SamplePhoto, SamplePhotoMade, Served, Service, ShowPart, ShowPhoto,
-    ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto, Unpack, Unpacked, Values, WriteCamera, WriteNetwork,
-    WriteSheets, Written, from_pieces, written,
+    CoverPhotos, CrossValidate, Detect, DifferColours, DisplacePhotos, DrawSheets, Drawn, Export, ExportExperiment,
+    ExportMonitoring, Foreign, Given, Glance, Glanced, MakePlan, MakePlots, MakeReport, Match, Measure, MeasureColours,
+    MeasureFeatures, NameGrid, Nothing, Open, Opened, Pack, PlanOf, Predict, PredictPlan, Progress, ReadForeign,
+    ReportEpochs, ReportMade, RunExperiment, Sample, SampleEpochs, SamplePhoto, SamplePhotoMade, Served, Service,
+    ShowPart, ShowPhoto, ShowValues, Shown, Situate, Situated, Stream, SuggestPhoto, Unpack, Unpacked, Values,
+    WriteCamera, WriteNetwork, WriteSheets, Written, from_pieces, written,
 };
 
 use crate::codecs::{shot_of, unpack};
@@ -144,6 +146,19 @@ impl Service<CompareModels> for Engine {
     fn serve(&self, task: CompareModels, _: Files, _: Progress<Nothing>) -> Served<Vec<ComparedModel>> {
         let oriented = with_what_is_oriented(&task.project, &mut |_| {})?;
         Ok((compare_models(&oriented, &task.options)?, Vec::new()))
+    }
+}
+
+impl Service<CrossValidate> for Engine {
+    fn serve(&self, task: CrossValidate, _: Files, _: Progress<Nothing>) -> Served<CrossValidation> {
+        let oriented = with_what_is_oriented(&task.project, &mut |_| {})?;
+        Ok((cross_validate(&oriented, &task.options)?, Vec::new()))
+    }
+}
+
+impl Service<CoverPhotos> for Engine {
+    fn serve(&self, task: CoverPhotos, _: Files, _: Progress<Nothing>) -> Served<Coverage> {
+        Ok((coverage(&task.project, Some(&task.camera))?, Vec::new()))
     }
 }
 

@@ -28,5 +28,9 @@ declare! { grids {
     several_boards(count): "{count} grids in the photo could be the board. Cover the others, or take a photo of one board.";
     other_dots(dots, others): "The grid of {dots} dots is cut off in the photo, and there are {others} other dots of their size. Show the whole board, or cover what is next to it.";
     mark(seen): "Targets at possible places of the corner mark: {seen}; exactly one is expected.";
+    change_dots(n): "{n} {n:dot|dots} of a circle grid named";
+    no_count(typed): "“{typed}” is not a whole number of at least 2. The earlier value stays.";
+    no_length(typed): "“{typed}” is not a length greater than 0. The earlier value stays.";
+    no_sigma(typed): "“{typed}” is not a standard error (0 or greater, or empty). The earlier value stays.";
     diameter_apart(seen, given): "The dots have a diameter of {seen} according to the pitch, but {given} is given for the board. Check pitch, diameter and kind.";
 } }

@@ -26,5 +26,6 @@ declare! { systematic {
     own_camera: "Give these photos a camera of their own.";
     per_photo: "Fix zoom and focus when photographing, or estimate an interior orientation per photo.";
     inspect: "Check for a window in front of the lens, an uneven sensor or film, or targets measured off centre.";
+    photos_tested(n): "{n} {n:photo|photos} tested one by one";
     not_noise: "This is a systematic error, not noise: the standard errors of the result do not include it.";
 } }

@@ -28,5 +28,9 @@ translate! { Korean grids {
     several_boards(count): "사진에서 격자 {count}개가 이 판일 수 있습니다. 다른 격자를 가리거나 판 하나만 찍으십시오.";
     other_dots(dots, others): "점 {dots}개의 격자가 사진에서 잘렸고, 같은 크기의 다른 점이 {others}개 있습니다. 판 전체가 보이게 찍거나 옆에 있는 것을 가리십시오.";
     mark(seen): "모서리 표시가 있을 수 있는 곳에 보이는 표적: {seen}개. 정확히 하나여야 합니다.";
+    change_dots(n): "원형 격자의 점 {n}개에 이름 붙이기";
+    no_count(typed): "“{typed}”: 2 이상의 정수가 아닙니다. 이전 값을 유지합니다.";
+    no_length(typed): "“{typed}”: 0보다 큰 길이가 아닙니다. 이전 값을 유지합니다.";
+    no_sigma(typed): "“{typed}”: 표준오차가 아닙니다(0 이상, 또는 비움). 이전 값을 유지합니다.";
     diameter_apart(seen, given): "간격으로 계산한 점 지름은 {seen}이고 판의 지름은 {given}입니다. 간격, 지름과 종류를 확인하십시오.";
 } }

@@ -1,6 +1,6 @@
 //! Systematic residuals: the pattern, its cause and the remedy, as an item.
 
-use sightline::adjustment::{Advice, PatternKind, Remedy};
+use sightline::adjustment::{Adjustment, Advice, PatternKind, Remedy};
 use sightline::project::Parameter;
 
 use super::{Item, Step, Target, listed, parameter_name};
@@ -56,6 +56,16 @@ pub fn told(
         evidence: format!("{p}, σ₀ → {}", format::fixed(sigma0, 2)),
         target,
     }
+}
+
+/// An item, with how many of its camera's photos were tested one by one where these are not all: of large networks they are a sample.
+pub fn with_tested(mut item: Item, advice: &Advice, adjustment: &Adjustment) -> Item {
+    let Advice::ResidualPattern { camera, pattern, .. } = advice else { return item };
+    let named = adjustment.patterns.iter().find(|p| p.named && p.camera == *camera && p.kind == *pattern);
+    if let Some(tested) = named.and_then(|pattern| pattern.photos_tested) {
+        item.evidence = format!("{}, {}", item.evidence, words::photos_tested(tested));
+    }
+    item
 }
 
 /// Names of parameters, one after the other.
