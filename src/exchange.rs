@@ -296,9 +296,11 @@ pub fn recognised(files: &Files) -> Option<&'static str> {
 fn control_tables(files: &Files, choices: &control_csv::Choices) -> Result<Imported> {
     let mut assumptions = Vec::new();
     let mut tables = Vec::new();
+    let mut axes = None;
     for (name, bytes) in files {
         let (_, table) = lists::table(bytes, choices).map_err(|error| error.in_file(name))?;
         assumptions.push(FileAssumptions { file: name.clone(), assumptions: table.assumptions.clone() });
+        axes = axes.or(table.user_axes());
         let unit = table.unit;
         tables.push((
             unit,
@@ -317,6 +319,7 @@ fn control_tables(files: &Files, choices: &control_csv::Choices) -> Result<Impor
         points.extend(table.points);
     }
     let mut project = control_project(points);
+    project.axes = axes.or(choices.project_axes);
     if let Some(unit) = unit {
         project.unit = unit.symbol().to_owned();
     }
@@ -373,7 +376,7 @@ pub fn export_with(format: &str, project: &Project, adjustment: Option<&Adjustme
             Ok(one("project.sightline", package::write(&content)?))
         }
         "control-csv" => {
-            let text = control_csv::write(&project.points);
+            let text = control_csv::write(&project.points, project.shown_axes());
             let read =
                 control_csv::parse(&text).into_points().map(|all| all.into_iter().map(|point| point.id).collect());
             let written = project.points.iter().filter(|point| point.xyz.is_some()).map(|point| &point.id);

@@ -54,6 +54,7 @@
 
 pub mod adjust;
 pub mod adjustment;
+pub mod axes;
 pub mod calibration;
 pub mod camera;
 pub mod comparison;

@@ -102,6 +102,7 @@ pub fn compare_epochs_watched(
         step()?;
     }
     let unit = one_unit(&all)?;
+    let axes = all.iter().find_map(|epoch| epoch.axes);
     known_points(&all, options)?;
     let (reference, reference_from) = reference_of(&all, options);
     let named = options.reference.as_ref().map(|named| (named.clone(), ReferenceFrom::Named));
@@ -129,7 +130,7 @@ pub fn compare_epochs_watched(
     let (series, series_datum) = series::series(&all, &pairs, options);
     step()?;
     let epochs = all.into_iter().map(|epoch| epoch.used).collect();
-    Ok(Monitoring { method: options.method, unit, epochs, pairs, series, series_datum })
+    Ok(Monitoring { method: options.method, unit, axes, epochs, pairs, series, series_datum })
 }
 
 /// Options and names.

@@ -19,6 +19,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::axes::{ShownAxes, UserAxes};
+
 pub use colours::{ColourDifferences, LensColour};
 pub use epoch::EpochOf;
 pub use features::{CoordinateSystem, DrawnLine, End, Feature, FeatureKind, GivenPoint, Layer, SystemKind};
@@ -45,6 +47,10 @@ pub struct Project {
     /// Length unit of object coordinates, for people.
     #[serde(default = "default_unit")]
     pub unit: String,
+    /// Letters and order in which coordinates are shown and written for people; null: X, Y, Z. Coordinates of the document stay X (east), Y
+    /// (north), Z in any case.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axes: Option<UserAxes>,
     /// Cameras.
     #[serde(default)]
     pub cameras: Vec<Camera>,
@@ -100,6 +106,13 @@ fn default_unit() -> String {
     "mm".into()
 }
 
+impl Project {
+    /// Letters and order in which its coordinates are shown and written.
+    pub fn shown_axes(&self) -> ShownAxes {
+        ShownAxes::of(self.axes)
+    }
+}
+
 impl Default for Project {
     fn default() -> Self {
         Self {
@@ -107,6 +120,7 @@ impl Default for Project {
             version: 1,
             name: String::new(),
             unit: default_unit(),
+            axes: None,
             cameras: Vec::new(),
             photos: Rows::new(),
             points: Rows::new(),

@@ -28,6 +28,7 @@ use separators::{separates_both_ways, separator_of, table};
 pub use sigma::SigmaRule;
 
 use super::text::{self, Row};
+use crate::axes::{ShownAxes, UserAxes};
 use crate::error::{Error, Lack, Place, Reason, Result, Thing, shortened};
 use crate::project::{LARGEST, Point, Role};
 use crate::units::Unit;
@@ -108,6 +109,16 @@ impl ControlTable {
         })
     }
 
+    /// The axes of whoever wrote the list, where it says them: north first by its heading or a choice, or east and north by their letters.
+    pub fn user_axes(&self) -> Option<UserAxes> {
+        self.assumptions.iter().find_map(|assumption| match assumption {
+            Assumption::AxisOrder { by: Basis::Undecided, .. } => None,
+            Assumption::AxisOrder { order: Axes::Yx, .. } => Some(UserAxes::Neh),
+            Assumption::AxisOrder { .. } => heading::names_directions(&self.heading).then_some(UserAxes::Enh),
+            _ => None,
+        })
+    }
+
     /// What has to be asked before the points are used.
     pub fn undecided(&self) -> impl Iterator<Item = &Assumption> {
         self.assumptions.iter().filter(|assumption| assumption.by() == Basis::Undecided)
@@ -154,7 +165,7 @@ pub fn parse_with(text: &str, choices: Choices) -> ControlTable {
     let named = heading.is_some();
     let columns = match chosen {
         Some(chosen) => given::given(chosen, words.as_deref(), widest),
-        None => heading.unwrap_or_else(|| columns::guessed(&fields, choices.axes)),
+        None => heading.unwrap_or_else(|| columns::guessed(&fields, choices.axes, choices.project_axes)),
     };
     let heading = words.unwrap_or_default();
     let by = if choices.separator.is_some() { Basis::Given } else { Basis::Content };
@@ -451,14 +462,17 @@ impl Reader<'_> {
     }
 }
 
-/// Writes the points that have coordinates, control points' sigmas with them.
-pub fn write(points: &[Point]) -> String {
+/// Writes the points that have coordinates, control points' sigmas with them, in the order of the user's axes.
+pub fn write(points: &[Point], axes: ShownAxes) -> String {
     let with_diameters = points.iter().any(|point| point.xyz.is_some() && point.diameter.is_some());
-    let mut text = format!("id,X,Y,Z,sX,sY,sZ,role{}\n", if with_diameters { ",diameter" } else { "" });
+    let ([a, b, c], diameter) = (axes.names(), if with_diameters { ",diameter" } else { "" });
+    let mut text = format!("id,{a},{b},{c},s{a},s{b},s{c},role{diameter}\n");
     for point in points {
-        let Some([x, y, z]) = point.xyz else { continue };
-        let [sx, sy, sz] =
-            point.sigma.unwrap_or_default().map(|sigma| sigma.map(|sigma| sigma.to_string()).unwrap_or_default());
+        let Some(xyz) = point.xyz else { continue };
+        let [x, y, z] = axes.shown(xyz);
+        let [sx, sy, sz] = axes
+            .shown(point.sigma.unwrap_or_default())
+            .map(|sigma| sigma.map(|sigma| sigma.to_string()).unwrap_or_default());
         let role = match point.role {
             Role::Tie => "tie",
             Role::Control => "control",

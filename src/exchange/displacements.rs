@@ -10,6 +10,7 @@ use std::fmt::Write;
 use super::arrows;
 use super::dxf::{Layers, ascii, entity, header, label, pair as group};
 use super::text::{disarmed, quoted};
+use crate::axes::ShownAxes;
 use crate::depiction::extent;
 use crate::error::{Error, Place, Reason, Result, Thing, shortened};
 use crate::monitoring::{Displacement, Monitoring, Pair, PointRole};
@@ -62,15 +63,21 @@ pub fn colour(judgement: &str) -> [u8; 3] {
 
 fn csv(found: &Monitoring) -> String {
     let unit = found.unit.as_ref().map(|unit| format!(" [{unit}]")).unwrap_or_default();
-    let lengths =
-        ["X", "Y", "Z", "dX", "dY", "dZ", "sX", "sY", "sZ", "length", "s_length"].map(|name| format!("{name}{unit}"));
+    let axes = ShownAxes::of(found.axes);
+    let triples = ["", "d", "s"].map(|prefix| axes.names().map(|name| format!("{prefix}{name}{unit}"))).concat();
+    let lengths: Vec<String> =
+        triples.into_iter().chain(["length", "s_length"].map(|name| format!("{name}{unit}"))).collect();
     let mut text = format!("from,to,id,later_id,{},T,f1,f2,limit,p,judgement,detectable{unit}\n", lengths.join(","));
     let value = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
     for pair in &found.pairs {
         for point in &pair.points {
             let words = [&pair.from, &pair.to, &point.id, point.later_id.as_ref().unwrap_or(&point.id)];
             let words = words.map(|word| quoted(&disarmed(word), ',').into_owned());
-            let numbers = [point.xyz, point.difference, point.sigma].concat().into_iter().map(Some);
+            let numbers = [point.xyz, point.difference, point.sigma]
+                .map(|triple| axes.shown(triple))
+                .concat()
+                .into_iter()
+                .map(Some);
             let numbers = numbers.chain([Some(point.length), point.length_sigma]);
             let test = point.test.as_ref();
             let tested = [

@@ -65,6 +65,18 @@ pub(super) fn items(project: &Project, spatial: &Spatial<'_>, text_height: f64) 
     all
 }
 
+/// What a drawing says of itself: its unit, and the user's letters where they are others than those of the drawing.
+///
+/// A drawing keeps the right-handed system whatever coordinate the user names first: with the northing as X it would be a mirror image.
+pub(super) fn title(project: &Project) -> String {
+    let axes = project.shown_axes();
+    let letters = match project.axes {
+        None => String::new(),
+        Some(_) => format!(", X = {}, Y = {}, Z = {}", axes.letter(0), axes.letter(1), axes.letter(2)),
+    };
+    format!("Sightline, unit {}{letters}", project.unit)
+}
+
 /// The drawing.
 pub fn write(project: &Project, adjustment: Option<&Adjustment>) -> String {
     let spatial = Spatial::of(project, adjustment);
@@ -80,7 +92,7 @@ pub fn write(project: &Project, adjustment: Option<&Adjustment>) -> String {
         }
     }
     let mut text = String::new();
-    pair(&mut text, 999, &ascii(&format!("Sightline, unit {}", project.unit)));
+    pair(&mut text, 999, &ascii(&title(project)));
     header(&mut text, spatial.centre, spatial.size);
     layers.table(&mut text);
     text.push_str("0\nSECTION\n2\nENTITIES\n");

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use super::dxf::{Shape, index, items, number, pair, place};
+use super::dxf::{Shape, index, items, number, pair, place, title};
 use super::spatial::Spatial;
 use crate::adjustment::Adjustment;
 use crate::project::Project;
@@ -152,7 +152,7 @@ pub fn write(project: &Project, adjustment: Option<&Adjustment>) -> String {
         }
     }
 
-    w.pair(999, &plain(&format!("Sightline, unit {}", project.unit)));
+    w.pair(999, &plain(&title(project)));
     w.text.push_str("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1024\n9\n$DWGCODEPAGE\n3\nANSI_1252\n");
     let _ = writeln!(w.text, "9\n$INSUNITS\n70\n{}", insunits(Unit::named(&project.unit)));
     let _ = writeln!(w.text, "9\n$MEASUREMENT\n70\n{}", u8::from(insunits(Unit::named(&project.unit)) > 2));

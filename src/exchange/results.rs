@@ -14,6 +14,7 @@ use super::Files;
 use super::encoding::{Encoding, to_cp949};
 use super::text::{disarmed, quoted};
 use crate::adjustment::Adjustment;
+use crate::axes::ShownAxes;
 use crate::camera::parameter_unit;
 use crate::error::{Error, Place, Reason, Result, shortened};
 use crate::project::{Camera, Parameter, Project, Role};
@@ -71,7 +72,7 @@ fn tables(project: &Project, adjustment: Option<&Adjustment>) -> Vec<(&'static s
     tables.extend(in_colours.then(|| ("colours", colours(project))));
     tables.extend(adjustment.filter(|a| !a.given.is_empty()).map(|a| ("given", given::observations(project, a))));
     let searched = adjustment.filter(|a| !a.gross_errors.is_empty());
-    tables.extend(searched.map(|a| ("gross_errors", given::record(a))));
+    tables.extend(searched.map(|a| ("gross_errors", given::record(project, a))));
     tables.extend(adjustment.iter().flat_map(|a| features::tables(project, a)));
     tables
 }
@@ -107,9 +108,18 @@ fn values<const N: usize>(numbers: Option<[f64; N]>) -> [String; N] {
     numbers.map_or_else(|| std::array::from_fn(|_| String::new()), |numbers| numbers.map(|number| value(Some(number))))
 }
 
+/// Headings of coordinates and their standard errors.
+fn coordinates(axes: ShownAxes, unit: &str) -> [String; 6] {
+    let [a, b, c] = axes.names();
+    let sigmas = [a, b, c].map(|name| format!("s{name} [{unit}]"));
+    let [a, b, c] = [a, b, c].map(|name| format!("{name} [{unit}]"));
+    let [sa, sb, sc] = sigmas;
+    [a, b, c, sa, sb, sc]
+}
+
 fn points(project: &Project, adjustment: Option<&Adjustment>) -> Table {
-    let unit = &project.unit;
-    let heading = ["X", "Y", "Z", "sX", "sY", "sZ"].map(|name| format!("{name} [{unit}]"));
+    let axes = project.shown_axes();
+    let heading = coordinates(axes, &project.unit);
     let heading = ["id", "role"].into_iter().chain(heading.iter().map(String::as_str)).chain(["rays"]);
     let mut table = Table::new(heading);
     let adjusted: HashMap<&str, _> =
@@ -123,13 +133,13 @@ fn points(project: &Project, adjustment: Option<&Adjustment>) -> Table {
         let mut row = vec![point.id.clone(), role.to_owned()];
         match adjusted.get(point.id.as_str()) {
             Some(found) => {
-                row.extend(values(Some(found.xyz)));
-                row.extend(values(found.sigma));
+                row.extend(values(Some(axes.shown(found.xyz))));
+                row.extend(values(found.sigma.map(|sigma| axes.shown(sigma))));
                 row.push(found.rays.to_string());
             }
             None => {
-                row.extend(values(point.xyz));
-                row.extend(point.sigma.unwrap_or_default().map(value));
+                row.extend(values(point.xyz.map(|xyz| axes.shown(xyz))));
+                row.extend(axes.shown(point.sigma.unwrap_or_default()).map(value));
                 row.push(String::new());
             }
         }
@@ -190,11 +200,10 @@ fn colours(project: &Project) -> Table {
 }
 
 fn photos(project: &Project, adjustment: Option<&Adjustment>) -> Table {
-    let unit = &project.unit;
-    let position = ["X", "Y", "Z"].map(|name| format!("{name} [{unit}]"));
-    let sigma = ["sX", "sY", "sZ"].map(|name| format!("{name} [{unit}]"));
+    let axes = project.shown_axes();
+    let position = coordinates(axes, &project.unit);
     let angles = ["omega [deg]", "phi [deg]", "kappa [deg]", "s_omega [deg]", "s_phi [deg]", "s_kappa [deg]"];
-    let names = position.iter().chain(&sigma).map(String::as_str);
+    let names = position.iter().map(String::as_str);
     let mut table = Table::new(["id", "file", "camera"].into_iter().chain(names).chain(angles).chain([
         "rms_x [px]",
         "rms_y [px]",
@@ -209,14 +218,14 @@ fn photos(project: &Project, adjustment: Option<&Adjustment>) -> Table {
         match adjusted.get(photo.id.as_str()) {
             Some(found) => {
                 let [sx, sy] = scale.get(photo.id.as_str()).copied().unwrap_or([1.0; 2]);
-                row.extend(values(Some(found.position)));
-                row.extend(values(found.sigma_position));
+                row.extend(values(Some(axes.shown(found.position))));
+                row.extend(values(found.sigma_position.map(|sigma| axes.shown(sigma))));
                 row.extend(degrees(Some(found.rotation)));
                 row.extend(degrees(found.sigma_rotation));
                 row.extend([value(Some(found.rms_x * sx)), value(Some(found.rms_y * sy)), found.points.to_string()]);
             }
             None => {
-                row.extend(values(photo.position));
+                row.extend(values(photo.position.map(|position| axes.shown(position))));
                 row.extend(values::<3>(None));
                 row.extend(degrees(photo.rotation));
                 row.extend(values::<6>(None));

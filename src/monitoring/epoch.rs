@@ -10,6 +10,7 @@ use super::request::{ControlUse, Epoch, ListedCovariance};
 use super::result::{EpochNote, LeftOut, LeftOutReason, UsedEpoch};
 use crate::adjust::{adjust, apply};
 use crate::adjustment::{AdjustOptions, Adjustment, Robust, StatisticsChoice, Termination};
+use crate::axes::UserAxes;
 use crate::error::{Error, Place, Reason, Result, Thing};
 use crate::project::{Datum, DatumKind, LARGEST, Project, Role};
 
@@ -40,6 +41,8 @@ pub struct Prepared {
     pub scaled: bool,
     /// Unit.
     pub unit: Option<String>,
+    /// Letters and order of its coordinates.
+    pub axes: Option<UserAxes>,
     /// Control points of its project.
     pub control: Vec<String>,
     /// Datum points of its project.
@@ -183,6 +186,7 @@ fn of_project(index: usize, epoch: &Epoch, project: &Project) -> Result<Prepared
         redundancy: Some(adjustment.redundancy as f64).filter(|r| *r > 0.0),
         scaled: bars || (by_control && !release),
         unit: Some(project.unit.clone()),
+        axes: project.axes,
         control,
         datum: project.datum.points.clone().unwrap_or_default(),
         left_out: Vec::new(),
@@ -258,6 +262,7 @@ fn of_list(index: usize, epoch: &Epoch) -> Result<Prepared> {
         redundancy: epoch.redundancy,
         scaled: epoch.scale.unwrap_or(true),
         unit: epoch.unit.clone(),
+        axes: None,
         control: Vec::new(),
         datum: Vec::new(),
         left_out: left_out.collect(),

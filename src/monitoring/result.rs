@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::request::{GroupModel, Method};
+use crate::axes::UserAxes;
 
 /// A test: passed where the statistic does not exceed the limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -456,6 +457,9 @@ pub struct Monitoring {
     pub method: Method,
     /// Unit; null where none of the epochs says it.
     pub unit: Option<String>,
+    /// Letters and order of coordinates, as the first project that says them; null: X, Y, Z. Triples here stay X, Y, Z.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axes: Option<UserAxes>,
     /// Epochs.
     pub epochs: Vec<UsedEpoch>,
     /// Every epoch with the first, then every one with its predecessor.

@@ -241,6 +241,7 @@ impl Project {
             version,
             name,
             unit,
+            axes: _,
             cameras,
             photos,
             points,

@@ -84,6 +84,7 @@ impl Scale {
             version: _,
             name: _,
             unit: _,
+            axes: _,
             cameras: _,
             photos,
             points,

@@ -6,6 +6,7 @@ use super::names;
 use super::number::{decimals_for, fixed, maybe};
 use super::texts::{Words, words};
 use crate::adjustment::{AdjustedObservation, Adjustment, Given};
+use crate::axes::ShownAxes;
 use crate::plausibility::scale;
 use crate::project::{Camera, Point, Project, ReportLanguage, ReportSettings, Role};
 
@@ -19,6 +20,8 @@ pub struct Context<'a> {
     pub unit: &'a str,
     /// Whether anything gives a scale.
     pub scaled: bool,
+    /// Letters and order of coordinates.
+    pub axes: ShownAxes,
     /// Decimals of object coordinates: two digits of the smallest mean standard error.
     pub decimals: usize,
     /// Unit of residuals.
@@ -42,6 +45,7 @@ impl<'a> Context<'a> {
             language,
             unit: if scaled { project.unit.as_str() } else { words(language).no_unit() },
             scaled,
+            axes: project.shown_axes(),
             decimals: decimals_for(typical),
             residual_unit: names::common_unit(adjustment).1,
             factors: names::factors(adjustment),
@@ -123,7 +127,7 @@ impl<'a> Context<'a> {
 
     /// What was observed, by name.
     pub fn given_name(&self, what: &Given) -> String {
-        let axis = |axis: usize| ["X", "Y", "Z"].get(axis).copied().unwrap_or_default();
+        let axis = |axis: usize| self.axes.letter(axis);
         match what {
             Given::Control { point: id, axis: a } | Given::Position { photo: id, axis: a } => {
                 format!("{id} {}", axis(*a))

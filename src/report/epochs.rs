@@ -9,6 +9,7 @@ use super::plots::displacements;
 use super::sections::figures;
 use super::style;
 use super::texts::{Words, words};
+use crate::axes::ShownAxes;
 use crate::monitoring::{
     Correction, Displacement, EpochNote, GroupError, GroupModel, LeftOut, LeftOutReason, Method, Monitoring, Options,
     Outcome, Pair, PairNote, PointRole, ReferenceFrom, Series, State, Test, Tested, VarianceUsed, days,
@@ -358,7 +359,11 @@ impl Pages<'_> {
     /// A table of displacements.
     fn table(&self, pair: &Pair, chosen: impl Fn(&Displacement) -> bool, html: &mut Html) {
         let (w, unit, d) = (self.w, self.unit.as_str(), decimals(pair));
-        let mut table = Table::new().dense().words("").low("dX", "", unit).low("dY", "", unit).low("dZ", "", unit);
+        let axes = ShownAxes::of(self.found.axes);
+        let mut table = Table::new().dense().words("");
+        for axis in axes.names() {
+            table = table.low(&format!("d{axis}"), "", unit);
+        }
         table = table
             .low("|d|", "", unit)
             .low("σ", "", unit)
@@ -379,7 +384,7 @@ impl Pages<'_> {
                 None => point.id.clone(),
             };
             let mut cells = vec![name];
-            cells.extend(point.difference.map(|x| fixed(x, d)));
+            cells.extend(axes.shown(point.difference).map(|x| fixed(x, d)));
             cells.extend([fixed(point.length, d), maybe(point.length_sigma, d)]);
             cells.push(maybe(point.test.map(|t| t.statistic), 1));
             cells.push(point.test.map_or("–".to_owned(), |t| probability(t.p)));

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::{RULER_MM, Sheets};
+use crate::axes::ShownAxes;
 use crate::exchange::control_csv;
 use crate::project::{Point, Role};
 
@@ -19,7 +20,7 @@ pub fn files(sheets: &Sheets) -> Vec<(String, Vec<u8>)> {
     }
     let field: Vec<Point> = field(sheets);
     if !field.is_empty() {
-        files.push(("control.csv".to_owned(), control_csv::write(&field).into_bytes()));
+        files.push(("control.csv".to_owned(), control_csv::write(&field, ShownAxes::XYZ).into_bytes()));
     }
     files
 }

@@ -58,6 +58,7 @@ mod detect {
 
 /// Files of other programs, read and written.
 mod exchange {
+    mod axes;
     mod foreign;
     mod interchange;
     mod lists;

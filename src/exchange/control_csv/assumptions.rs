@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::columns::Field;
 use super::sigma::SigmaRule;
+use crate::axes::UserAxes;
 use crate::exchange::encoding::Encoding;
 use crate::units::Unit;
 
@@ -239,6 +240,8 @@ pub struct Choices {
     pub decimal: Option<Decimal>,
     /// Order of the horizontal coordinates of a table without heading; null: X before Y.
     pub axes: Option<Axes>,
+    /// Axes of the project that the list is for: the order of a table without heading where `axes` chooses none.
+    pub project_axes: Option<UserAxes>,
     /// Unit of the coordinates of a table whose heading has none.
     pub unit: Option<Unit>,
     /// What each column holds, null: it is left alone; in place of what heading and content say.

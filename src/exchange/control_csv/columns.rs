@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::assumptions::{Axes, Basis};
+use crate::axes::UserAxes;
 use crate::error::Reason;
 use crate::units::Unit;
 
@@ -124,7 +125,7 @@ impl Columns {
 ///
 /// Surveying instruments write point, north, east, height, description as often as point, east, north, height, description: with a
 /// description at the end the order is asked.
-pub(super) fn guessed(rows: &[&[String]], axes: Option<Axes>) -> Result<Columns, Fault> {
+pub(super) fn guessed(rows: &[&[String]], axes: Option<Axes>, project: Option<UserAxes>) -> Result<Columns, Fault> {
     let widest = rows.iter().map(|row| row.len()).max().unwrap_or(0);
     if widest < 4 {
         return Err(Fault { field: "Z", reason: Reason::ControlColumns { columns: widest } });
@@ -173,10 +174,13 @@ pub(super) fn guessed(rows: &[&[String]], axes: Option<Axes>) -> Result<Columns,
             .clone()
             .any(|k| column(k).next().is_some() && column(k).all(whole) && column(k).any(|word| word != "0"));
     let by = if sigmas == 2 || codes { Basis::Undecided } else { Basis::Convention };
-    let order = match axes {
-        Some(axes) => (axes, Basis::Given),
-        None if description => (Axes::Xy, Basis::Undecided),
-        None => (Axes::Xy, Basis::Convention),
+    let order = match (axes, project) {
+        (Some(axes), _) => (axes, Basis::Given),
+        // Beside coordinates of the project, what is typed or pasted stands as they do.
+        (None, Some(UserAxes::Enh)) => (Axes::Xy, Basis::Convention),
+        (None, Some(UserAxes::Neh)) => (Axes::Yx, Basis::Convention),
+        (None, None) if description => (Axes::Xy, Basis::Undecided),
+        (None, None) => (Axes::Xy, Basis::Convention),
     };
     if order.0 == Axes::Yx {
         fields.swap(first, first + 1);

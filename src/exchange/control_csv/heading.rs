@@ -147,6 +147,17 @@ pub(super) fn units(row: &[String]) -> Vec<Option<Unit>> {
     row.iter().map(|text| Named::of(text).unit).collect()
 }
 
+/// Whether a heading names east and north by themselves, not as X and Y.
+pub(super) fn names_directions(row: &[String]) -> bool {
+    let towards = |k: usize| {
+        row.iter().any(|text| {
+            let letter = plain(Heading::of(text).name).starts_with(['x', 'y']);
+            !letter && Named::of(text).said == Some(Said::Towards(k))
+        })
+    };
+    towards(0) && towards(1)
+}
+
 /// The columns that a heading names: none where the row is no heading.
 ///
 /// # Errors

@@ -1,21 +1,23 @@
 //! Tables of what was measured on the result: features, their residuals, points in the object's own systems.
 
-use super::{Table, value, values};
+use super::{Table, coordinates, value, values};
 use crate::adjustment::{Adjustment, MeasuredFeature, Quantity};
+use crate::axes::ShownAxes;
 use crate::project::Project;
 
 /// Features, residuals and systems, each where there are any.
 pub fn tables(project: &Project, adjustment: &Adjustment) -> Vec<(&'static str, Table)> {
-    let unit = &project.unit;
+    let (unit, axes) = (&project.unit, project.shown_axes());
     let mut tables = Vec::new();
     if !adjustment.features.is_empty() {
-        tables.push(("features", features(unit, &adjustment.features)));
+        tables.push(("features", features(unit, axes, &adjustment.features)));
     }
     if adjustment.features.iter().any(|f| !f.residuals.is_empty()) {
-        tables.push(("feature_residuals", residuals(unit, &adjustment.features)));
+        tables.push(("feature_residuals", residuals(unit, axes, &adjustment.features)));
     }
     if adjustment.systems.iter().any(|s| !s.points.is_empty()) {
-        let heading = ["X", "Y", "Z", "sX", "sY", "sZ"].map(|name| format!("{name} [{unit}]"));
+        // A system of the object's own has no east and no north.
+        let heading = coordinates(ShownAxes::XYZ, unit);
         let mut table = Table::new(["system", "id"].into_iter().chain(heading.iter().map(String::as_str)));
         for system in &adjustment.systems {
             for point in &system.points {
@@ -31,12 +33,16 @@ pub fn tables(project: &Project, adjustment: &Adjustment) -> Vec<(&'static str, 
 }
 
 /// Angles in degrees, as in the table of photos.
-fn features(unit: &str, features: &[MeasuredFeature]) -> Table {
-    let position = ["X", "Y", "Z", "sX", "sY", "sZ"].map(|name| format!("{name} [{unit}]"));
+fn features(unit: &str, axes: ShownAxes, features: &[MeasuredFeature]) -> Table {
+    let position = coordinates(axes, unit);
+    let direction = axes.names().map(|name| format!("d{name}"));
     let form = ["rms", "min", "max"].map(|name| format!("{name} [{unit}]"));
     let heading = ["id", "kind", "points", "quantity", "unit", "value", "sigma"];
     let names = heading.into_iter().chain(position.iter().map(String::as_str));
-    let names = names.chain(["dX", "dY", "dZ", "s_direction [deg]"]).chain(form.iter().map(String::as_str));
+    let names = names
+        .chain(direction.iter().map(String::as_str))
+        .chain(["s_direction [deg]"])
+        .chain(form.iter().map(String::as_str));
     let mut table = Table::new(names.chain(["missing", "fault"]));
     for feature in features {
         let angle = feature.quantity == Some(Quantity::Angle);
@@ -49,9 +55,9 @@ fn features(unit: &str, features: &[MeasuredFeature]) -> Table {
         };
         let mut row = vec![feature.id.clone(), feature.kind.clone(), feature.points.to_string()];
         row.extend([quantity.to_owned(), in_unit.to_owned(), shown(feature.value), shown(feature.sigma)]);
-        row.extend(values(feature.position));
-        row.extend(values(feature.sigma_position));
-        row.extend(values(feature.direction));
+        row.extend(values(feature.position.map(|position| axes.shown(position))));
+        row.extend(values(feature.sigma_position.map(|sigma| axes.shown(sigma))));
+        row.extend(values(feature.direction.map(|direction| axes.shown(direction))));
         row.push(value(feature.sigma_direction.map(f64::to_degrees)));
         row.push(value(feature.rms));
         row.extend(values(feature.range));
@@ -62,14 +68,16 @@ fn features(unit: &str, features: &[MeasuredFeature]) -> Table {
     table
 }
 
-fn residuals(unit: &str, features: &[MeasuredFeature]) -> Table {
-    let names = ["deviation", "sigma", "dX", "dY", "dZ"].map(|name| format!("{name} [{unit}]"));
+fn residuals(unit: &str, axes: ShownAxes, features: &[MeasuredFeature]) -> Table {
+    let differences = axes.names().map(|name| format!("d{name} [{unit}]"));
+    let names = ["deviation", "sigma"].map(|name| format!("{name} [{unit}]")).into_iter().chain(differences);
+    let names: Vec<String> = names.collect();
     let mut table = Table::new(["feature", "point"].into_iter().chain(names.iter().map(String::as_str)));
     for feature in features {
         for residual in &feature.residuals {
             let mut row = vec![feature.id.clone(), residual.point.clone()];
             row.extend([value(Some(residual.value)), value(residual.sigma)]);
-            row.extend(values(residual.difference));
+            row.extend(values(residual.difference.map(|difference| axes.shown(difference))));
             table.rows.push(row);
         }
     }

@@ -2,13 +2,13 @@
 
 use super::{Table, value};
 use crate::adjustment::{Adjustment, Given, GrossErrorAction};
+use crate::axes::ShownAxes;
 use crate::camera::parameter_unit;
 use crate::project::Project;
 
 /// What names a given observation: kind, photo, point, to, camera, component.
-fn names(what: Option<&Given>) -> [String; 6] {
-    let [x, y, z] = ["X", "Y", "Z"];
-    let axis = |axis: usize| [x, y, z].get(axis).copied().unwrap_or_default();
+fn names(axes: ShownAxes, what: Option<&Given>) -> [String; 6] {
+    let axis = |axis: usize| axes.letter(axis);
     let [kind, photo, point, to, camera, component] = match what {
         None => ["image", "", "", "", "", ""],
         Some(Given::Control { point, axis: a }) => ["control", "", point, "", "", axis(*a)],
@@ -51,7 +51,7 @@ pub fn observations(project: &Project, adjustment: &Adjustment) -> Table {
             _ => project.unit.clone(),
         };
         let test = given.reliability.unwrap_or_default();
-        let mut row: Vec<String> = names(Some(&given.what)).into();
+        let mut row: Vec<String> = names(project.shown_axes(), Some(&given.what)).into();
         row.push(unit);
         row.extend(
             [given.residual, Some(given.sigma), given.reliability.map(|r| r.redundancy), test.w, test.mdb].map(value),
@@ -65,7 +65,7 @@ pub fn observations(project: &Project, adjustment: &Adjustment) -> Table {
 }
 
 /// What was taken out, taken back or weighted down, and why.
-pub fn record(adjustment: &Adjustment) -> Table {
+pub fn record(project: &Project, adjustment: &Adjustment) -> Table {
     let mut table = Table::new([
         "round",
         "action",
@@ -86,7 +86,7 @@ pub fn record(adjustment: &Adjustment) -> Table {
             GrossErrorAction::Downweighted => "downweighted",
             GrossErrorAction::Kept => "kept",
         };
-        let mut names = names(entry.given.as_ref());
+        let mut names = names(project.shown_axes(), entry.given.as_ref());
         if entry.given.is_none() {
             (names[1], names[2]) = (entry.photo.clone(), entry.point.clone());
         }

@@ -25,9 +25,11 @@ pub fn plots(context: &Context) -> Vec<Plot> {
     // One scale for both views: the widest or the highest of them decides.
     let scale = [&above, &front].into_iter().filter_map(|axes| scale(context, axes)).reduce(f64::min);
     let Some(scale) = scale else { return Vec::new() };
+    // A view from above has east to the right and north upwards, whatever is named first.
+    let [x, y, z] = [0, 1, 2].map(|axis| context.axes.letter(axis));
     vec![
-        plot(context, "network-above", words.plot_network_above(), above, scale, &["X →  Y ↑"]),
-        plot(context, "network-front", words.plot_network_front(), front, scale, &["X →  Z ↑"]),
+        plot(context, "network-above", words.plot_network_above(), above, scale, &[&format!("{x} →  {y} ↑")]),
+        plot(context, "network-front", words.plot_network_front(), front, scale, &[&format!("{x} →  {z} ↑")]),
     ]
 }
 
@@ -142,9 +144,10 @@ impl View<'_> {
         svg.finish()
     }
 
-    /// The directions of X, Y and Z.
+    /// The directions of the axes.
     fn triad(&self, svg: &mut Svg, origin: [f64; 2]) {
-        for (k, name) in ["X", "Y", "Z"].into_iter().enumerate() {
+        for k in 0..3 {
+            let name = self.context.axes.letter(k);
             let [h, v] = [self.axes.right[k], self.axes.up[k]];
             let at = |length: f64| [origin[0] + length * h, origin[1] - length * v];
             svg.line("edge", origin, at(22.0));

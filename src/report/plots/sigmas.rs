@@ -27,10 +27,10 @@ pub fn plots(context: &Context) -> Vec<Plot> {
     let x = Axis::of(0.5, sigmas.len() as f64 + 0.5, words.points_by_size());
     let mut chart = Chart::new(title, &sentence, x, Axis::of(0.0, 1.05 * top, &format!("σ {}", context.unit)));
     let [left, top, ..] = chart.frame();
-    for (axis, (name, class, line)) in
-        [("X", "dot-a", "a"), ("Y", "dot-b", "b"), ("Z", "dot-z", "strong")].into_iter().enumerate()
-    {
-        let values: Vec<[f64; 2]> = sigmas.iter().enumerate().map(|(k, s)| [k as f64 + 1.0, s[axis]]).collect();
+    let marks = [("dot-a", "a"), ("dot-b", "b"), ("dot-z", "strong")];
+    for (axis, (name, (class, line))) in context.axes.names().into_iter().zip(marks).enumerate() {
+        let of = context.axes.order()[axis];
+        let values: Vec<[f64; 2]> = sigmas.iter().enumerate().map(|(k, s)| [k as f64 + 1.0, s[of]]).collect();
         chart.dots(class, &values, if sigmas.len() > 200 { 2.0 } else { 3.5 });
         chart.svg.label(line, [left + 10.0 + 30.0 * axis as f64, top + 12.0], Anchor::Start, &format!("σ {name}"));
     }

@@ -30,7 +30,7 @@ fn fixed_points(context: &Context, html: &mut Html) {
 fn observed(context: &Context, html: &mut Html) {
     let words = context.words;
     let mut table = table(context);
-    for given in &context.adjustment.given {
+    for given in in_order(context) {
         if matches!(given.what, Given::Control { .. } | Given::Position { .. }) {
             let decimals = decimals_for(given.sigma);
             let taken_out = if given.enabled { String::new() } else { format!(" ({})", words.took_no_part()) };
@@ -42,6 +42,25 @@ fn observed(context: &Context, html: &mut Html) {
     }
     if !table.is_empty() {
         html.h3(words.control_observed()).note(words.adjusted_minus_given()).table(table);
+    }
+}
+
+/// What was given, the coordinates of each point and photo in the order of the user's axes.
+fn in_order<'a>(context: &Context<'a>) -> Vec<&'a GivenObservation> {
+    let mut all: Vec<&GivenObservation> = context.adjustment.given.iter().collect();
+    let place = |axis: usize| context.axes.order().iter().position(|of| *of == axis);
+    for run in all.chunk_by_mut(|a, b| matches!((coordinate(a), coordinate(b)), (Some(a), Some(b)) if a.0 == b.0)) {
+        run.sort_by_key(|given| coordinate(given).and_then(|(_, axis)| place(axis)));
+    }
+    all
+}
+
+/// Of what, and which coordinate.
+fn coordinate(given: &GivenObservation) -> Option<((&str, bool), usize)> {
+    match &given.what {
+        Given::Control { point, axis } => Some(((point, false), *axis)),
+        Given::Position { photo, axis } => Some(((photo, true), *axis)),
+        _ => None,
     }
 }
 
@@ -93,12 +112,12 @@ fn distances(context: &Context, html: &mut Html) {
 fn check_points(context: &Context, html: &mut Html) {
     let (words, unit, a) = (context.words, context.unit, context.adjustment);
     let mut table = Table::new().words(words.point());
-    for axis in ["ΔX", "ΔY", "ΔZ"] {
-        table = table.low(axis, "", unit);
+    for axis in context.axes.names() {
+        table = table.low(&format!("Δ{axis}"), "", unit);
     }
     for check in &a.check_points {
         let mut row = vec![check.id.clone()];
-        row.extend((0..3).map(|k| context.maybe_length(check.difference.map(|d| d[k]))));
+        row.extend((0..3).map(|k| context.maybe_length(check.difference.map(|d| context.axes.shown(d)[k]))));
         table.row(row);
     }
     if table.is_empty() {
@@ -108,7 +127,7 @@ fn check_points(context: &Context, html: &mut Html) {
     if let Some(all) = &a.check_statistics {
         let mut sum = |name: &str, values: [f64; 3]| {
             let mut row = vec![name.to_owned()];
-            row.extend(values.map(|v| context.length(v)));
+            row.extend(context.axes.shown(values).map(|v| context.length(v)));
             table.row_of("sum", row);
         };
         sum(words.mean(), all.mean);

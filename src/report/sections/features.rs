@@ -1,6 +1,7 @@
 //! What was measured on the result: features with their standard errors, and the object's own coordinate systems.
 
 use crate::adjustment::{MeasuredFeature, MeasuredSystem, Quantity};
+use crate::axes::ShownAxes;
 use crate::error::{Error, Reason};
 use crate::project::{CoordinateSystem, End, Feature, FeatureKind, SystemKind};
 use crate::report::context::{Context, listed};
@@ -104,19 +105,19 @@ fn figure(context: &Context, feature: &MeasuredFeature) -> [String; 6] {
 fn places(context: &Context, html: &mut Html) {
     let (words, unit) = (context.words, context.unit);
     let mut table = Table::new().words("");
-    for axis in ["X", "Y", "Z"] {
+    for axis in context.axes.names() {
         table = table.low(axis, "", unit);
     }
-    for axis in ["X", "Y", "Z"] {
+    for axis in context.axes.names() {
         table = table.low("σ", axis, unit);
     }
     table = table.words(words.feature_direction()).low("σ", "", "°").dense();
     for feature in context.adjustment.features.iter().filter(|f| f.error.is_none()) {
         let Some(place) = feature.position else { continue };
         let mut row = vec![feature.id.clone()];
-        row.extend(place.map(|x| context.length(x)));
-        row.extend((0..3).map(|k| context.maybe_length(feature.sigma_position.map(|s| s[k]))));
-        row.push(feature.direction.map_or("–".into(), |d| d.map(|x| fixed(x, 6)).join("  ")));
+        row.extend(context.axes.shown(place).map(|x| context.length(x)));
+        row.extend((0..3).map(|k| context.maybe_length(feature.sigma_position.map(|s| context.axes.shown(s)[k]))));
+        row.push(feature.direction.map_or("–".into(), |d| context.axes.shown(d).map(|x| fixed(x, 6)).join("  ")));
         row.push(feature.sigma_direction.map_or("–".into(), |s| compact(s.to_degrees())));
         table.row(row);
     }
@@ -155,10 +156,11 @@ fn coordinates(context: &Context, html: &mut Html, system: &CoordinateSystem, fo
         html.note(&words.feature_lacks(&system.id, &listed(found.missing.iter().map(String::as_str), LISTED)));
     }
     let mut table = Table::new().words(words.point());
-    for axis in ["X", "Y", "Z"] {
+    // A system of the object's own has no east and no north.
+    for axis in ShownAxes::XYZ.names() {
         table = table.low(axis, "", unit);
     }
-    for axis in ["X", "Y", "Z"] {
+    for axis in ShownAxes::XYZ.names() {
         table = table.low("σ", axis, unit);
     }
     for point in &found.points {

@@ -45,7 +45,7 @@ fn by_rays(context: &Context) -> Table {
 fn weakest(context: &Context) -> Table {
     let (words, unit) = (context.words, context.unit);
     let mut table = Table::new().words(words.point()).number(words.rays());
-    for axis in ["X", "Y", "Z"] {
+    for axis in context.axes.names() {
         table = table.low("σ", axis, unit);
     }
     let largest = |sigma: &[f64; 3]| sigma.iter().copied().fold(0.0, f64::max);
@@ -53,16 +53,16 @@ fn weakest(context: &Context) -> Table {
     points.sort_by(|a, b| largest(&b.1).total_cmp(&largest(&a.1)));
     for (point, sigma) in points.into_iter().take(8) {
         let mut row = vec![point.id.clone(), count(point.rays)];
-        row.extend(sigma.map(|s| context.length(s)));
+        row.extend(context.axes.shown(sigma).map(|s| context.length(s)));
         table.row(row);
     }
     table
 }
 
 /// The axis along which a difference is largest.
-fn main_axis(difference: &[f64; 3]) -> &'static str {
+fn main_axis(context: &Context, difference: &[f64; 3]) -> &'static str {
     let largest = (0..3).max_by(|&a, &b| difference[a].abs().total_cmp(&difference[b].abs()));
-    ["X", "Y", "Z"][largest.unwrap_or_default()]
+    context.axes.letter(largest.unwrap_or_default())
 }
 
 /// A weakness in a sentence.
@@ -109,7 +109,7 @@ pub fn said(context: &Context, advice: &Advice) -> String {
             words.weak_suspected(&count(*n), &listed(names.iter().map(String::as_str), 5))
         }
         Advice::ControlMisfit { point, difference, sigma_ratio } => {
-            let axis = &main_axis(difference);
+            let axis = &main_axis(context, difference);
             let size = context.with_unit(difference[0].hypot(difference[1]).hypot(difference[2]));
             words.control_misfit(point, &size, &fixed(*sigma_ratio, 0), axis)
         }
@@ -138,13 +138,14 @@ pub fn questions(context: &Context) -> Vec<String> {
 
 fn exchange(context: &Context, exchange: Exchange) -> String {
     let words = context.words;
+    let [x, y, z] = [0, 1, 2].map(|axis| context.axes.letter(axis));
     match exchange {
-        Exchange::Xy => words.exchanging(&"X", &"Y"),
-        Exchange::Xz => words.exchanging(&"X", &"Z"),
-        Exchange::Yz => words.exchanging(&"Y", &"Z"),
-        Exchange::X => words.negating(&"X"),
-        Exchange::Y => words.negating(&"Y"),
-        Exchange::Z => words.negating(&"Z"),
+        Exchange::Xy => words.exchanging(&x, &y),
+        Exchange::Xz => words.exchanging(&x, &z),
+        Exchange::Yz => words.exchanging(&y, &z),
+        Exchange::X => words.negating(&x),
+        Exchange::Y => words.negating(&y),
+        Exchange::Z => words.negating(&z),
     }
 }
 

@@ -36,8 +36,8 @@ fn precision(context: &Context) -> Vec<(String, String)> {
     let (words, a) = (context.words, context.adjustment);
     let mut pairs = Vec::new();
     if let Some(precision) = &a.precision {
-        let each = precision.rms_sigma.map(|s| context.length(s)).join(", ");
-        pairs.push((words.rms_sigma_xyz(&context.unit), each));
+        let each = context.axes.shown(precision.rms_sigma).map(|s| context.length(s)).join(", ");
+        pairs.push((words.rms_sigma_xyz(&context.axes.list(), &context.unit), each));
         pairs.push((
             words.largest_dimension(&context.unit),
             fixed(precision.largest_dimension, context.decimals.min(3)),
@@ -47,7 +47,7 @@ fn precision(context: &Context) -> Vec<(String, String)> {
         }
     }
     if let Some((point, axis, sigma)) = context.weakest() {
-        let axis = ["X", "Y", "Z"][axis];
+        let axis = context.axes.letter(axis);
         pairs.push((words.largest_sigma(&point, &axis, &context.unit), fixed(sigma, decimals_for(sigma))));
     }
     pairs.push((words.rms_residual_px().to_owned(), maybe(a.rms_px, 3)));

@@ -123,7 +123,7 @@ fn accuracy(context: &Context, html: &mut Html) {
     let (before, after) = sentence.split_once('\u{1}').unwrap_or((sentence.as_str(), ""));
     html.raw(&format!("<p>{}<b>{}</b>{}</p>\n", escaped(before), escaped(&value), escaped(after)));
     if let Some((point, axis, sigma)) = context.weakest() {
-        html.note(&words.least_certain(&point, &["X", "Y", "Z"][axis], &context.with_unit(k * sigma)));
+        html.note(&words.least_certain(&point, &context.axes.letter(axis), &context.with_unit(k * sigma)));
     }
     html.note(words.within_the_network());
     html.close("div");

@@ -121,7 +121,7 @@ declare! {
     unknowns: "Unknowns";
     datum_constraints: "Datum constraints";
     iterations: "Iterations";
-    rms_sigma_xyz(unit): "RMS σ X, Y, Z ({unit}, 1σ)";
+    rms_sigma_xyz(axes, unit): "RMS σ {axes} ({unit}, 1σ)";
     largest_dimension(unit): "Largest dimension ({unit})";
     largest_sigma(point, axis, unit): "Largest σ, point {point}, {axis} ({unit})";
     rms_residual_px: "RMS of image residuals (px)";

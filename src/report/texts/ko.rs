@@ -118,7 +118,7 @@ translate! { Korean {
     unknowns: "미지수";
     datum_constraints: "기준계 구속";
     iterations: "반복";
-    rms_sigma_xyz(unit): "RMS σ X, Y, Z ({unit}, 1σ)";
+    rms_sigma_xyz(axes, unit): "RMS σ {axes} ({unit}, 1σ)";
     largest_dimension(unit): "최대 치수 ({unit})";
     largest_sigma(point, axis, unit): "최대 σ, 점 {point}, {axis} ({unit})";
     rms_residual_px: "영상 잔차 RMS (px)";

@@ -22,6 +22,7 @@ const ORDERS: [Order; 3] = [
             "error",
             "limits",
             "units",
+            "axes",
             "project",
             "statistics",
             "ring_code",
