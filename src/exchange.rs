@@ -5,6 +5,7 @@
 //! | `sightline` | the document as JSON | `project.json` |
 //! | `package` | a project file (zip) with document, targets, photos | the same, without photos |
 //! | `control-csv` | lists of points: tables (id, X, Y, Z, sigmas), Leica GSI, Sokkia SDR, JobXML, LandXML, ODM ([`lists`]) | `control.csv` |
+//! | `distances` | lists of distances: from, to, length, standard error ([`lists::distances`]) | |
 //! | `mark-points` | image measurements: photo, point, u, v, sigma | `marks.txt` |
 //! | `photomodeler` | a text export of PhotoModeler | |
 //! | `aicon` | a list of target coordinates of AICON | |
@@ -18,9 +19,10 @@
 //! | `dxf-2010`, `landxml` | | `drawing.dxf` in UTF-8 with its unit; `points.xml` |
 //! | `calibration` | | parameters of cameras, standard errors, correlations: `calibration.json`, `calibration.csv` |
 //! | `colmap`, `colmap-binary` | cameras, images, points of COLMAP, text or binary | the same |
-//! | `metashape` | cameras and markers of Agisoft Metashape, XML | `cameras.xml`, `markers.xml` |
+//! | `metashape` | cameras, markers and scale bars of Agisoft Metashape, XML and project files | `cameras.xml`, `markers.xml` |
 //! | `bal`, `bundler` | problems of "Bundle Adjustment in the Large", results of Bundler | `problem.txt`; `bundle.out`, `list.txt` |
 //! | `meshroom` | scenes of AliceVision | `scene.sfm` |
+//! | `nvm`, `opensfm`, `pix4d` | results of VisualSFM, OpenSfM with its tracks, cameras of Pix4D | |
 //! | `vstars` | points of V-STARS | `points.csv` |
 //! | `opencv` | | image and object points of every photo with its camera, `calibration.yml` |
 //!
@@ -60,9 +62,12 @@ mod metashape;
 mod micmac;
 mod mrcal;
 mod network;
+mod nvm;
 mod opencv;
+mod opensfm;
 pub mod package;
 pub mod photomodeler;
+mod pix4d;
 mod ply;
 pub mod results;
 mod ros;
@@ -100,11 +105,12 @@ pub struct Format {
 }
 
 /// The formats.
-pub const FORMATS: [Format; 28] = [
+pub const FORMATS: [Format; 32] = [
     Format { name: "sightline", import: true, export: true },
     Format { name: "package", import: true, export: true },
     Format { name: "control-csv", import: true, export: true },
     Format { name: "mark-points", import: true, export: true },
+    Format { name: "distances", import: true, export: false },
     Format { name: "photomodeler", import: true, export: false },
     Format { name: "aicon", import: true, export: false },
     Format { name: "dbat", import: true, export: false },
@@ -127,6 +133,9 @@ pub const FORMATS: [Format; 28] = [
     Format { name: "bal", import: true, export: true },
     Format { name: "bundler", import: true, export: true },
     Format { name: "meshroom", import: true, export: true },
+    Format { name: "nvm", import: true, export: false },
+    Format { name: "opensfm", import: true, export: false },
+    Format { name: "pix4d", import: true, export: false },
     Format { name: "vstars", import: true, export: true },
     Format { name: "opencv", import: false, export: true },
 ];
@@ -227,6 +236,7 @@ pub fn import_files(format: &str, files: &Files, choices: &Choices) -> Result<Im
     };
     let network = match format {
         "control-csv" => return control_tables(files, &choices.tables),
+        "distances" => return lists::distances::import(files, &choices.tables),
         "vstars" => {
             let mut notes = foreign::Notes::default();
             let (name, bytes) = only(files)?;
@@ -241,6 +251,9 @@ pub fn import_files(format: &str, files: &Files, choices: &Choices) -> Result<Im
         "metashape" => metashape::read(files),
         "bal" => one_text(files, bal::read),
         "bundler" => bundler::read(files),
+        "nvm" => one_text(files, nvm::read),
+        "opensfm" => opensfm::read(files),
+        "pix4d" => one_text(files, pix4d::read),
         "meshroom" => one_text(files, |text| {
             let tree = tree::json(text)?;
             meshroom::read(&tree::Node::root(&tree))
@@ -261,12 +274,12 @@ pub fn recognised(files: &Files) -> Option<&'static str> {
     }
     let of = |bytes: &Vec<u8>| {
         if bytes.starts_with(b"PK\x03\x04") {
-            return Some("package");
+            return Some(if metashape::archive::recognises(bytes) { "metashape" } else { "package" });
         }
         let text = encoding::text(bytes).ok()?;
         let start = text.trim_start();
-        if bundler::recognises(&text) {
-            return Some("bundler");
+        if let Some(format) = by_its_head(&text) {
+            return Some(format);
         }
         if start.starts_with('<') {
             let root = dbat::element::parse(&text).ok()?;
@@ -284,12 +297,26 @@ pub fn recognised(files: &Files) -> Option<&'static str> {
             let own = root.get("format").is_some_and(|format| format.value == "sightline");
             return own.then_some("sightline");
         }
+        if start.starts_with('[') {
+            let tree = tree::json(&text).ok()?;
+            return opensfm::recognises(&tree::Node::root(&tree)).then_some("opensfm");
+        }
         if start.starts_with("Bundle Soln") {
             return Some("photomodeler");
         }
         bal::recognises(&text).then_some("bal")
     };
     files.values().find_map(of)
+}
+
+/// Formats that begin with words of their own.
+fn by_its_head(text: &str) -> Option<&'static str> {
+    match () {
+        () if bundler::recognises(text) => Some("bundler"),
+        () if nvm::recognises(text) => Some("nvm"),
+        () if pix4d::recognises(text) => Some("pix4d"),
+        () => None,
+    }
 }
 
 /// Points of control tables, in the unit of the first one that names its unit.

@@ -45,6 +45,8 @@ const CAMERAS: [(&str, &str); 8] = [
     ("micmac", "a.xml"),
     ("auto", "a"),
 ];
+/// More formats that are read, after those of cameras: seeds keep their first byte.
+const LATER: [(&str, &str); 3] = [("nvm", "a.nvm"), ("opensfm", "a.json"), ("pix4d", "a.txt")];
 const WRITTEN: [&str; 21] = [
     "sightline", "package", "control-csv", "mark-points", "csv", "tsv", "dxf", "ply", "gltf", "colmap", "colmap-binary", "metashape", "bal", "bundler",
     "meshroom", "vstars", "spreadsheet", "spreadsheet-cp949", "calibration", "dxf-2010", "landxml",
@@ -132,12 +134,13 @@ fn camera(format: &str, files: &Files) {
 
 fuzz_target!(|data: &[u8]| {
     let Some((choice, rest)) = data.split_first() else { return };
-    let choice = usize::from(choice.wrapping_sub(b'0')) % (READ.len() + CAMERAS.len());
-    if let Some((format, name)) = choice.checked_sub(READ.len()).map(|choice| CAMERAS[choice]) {
+    let choice = usize::from(choice.wrapping_sub(b'0')) % (READ.len() + CAMERAS.len() + LATER.len());
+    let later = choice.checked_sub(READ.len() + CAMERAS.len()).map(|choice| LATER[choice]);
+    if let Some((format, name)) = choice.checked_sub(READ.len()).and_then(|choice| CAMERAS.get(choice)).copied() {
         camera(format, &Files::from([(name.to_owned(), rest.to_vec())]));
         return;
     }
-    let (format, name) = READ[choice];
+    let (format, name) = later.unwrap_or_else(|| READ[choice]);
     let files = if format == "package" { Files::from([(name.to_owned(), rest.to_vec())]) } else { job(name, rest) };
     if let Ok(project) = import(format, &files) {
         for format in WRITTEN {

@@ -42,7 +42,8 @@ impl<'a> Words<'a> {
         }
     }
 
-    fn word(&mut self, expected: &str) -> Result<&'a str> {
+    /// A word.
+    pub fn word(&mut self, expected: &str) -> Result<&'a str> {
         match self.words.next() {
             Some((line, word)) => {
                 self.line = line;
@@ -55,7 +56,8 @@ impl<'a> Words<'a> {
         }
     }
 
-    fn wrong(&self, expected: &str, found: &str) -> Error {
+    /// An error at the word that was read last.
+    pub fn wrong(&self, expected: &str, found: &str) -> Error {
         let reason = Reason::ExpectedHere { expected: expected.into(), found: shortened(found) };
         Error::Invalid { reason, at: Place::line(self.line) }
     }
@@ -79,6 +81,18 @@ impl<'a> Words<'a> {
     pub fn whole(&mut self, expected: &str, below: usize) -> Result<usize> {
         let word = self.word(expected)?;
         word.parse().ok().filter(|number| *number < below).ok_or_else(|| self.wrong(expected, word))
+    }
+
+    /// The next word, where there is one.
+    pub fn next_word(&mut self) -> Option<&'a str> {
+        let (line, word) = self.words.next()?;
+        self.line = line;
+        Some(word)
+    }
+
+    /// All words that are left.
+    pub fn rest(self) -> Vec<&'a str> {
+        self.words.map(|(_, word)| word).collect()
     }
 
     /// What is left.

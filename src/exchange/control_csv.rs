@@ -23,6 +23,7 @@ use std::fmt::Write;
 pub use assumptions::{Assumption, Axes, Basis, Beside, Choices, Decimal, ListFormat, Separator};
 pub use columns::Field;
 use columns::{Columns, Fault};
+pub(super) use decimals::decide as decide_decimals;
 pub use decimals::{Sign, readings as decimal_readings, sign_of, without_thousands};
 use separators::{separates_both_ways, separator_of, table};
 pub use sigma::SigmaRule;
@@ -111,10 +112,12 @@ impl ControlTable {
 
     /// The axes of whoever wrote the list, where it says them: north first by its heading or a choice, or east and north by their letters.
     pub fn user_axes(&self) -> Option<UserAxes> {
+        let [named, by_themselves] = heading::directions(&self.heading);
         self.assumptions.iter().find_map(|assumption| match assumption {
             Assumption::AxisOrder { by: Basis::Undecided, .. } => None,
+            Assumption::AxisOrder { order: Axes::Yx, by: Basis::Heading } => named.then_some(UserAxes::Neh),
             Assumption::AxisOrder { order: Axes::Yx, .. } => Some(UserAxes::Neh),
-            Assumption::AxisOrder { .. } => heading::names_directions(&self.heading).then_some(UserAxes::Enh),
+            Assumption::AxisOrder { .. } => by_themselves.then_some(UserAxes::Enh),
             _ => None,
         })
     }

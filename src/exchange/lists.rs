@@ -4,6 +4,7 @@
 //! What was understood, assumed, rejected and left aside is in the result; what nothing decides is marked [`Basis::Undecided`] and asked,
 //! never guessed. Every choice can be made by the caller ([`Choices`]).
 
+pub mod distances;
 mod gsi;
 mod job_xml;
 mod land_xml;

@@ -1,16 +1,19 @@
-//! Projects of Agisoft Metashape: "Export cameras" and "Export markers" as XML, one or both of a project.
+//! Projects of Agisoft Metashape: "Export cameras" and "Export markers" as XML, one or both of a project, and project files ([`archive`]).
 //!
 //! | convention | here |
 //! | --- | --- |
 //! | pixel origin, lens | as [`agisoft_lens`](super::agisoft_lens) |
 //! | axes | camera: x right, y down, z forwards |
 //! | rotation | `transform` of a camera takes camera coordinates to the chunk, that of its component or chunk takes these to the object: X = s R x + T |
+//! | scale bars | between two markers: `reference` with the length `d` in the unit of the system and its accuracy `sd`, else that of the settings; disabled ones are compared only |
 //! | markers | pixels in our frame; `pinned` ones are measured, others predicted; reference coordinates are control where enabled, else check |
 //!
 //! Source: Agisoft Metashape User Manual and Python Reference (Camera.transform, Chunk.transform, Marker.Projection). With a local reference system
 //! the object system is that of the reference coordinates. A geographic or projected one is another system than that of the
 //! cameras, which is geocentric then: cameras and measurements are read and the reference coordinates are not. Tie points are in no file of
-//! this export. Scale bars, regions and reference coordinates of cameras are counted.
+//! this export. Regions and reference coordinates of cameras are counted.
+
+pub mod archive;
 
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -24,7 +27,7 @@ use super::lens::Lens;
 use super::network::{self, ForeignNetwork, Models, OutgoingNetwork};
 use super::{Files, encoding};
 use crate::error::{Error, Place, Reason, Result, Thing};
-use crate::project::{Camera, Interior, Photo, Point, Project, Role, Sigma};
+use crate::project::{Camera, Distance, Interior, Photo, Point, Project, Role, Sigma};
 
 /// Whether a document is of this format.
 pub fn recognises(root: &Element) -> bool {
@@ -74,14 +77,19 @@ fn listed<'a>(chunk: &'a Element, list: &str, name: &'a str) -> Vec<&'a Element>
 pub fn read(files: &Files) -> Result<ForeignNetwork> {
     let mut documents = Vec::new();
     for (name, bytes) in files {
-        let root = encoding::text(bytes).and_then(|text| element::parse(&text)).map_err(|error| error.in_file(name))?;
-        if !recognises(&root) {
+        let root = match archive::recognises(bytes) {
+            true => archive::document(bytes),
+            false => encoding::text(bytes).and_then(|text| element::parse(&text)),
+        };
+        let root = archive::levelled(root.map_err(|error| error.in_file(name))?);
+        if !(recognises(&root) || archive::recognises(bytes)) {
             return Err(wrong("document", "a document with a chunk of cameras or markers", &root.name).in_file(name));
         }
         documents.push((name, root));
     }
     // The file with sensors is the one of the cameras; names of the others are looked up by labels.
     documents.sort_by_key(|(_, root)| root.child("chunk").is_some_and(|chunk| chunk.child("sensors").is_none()));
+    join_frames(&mut documents);
     let mut reader = Reader::default();
     for (name, root) in &documents {
         let chunks = root.children("chunk").count();
@@ -94,6 +102,29 @@ pub fn read(files: &Files) -> Result<ForeignNetwork> {
         network.notes.assume(Assumed::SigmaOnePixel);
     }
     Ok(reader.network)
+}
+
+/// Puts frames that came as files of their own into the chunk that they are of, where there is one chunk: they name photos and points by its
+/// numbers.
+fn join_frames(documents: &mut Vec<(&String, Element)>) {
+    let alone = |root: &Element| {
+        root.child("chunk").is_some_and(|chunk| chunk.children.iter().all(|child| child.name == "frames"))
+    };
+    let (frames, mut whole): (Vec<_>, Vec<_>) =
+        std::mem::take(documents).into_iter().partition(|(_, root)| alone(root));
+    if let [(_, root)] = &mut whole[..]
+        && let Some(chunk) = root.children.iter_mut().find(|child| child.name == "chunk")
+    {
+        let content = frames.into_iter().flat_map(|(_, root)| root.children).flat_map(|chunk| chunk.children);
+        let content: Vec<Element> = content.flat_map(|list| list.children).collect();
+        if !content.is_empty() {
+            chunk.children.retain(|child| child.name != "frames");
+            chunk.children.push(Element { name: "frames".into(), children: content, ..Element::default() });
+        }
+    } else {
+        whole.extend(frames);
+    }
+    *documents = whole;
 }
 
 #[derive(Default)]
@@ -122,8 +153,7 @@ impl Reader {
         let of_camera = self.cameras(chunk)?;
         let of_marker = self.markers(chunk, local)?;
         self.projections(chunk, &of_camera, &of_marker)?;
-        let listed_in = |name: &str, child: &str| listed(chunk, name, child).len();
-        self.network.notes.ignore("scalebars", listed_in("scalebars", "scalebar"));
+        self.scale_bars(chunk, &of_marker)?;
         for child in &chunk.children {
             let read = [
                 "sensors",
@@ -259,6 +289,43 @@ impl Reader {
             point.role = if holds(reference, "enabled") { Role::Control } else { Role::Check };
         }
         Ok(ids)
+    }
+
+    fn scale_bars(&mut self, chunk: &Element, of_marker: &HashMap<String, String>) -> Result<()> {
+        let settings = chunk.child("settings").into_iter().flat_map(|settings| settings.children("property"));
+        let usual = settings.filter(|p| p.attribute("name") == Some("accuracy_scalebars"));
+        let usual = usual.filter_map(|p| p.attribute("value")).next();
+        let usual = usual.map(|text| number("accuracy_scalebars", text)).transpose()?.filter(|sigma| *sigma > 0.0);
+        for bar in listed(chunk, "scalebars", "scalebar") {
+            let ends: Vec<&str> = bar.children("endpoint").filter_map(|end| end.attribute("marker_id")).collect();
+            let [from, to] = ends[..] else {
+                self.network.notes.ignore("scale bars that end at a camera", 1);
+                continue;
+            };
+            let marker = |id: &str| {
+                let unknown =
+                    || Error::Unknown { kind: Thing::Point, name: id.into(), at: Place::field("scalebar.endpoint") };
+                of_marker.get(id).cloned().ok_or_else(unknown)
+            };
+            let (from, to) = (marker(from)?, marker(to)?);
+            let Some(reference) = bar.child("reference").filter(|reference| reference.attribute("d").is_some()) else {
+                self.network.notes.ignore("scale bars without a length", 1);
+                continue;
+            };
+            let in_bar = |error| in_point(error, &from);
+            let length = need(reference, "d").and_then(|text| number("d", text)).map_err(in_bar)?;
+            let own = reference.attribute("sd").map(|text| number("sd", text)).transpose().map_err(in_bar)?;
+            let Some(sigma) = own.filter(|sigma| *sigma > 0.0).or(usual) else {
+                self.network.notes.ignore("scale bars without an accuracy", 1);
+                continue;
+            };
+            if !(length > 0.0) {
+                return Err(in_bar(wrong("d", "a length above 0", &length.to_string())));
+            }
+            let check = !holds(reference, "enabled");
+            self.network.distances.push(Distance { from, to, length, sigma, check });
+        }
+        Ok(())
     }
 
     fn projections(
@@ -450,6 +517,21 @@ fn markers(project: &Project, network: &OutgoingNetwork, label: &str, reference:
         text += "          </marker>\n";
     }
     text += "        </markers>\n      </frame>\n    </frames>\n";
+    let numbers: HashMap<&str, usize> = network.points.iter().enumerate().map(|(k, p)| (p.id.as_str(), k)).collect();
+    let bars =
+        project.distances.iter().filter_map(|d| Some((d, numbers.get(d.from.as_str())?, numbers.get(d.to.as_str())?)));
+    let _ = writeln!(text, "    <scalebars next_id=\"{}\" next_group_id=\"0\">", project.distances.len());
+    for (k, (distance, from, to)) in bars.enumerate() {
+        let (label, length, sigma) =
+            (escaped(&format!("{}_{}", distance.from, distance.to)), distance.length, distance.sigma);
+        let _ = writeln!(
+            text,
+            "      <scalebar id=\"{k}\" label=\"{label}\">\n        <endpoint marker_id=\"{from}\"/>\n        <endpoint marker_id=\"{to}\"/>\n        \
+             <reference d=\"{length:?}\" sd=\"{sigma:?}\" enabled=\"{}\"/>\n      </scalebar>",
+            !distance.check
+        );
+    }
+    text += "    </scalebars>\n";
     text += reference;
     text += "  </chunk>\n</document>\n";
     text

@@ -1,11 +1,11 @@
 //! Sorts files dropped together by content: networks and cameras of other programs, and the rest.
 //!
 //! A model of COLMAP, a project of DBAT and the exports of Metashape are several files; every other format is one file, Bundler's with a list
-//! of pictures beside it. Only binary files of COLMAP are told by their names alone: nothing marks their content. A file that is no picture,
+//! of pictures, OpenSfM's with its tracks beside it. Only binary files of COLMAP are told by their names alone: nothing marks their content. A file that is no picture,
 //! no table and no project, and that cannot be read as what it begins like, is refused with the line.
 
 use super::{
-    Files, agisoft_lens, bal, bundler, cameras, colmap, comparator, dbat, encoding, lists, meshroom, metashape, tree,
+    Files, agisoft_lens, bal, cameras, colmap, comparator, dbat, encoding, lists, meshroom, metashape, opensfm, tree,
 };
 use crate::error::{Error, Place, Reason};
 
@@ -32,7 +32,7 @@ pub struct Sorted {
 }
 
 /// Endings of other programs' files that nothing else has: what is not recognised there is refused, not tried as a picture.
-const ENDINGS: [&str; 9] = ["xml", "yml", "yaml", "sfm", "out", "bin", "cameramodel", "psz", "psx"];
+const ENDINGS: [&str; 10] = ["xml", "yml", "yaml", "sfm", "out", "bin", "cameramodel", "psz", "psx", "nvm"];
 
 fn ending(name: &str) -> String {
     name.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase()
@@ -46,10 +46,17 @@ fn is_own(bytes: &[u8]) -> bool {
 
 /// The format of one file with a network.
 fn network_of(bytes: &[u8]) -> Option<&'static str> {
+    if metashape::archive::recognises(bytes) {
+        return Some("metashape");
+    }
     let text = encoding::text(bytes).ok()?;
     let start = text.trim_start();
-    if bundler::recognises(&text) {
-        return Some("bundler");
+    if let Some(format) = super::by_its_head(&text) {
+        return Some(format);
+    }
+    if start.starts_with('[') {
+        let tree = tree::json(&text).ok()?;
+        return opensfm::recognises(&tree::Node::root(&tree)).then_some("opensfm");
     }
     if start.starts_with('<') {
         let root = dbat::element::parse(&text).ok()?;
@@ -146,6 +153,12 @@ pub fn sorted(files: Files) -> Sorted {
         let taken: Files = match group.format {
             // It names the tables that belong to it.
             "dbat" => std::mem::take(&mut left),
+            "opensfm" => {
+                let tracks = |bytes: &[u8]| encoding::text(bytes).is_ok_and(|text| opensfm::recognises_tracks(&text));
+                let (tracks, others) = left.into_iter().partition(|(_, bytes)| tracks(bytes));
+                left = others;
+                tracks
+            }
             "bundler" => {
                 let (lists, others) = left.into_iter().partition(|(_, bytes)| lists_pictures(bytes));
                 left = others;

@@ -25,6 +25,8 @@ pub enum Assumed {
     FourCoefficientsRadialTangential,
     /// The unit of length is not in the file: the document's is a name without meaning.
     UnitUnknown,
+    /// The file does not say where in the upper left pixel the origin lies: in the corner of the picture.
+    PixelOriginCorner,
     /// Coordinates of the camera are those of the chunk's own system: the reference system is geographic or a map projection.
     SystemOfChunk,
 }

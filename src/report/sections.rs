@@ -10,6 +10,7 @@ mod left_out;
 mod lengths;
 mod network;
 mod observations;
+mod origin;
 mod patterns;
 mod photos;
 mod points;

@@ -147,15 +147,13 @@ pub(super) fn units(row: &[String]) -> Vec<Option<Unit>> {
     row.iter().map(|text| Named::of(text).unit).collect()
 }
 
-/// Whether a heading names east and north by themselves, not as X and Y.
-pub(super) fn names_directions(row: &[String]) -> bool {
-    let towards = |k: usize| {
-        row.iter().any(|text| {
-            let letter = plain(Heading::of(text).name).starts_with(['x', 'y']);
-            !letter && Named::of(text).said == Some(Said::Towards(k))
-        })
-    };
-    towards(0) && towards(1)
+/// Whether a heading names a direction, east or north, and whether it does so without the letters X and Y. "Y, X" names none: whose Y points
+/// north is a custom of countries.
+pub(super) fn directions(row: &[String]) -> [bool; 2] {
+    let lettered = |text: &String| plain(Heading::of(text).name).starts_with(['x', 'y']);
+    let named: Vec<&String> =
+        row.iter().filter(|text| matches!(Named::of(text).said, Some(Said::Towards(_)))).collect();
+    [!named.is_empty(), !named.is_empty() && !named.iter().any(|text| lettered(text))]
 }
 
 /// The columns that a heading names: none where the row is no heading.

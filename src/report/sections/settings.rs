@@ -11,6 +11,7 @@ pub fn write(context: &Context, html: &mut Html) {
     let words = context.words;
     html.h3(words.options()).pairs(&options(context));
     html.h3(words.estimated_parameters()).table(parameters(context));
+    super::origin::write(context, html);
     html.h3(words.inputs()).p(words.inputs_explained());
     html.open("div", "digest");
     let mut table = Table::new().words(words.input()).words("SHA-256");

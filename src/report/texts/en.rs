@@ -89,6 +89,20 @@ declare! {
     out_photo_disabled: "its photo is disabled in the document";
     out_not_measured: "not measured in a photo that took part";
 
+    // Files of another program
+    origin_title: "Files of another program";
+    origin_read(program, files): "The project was read from files of {program}: {files}.";
+    origin_conversion(camera, from, to, max, rms): "Camera {camera} was converted from the model {from} to {to}: what this leaves is {max} px at most, {rms} px root mean square.";
+    origin_warning: "This is more than 0.05 px; the residuals contain it.";
+    origin_sigma: "The files give no standard errors of image measurements: 1 px each.";
+    origin_size_principal_point: "The file gives no image size: twice the principal point.";
+    origin_size_measurements: "The file gives no image size: the smallest one around all measurements, with their origin at its centre.";
+    origin_four: "Four distortion coefficients were read as k1, k2, p1, p2.";
+    origin_unit: "The files give no unit of length.";
+    origin_corner: "The file does not say where in the upper left pixel its origin lies: the corner of the picture was taken.";
+    origin_chunk: "Coordinates of the file are in the chunk's own system, because the reference system is geographic or a map projection.";
+    origin_ignored(count): "{count} {count:item|items} of the files {count:has|have} no place in the project and {count:was|were} not kept.";
+
     // Uncertainty
     gum_statement(u, k, expanded, percent): "The combined standard uncertainty of a coordinate is u = {u} (root mean square over all points and axes). The expanded uncertainty is U = k u = ± {expanded} with the coverage factor k = {k}, for a level of confidence of about {percent} % under a normal distribution. Stated according to the Guide to the Expression of Uncertainty in Measurement (JCGM 100:2008, 7.2).";
     gum_included: "Included";

@@ -86,6 +86,20 @@ translate! { Korean {
     out_photo_disabled: "사진이 문서에서 사용 안 함으로 되어 있음";
     out_not_measured: "사용한 사진에서 측정되지 않음";
 
+    // 다른 프로그램의 파일
+    origin_title: "다른 프로그램의 파일";
+    origin_read(program, files): "{program} 파일에서 읽은 프로젝트입니다: {files}.";
+    origin_conversion(camera, from, to, max, rms): "카메라 {camera}: {from} 모형을 {to} 모형으로 변환했으며, 남은 차이는 최대 {max} px, RMS {rms} px입니다.";
+    origin_warning: "0.05 px보다 큰 차이이며 잔차에 포함됩니다.";
+    origin_sigma: "파일에 영상 관측값의 표준오차가 없어 모두 1 px로 두었습니다.";
+    origin_size_principal_point: "파일에 영상 크기가 없어 주점 좌표의 두 배로 두었습니다.";
+    origin_size_measurements: "파일에 영상 크기가 없어 모든 관측값을 담는 가장 작은 크기로 두고, 관측값의 원점을 그 중심으로 했습니다.";
+    origin_four: "왜곡계수 4개를 k1, k2, p1, p2로 읽었습니다.";
+    origin_unit: "파일에 길이 단위가 없습니다.";
+    origin_corner: "파일에 왼쪽 위 화소의 어디가 원점인지 적혀 있지 않아 사진의 모서리로 보았습니다.";
+    origin_chunk: "기준 좌표계가 지리 좌표계나 지도 투영 좌표계이므로 파일의 좌표는 청크 자체의 좌표계입니다.";
+    origin_ignored(count): "파일의 항목 {count}개는 프로젝트에 담을 곳이 없어 남기지 않았습니다.";
+
     // Uncertainty
     gum_statement(u, k, expanded, percent): "좌표의 합성표준불확도는 u = {u}입니다(모든 점과 축의 RMS). 확장불확도는 포함인자 k = {k}일 때 U = k u = ± {expanded}이며, 정규분포에서 신뢰수준은 약 {percent} %입니다. 측정불확도 표현 지침(JCGM 100:2008, 7.2)에 따라 적었습니다.";
     gum_included: "포함한 것";

@@ -20,6 +20,7 @@ pub fn assumed_words(assumed: Assumed) -> &'static str {
         Assumed::ImageSizeFromMeasurements => words::assumed_size_measurements(),
         Assumed::FourCoefficientsRadialTangential => words::assumed_four(),
         Assumed::UnitUnknown => words::assumed_unit(),
+        Assumed::PixelOriginCorner => words::assumed_corner(),
         Assumed::SystemOfChunk => words::assumed_chunk(),
     }
 }
@@ -125,6 +126,7 @@ mod tests {
             Assumed::ImageSizeFromMeasurements,
             Assumed::FourCoefficientsRadialTangential,
             Assumed::UnitUnknown,
+            Assumed::PixelOriginCorner,
             Assumed::SystemOfChunk,
         ];
         for language in Language::ALL {

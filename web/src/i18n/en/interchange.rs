@@ -16,6 +16,7 @@ declare! { interchange {
     assumed_size_measurements: "The file gives no image size: the smallest image that contains all measurements is assumed, with their origin at its centre.";
     assumed_four: "Four distortion coefficients are read as k1, k2, p1, p2. For a fisheye lens this camera is wrong.";
     assumed_unit: "The files give no unit of length. The project's unit is only a name until you give a distance or control points in step 4.";
+    assumed_corner: "The file does not say where in the upper left pixel its origin lies: the corner of the picture is taken.";
     assumed_chunk: "Coordinates are in the chunk's own system, because the reference system is geographic or a map projection.";
     counted(name, count): "{name}: {count}";
     conversion(camera, from, to, max, rms): "{camera}: {from} → {to}, at most {max} px, RMS {rms} px.";

@@ -16,6 +16,7 @@ translate! { Korean interchange {
     assumed_size_measurements: "파일에 영상 크기가 없어 모든 관측값을 담는 가장 작은 크기로 두고, 관측값의 원점을 그 중심으로 했습니다.";
     assumed_four: "왜곡계수 4개를 k1, k2, p1, p2로 읽었습니다. 어안 렌즈라면 이 카메라는 맞지 않습니다.";
     assumed_unit: "파일에 길이 단위가 없습니다. 4단계에서 거리나 기준점을 주기 전까지 프로젝트의 단위는 이름일 뿐입니다.";
+    assumed_corner: "파일에 왼쪽 위 화소의 어디가 원점인지 적혀 있지 않아 사진의 모서리로 보았습니다.";
     assumed_chunk: "기준 좌표계가 지리 좌표계나 지도 투영 좌표계이므로 좌표는 청크 자체의 좌표계입니다.";
     counted(name, count): "{name}: {count}";
     conversion(camera, from, to, max, rms): "{camera}: {from} → {to}, 최대 {max} px, RMS {rms} px.";
