@@ -222,6 +222,11 @@ export interface Project {
   version: 1;
   name?: string;
   unit?: string;
+  /**
+   * Letters and order in which coordinates are shown and written for people: "enh" as E, N, H, "neh" as N, E, H; absent or null: X, Y, Z. Triples of the document and
+   * of results stay X (east), Y (north), Z in any case, and so do drawings and files of other programs.
+   */
+  axes?: "enh" | "neh" | null;
   cameras?: Camera[];
   photos?: Photo[];
   points?: Point[];
@@ -1695,6 +1700,8 @@ export interface ListChoices {
   decimal?: "point" | "comma" | null;
   /** Order of the horizontal coordinates of a list without heading; null: X (east) before Y (north). */
   axes?: "xy" | "yx" | null;
+  /** Axes of the project that the list is for: the order of a table without heading where `axes` chooses none. */
+  project_axes?: "enh" | "neh" | null;
   /** Unit of the coordinates of a list whose heading has none. */
   unit?: Unit | null;
   /** Content of each column, null: not used; overrides heading and content. */
@@ -1758,6 +1765,7 @@ export type Assumed =
   | "image_size_from_measurements"
   | "four_coefficients_radial_tangential"
   | "unit_unknown"
+  | "pixel_origin_corner"
   | "system_of_chunk";
 
 export type CameraFormat = "opencv" | "ros" | "kalibr" | "mrcal" | "colmap" | "agisoft-lens" | "micmac";
@@ -1846,7 +1854,7 @@ export interface Imported extends Project {
   ignored?: Ignored[];
 }
 
-export type ImportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "photomodeler" | "aicon" | "dbat" | "comparator" | "auto" | "colmap" | "metashape" | "bal" | "bundler" | "meshroom" | "vstars";
+export type ImportFormat = "sightline" | "package" | "control-csv" | "distances" | "mark-points" | "photomodeler" | "aicon" | "dbat" | "comparator" | "auto" | "colmap" | "metashape" | "bal" | "bundler" | "meshroom" | "nvm" | "opensfm" | "pix4d" | "vstars";
 export type ExportFormat = "sightline" | "package" | "control-csv" | "mark-points" | "report" | "plots" | "csv" | "tsv" | "spreadsheet" | "spreadsheet-cp949" | "calibration" | "dxf" | "dxf-2010" | "landxml" | "ply" | "gltf" | "colmap" | "colmap-binary" | "metashape" | "bal" | "bundler" | "meshroom" | "vstars" | "opencv";
 
 /** A parameter of a fit. */
@@ -2314,6 +2322,8 @@ export interface PhotoDisplacements {
 export interface Monitoring {
   method: "coordinates" | "joint";
   unit: string | null;
+  /** Letters and order of coordinates, as the first project that says them. */
+  axes?: "enh" | "neh";
   epochs: {
     name: string;
     date: string | null;

@@ -20,6 +20,7 @@ pub mod questions;
 pub mod report;
 pub mod rig;
 pub mod sample;
+pub mod scale_bars;
 pub mod sheet;
 pub mod targets;
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Edits of the plan.
 
 use sightline::Error;
+use sightline::axes::ShownAxes;
 use sightline::error::{Place, Thing};
 use sightline::project::{
     Camera, DatumKind, Feature, FeatureKind, Form, Interior, Parameter, Plan, PlanDistance, PlanFace, PlanStation,
@@ -151,9 +152,9 @@ pub fn take_points(project: &mut Project, points: Vec<Point>, mm: f64) {
 }
 
 /// A line a point: identifier and coordinates.
-pub fn listed(plan: &Plan) -> String {
+pub fn listed(plan: &Plan, axes: ShownAxes) -> String {
     let line = |point: &Point| {
-        let [x, y, z] = point.xyz.unwrap_or_default();
+        let [x, y, z] = axes.shown(point.xyz.unwrap_or_default());
         format!("{}, {x}, {y}, {z}\n", point.id)
     };
     plan.points.iter().map(line).collect()

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use serde::{Deserialize, Serialize};
 use sightline::adjustment::{AdjustedObservation, Given, LeftOutItem, LeftOutKind};
+use sightline::axes::ShownAxes;
 use sightline::project::{Project, Role};
 
 use super::natural;
@@ -136,6 +137,16 @@ impl Table {
             Self::Control => &[Id, Role, X, Y, Z, SigmaX, SigmaY, SigmaZ, Rays],
             Self::Identities => &[Photo, Target, Code, Point, U, V, Sigma, Contrast],
         }
+    }
+
+    /// The columns with coordinates in the order of the user.
+    pub fn shown_columns(self, axes: ShownAxes) -> Vec<Col> {
+        let triples = [[Col::X, Col::Y, Col::Z], [Col::SigmaX, Col::SigmaY, Col::SigmaZ]];
+        let shown = |col: &Col| {
+            let place = |triple: &[Col; 3]| Some(axes.shown(*triple)[triple.iter().position(|own| own == col)?]);
+            triples.iter().find_map(place).unwrap_or(*col)
+        };
+        self.columns().iter().map(shown).collect()
     }
 
     /// Columns that together tell the rows apart.
@@ -347,6 +358,11 @@ impl Sheet {
     pub fn is_named(&self, row: usize) -> bool {
         let (photo, target) = self.target(row);
         self.named.contains_key(&(photo.to_owned(), target.id))
+    }
+
+    /// Its columns as they are shown.
+    pub fn columns(&self) -> Vec<Col> {
+        self.table.shown_columns(self.document.project.shown_axes())
     }
 
     pub fn value(&self, row: usize, col: Col) -> Value {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::Error;
+use sightline::axes::{ShownAxes, UserAxes};
 use sightline::error::{Lack, Place};
 use sightline::exchange::control_csv::{Assumption, Basis, Choices, ControlTable, Field, SigmaRule};
 use sightline::exchange::encoding::Encoding;
@@ -42,9 +43,23 @@ pub struct Pasted {
     pub role: Role,
     /// Whether it is read by the choices of an earlier list with this heading.
     pub remembered: bool,
+    /// Axes of the project that it is for, as it was when the list came; none: it has none of its own.
+    pub project_axes: Option<UserAxes>,
+    /// Axes in which the project is shown with these points, where someone has chosen them.
+    pub chosen_axes: Option<Option<UserAxes>>,
 }
 
 impl Pasted {
+    /// Axes in which the project is shown once the list is taken: those chosen, its own, or those of the list.
+    pub fn shown(&self) -> Option<UserAxes> {
+        self.chosen_axes.unwrap_or(self.project_axes.or(self.table.user_axes()))
+    }
+
+    /// The same as letters and order.
+    pub fn shown_axes(&self) -> ShownAxes {
+        ShownAxes::of(self.shown())
+    }
+
     /// What each column holds, as many as the text has.
     pub fn columns(&self) -> Vec<Option<Field>> {
         let count = self.table.sample.iter().map(Vec::len).max().unwrap_or(0).max(self.table.heading.len());
@@ -83,6 +98,7 @@ impl Pasted {
     /// Reads it anew by its choices.
     fn read(&mut self) -> Result<(), Error> {
         let mut choices = self.choices.clone();
+        choices.project_axes = self.project_axes;
         if !self.from_file {
             choices.encoding = Some(Encoding::Utf8);
         }
@@ -141,6 +157,7 @@ impl Desk {
 
     fn read_list(self, mut fresh: Pasted) -> bool {
         fresh.role = Role::Control;
+        fresh.project_axes = self.document.with_untracked(|d| d.project.axes);
         fresh.at = self.step.get_untracked();
         if let Err(error) = fresh.read() {
             self.warn_error(error.in_file(&fresh.source));
@@ -284,6 +301,7 @@ impl Desk {
             Ok(count) => count,
             Err(error) => return self.warn_error(error),
         };
+        after.project_mut().axes = pasted.shown();
         self.change(Change::ControlTaken(count), |document| *document = after);
         self.pasted.set(None);
         self.go(Step::Control);

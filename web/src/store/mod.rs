@@ -2,6 +2,7 @@
 
 pub mod adjusting;
 mod apart;
+mod axes;
 mod calibrating;
 pub mod calls;
 pub mod cameras;
@@ -67,6 +68,7 @@ use crate::browser::picture::Picture;
 use crate::browser::storage::Fault;
 use crate::edit::questions::Question;
 use crate::i18n::text;
+pub use axes::axes_here;
 use control::Pasted;
 use document::{Change, Document};
 use equipment::Equipped;

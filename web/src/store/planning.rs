@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use sightline::Error;
-use sightline::exchange::control_csv;
+use sightline::exchange::control_csv::{self, Choices};
 use sightline::plan::{Criterion, Ended, MakeOptions, Prediction, Suggested};
 use sightline::project::{Plan, PlanStation, Project};
 use sightline::units;
@@ -105,7 +105,8 @@ impl Desk {
     /// Takes a list of points into the plan, or begins one of them. A bad row is told, and then nothing is taken.
     pub fn take_plan_points(self, content: &str) {
         let Some((unit, mm)) = self.unit_to_begin() else { return };
-        let table = control_csv::parse(content);
+        let project_axes = self.document.with_untracked(|d| d.project.axes);
+        let table = control_csv::parse_with(content, Choices { project_axes, ..Choices::default() });
         // A heading's unit is converted to the plan's; without one the coordinates are in the plan's.
         let factor = table.unit.map_or(Ok(1.0), |own| units::factor(own.symbol(), &unit));
         let read = table.into_points().and_then(|points| {

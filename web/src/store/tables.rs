@@ -336,7 +336,7 @@ fn read_cells(
     pasted: &str,
     heading: impl Fn(Col) -> String,
 ) -> (Vec<(Cell, String)>, usize) {
-    let columns = sheet.table.columns();
+    let columns = sheet.columns();
     let lines = exchange::pasted(pasted);
     let Some(first) = lines.first() else { return (Vec::new(), 0) };
     let named = first.fields.iter().map(|name| columns.iter().copied().find(|col| heading(*col) == *name));

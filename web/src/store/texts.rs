@@ -7,12 +7,16 @@ use leptos::prelude::*;
 use leptos::task::spawn_local;
 use sightline::exchange::comparator;
 use sightline::exchange::control_csv::ListFormat;
-use sightline::exchange::{Files, Row, control_csv, encoding, lists, rows};
+use sightline::exchange::lists::{self, distances};
+use sightline::exchange::{Files, Row, control_csv, encoding, rows};
 use sightline::project::Project;
 
+use super::document::Change;
 use super::{Asking, Desk, Problem, Reason, Step, Until};
 use crate::browser::file::NamedFile;
-use crate::i18n::text;
+use crate::edit::control::has_lengths;
+use crate::edit::scale_bars;
+use crate::i18n::{errors, lists as words, text};
 
 /// What a text can be read as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +25,8 @@ pub enum Reading {
     Marks,
     /// Control points: id, X, Y, Z.
     Control,
+    /// Distances: from, to, length.
+    Distances,
 }
 
 /// Share of a text's rows that have to be of a kind: a few bad ones are named when it is read.
@@ -30,6 +36,10 @@ const MOST: f64 = 0.5;
 pub fn readings(text: &str, project: &Project) -> Vec<Reading> {
     if lists::recognised(text) != ListFormat::Table {
         return vec![Reading::Control];
+    }
+    let known = project.points.iter().map(|point| point.id.as_str()).collect();
+    if distances::recognises(text, &known) {
+        return vec![Reading::Distances];
     }
     let rows = rows(text);
     let Some(first) = rows.first() else { return Vec::new() };
@@ -119,6 +129,10 @@ impl Desk {
             let ready = match reading {
                 Reading::Marks => self.read_marks(name.clone(), &content),
                 Reading::Control => self.read_control_file(name.clone(), bytes),
+                Reading::Distances => {
+                    self.take_distances(&name, &content);
+                    false
+                }
             };
             if ready {
                 told.push((name, reading));
@@ -135,11 +149,50 @@ impl Desk {
             self.say(false, Until::NextWork, move || {
                 let words = told.iter().map(|(name, reading)| match reading {
                     Reading::Marks => text::waits_at_identities(name),
-                    Reading::Control => text::waits_at_control(name),
+                    Reading::Control | Reading::Distances => text::waits_at_control(name),
                 });
                 words.collect::<Vec<_>>().join(" ")
             });
         }
+    }
+
+    /// Takes a list of distances, and tells what became of its rows; whether there were any.
+    fn take_distances(self, name: &str, content: &str) -> bool {
+        let list = distances::read(content, &control_csv::Choices::default());
+        let known = self.document.with_untracked(|d| has_lengths(&d.project));
+        let (good, bad): (Vec<_>, Vec<_>) = list.rows.into_iter().partition(Result::is_ok);
+        let mut after = self.document.get_untracked();
+        let good: Vec<_> = good.into_iter().flatten().collect();
+        let first = bad.iter().find_map(|row| row.as_ref().err().cloned());
+        if list.unit.is_none() && !known && !good.is_empty() {
+            let name = name.to_owned();
+            self.warn_here(move || words::distances_unit(&name));
+            return false;
+        }
+        let taken = match scale_bars::take(after.project_mut(), good, list.unit) {
+            Ok(taken) => taken,
+            Err(error) => {
+                self.warn_error(error.in_file(name));
+                return false;
+            }
+        };
+        if taken.taken > 0 {
+            self.change(Change::DistancesTaken(taken.taken), |document| *document = after);
+            self.go(Step::Control);
+        }
+        let (name, rejected) = (name.to_owned(), bad.len());
+        let strangers = taken.strangers.join(", ");
+        self.say(rejected > 0 || !strangers.is_empty(), Until::NextWork, move || {
+            let mut told = vec![words::distances_taken(&name, taken.taken)];
+            if !strangers.is_empty() {
+                told.push(words::distances_strangers(&strangers));
+            }
+            if let Some(error) = &first {
+                told.push(words::distances_rejected(rejected, errors::sentence(error)));
+            }
+            told.join(" ")
+        });
+        taken.taken > 0
     }
 
     /// Asks what a text is that could be marks or control points.
@@ -151,6 +204,7 @@ impl Desk {
                 let ready = match reading {
                     Reading::Marks => self.read_marks(name.clone(), &content),
                     Reading::Control => self.read_control_file(name.clone(), bytes.to_vec()),
+                    Reading::Distances => self.take_distances(&name, &content),
                 };
                 if ready && reading == Reading::Marks {
                     self.go(reading.step());
@@ -174,6 +228,7 @@ impl Desk {
                     let ready = match reading {
                         Reading::Marks => self.read_marks(name, &content),
                         Reading::Control => self.read_control_file(name, bytes),
+                        Reading::Distances => self.take_distances(&name, &content),
                     };
                     if ready {
                         self.go(reading.step());
@@ -205,7 +260,7 @@ impl Reading {
     fn step(self) -> Step {
         match self {
             Self::Marks => Step::Identities,
-            Self::Control => Step::Control,
+            Self::Control | Self::Distances => Step::Control,
         }
     }
 }

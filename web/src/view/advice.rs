@@ -21,7 +21,7 @@ use super::shell::step_label;
 use crate::format;
 use crate::i18n::{systematic as words, text};
 use crate::store::document::Outcome;
-use crate::store::{Desk, Step};
+use crate::store::{Desk, Step, axes_here};
 
 use notes::{is_said, note_item};
 pub use verdict::VerdictLine;
@@ -535,7 +535,7 @@ fn control_misfit(point: &str, difference: &[f64; 3], sigma_ratio: f64, unit: &s
     let largest = (0..3).max_by(|&a, &b| difference[a].abs().total_cmp(&difference[b].abs())).unwrap_or_default();
     let size = difference[0].hypot(difference[1]).hypot(difference[2]);
     (
-        text::control_misfit(point, format!("{} {unit}", format::compact(size)), ["X", "Y", "Z"][largest]),
+        text::control_misfit(point, format!("{} {unit}", format::compact(size)), axes_here().letter(largest)),
         text::control_misfit_body().to_owned(),
         format!("{} σ", format::fixed(sigma_ratio, 0)),
         Target::Step(Step::Control),

@@ -2,7 +2,7 @@
 
 use super::models::name_of as model_words;
 use super::tables::table_words;
-use crate::i18n::{equipment, grids, modelling, mounted, object as words, planning, text};
+use crate::i18n::{equipment, grids, lists, modelling, mounted, object as words, planning, text};
 use crate::store::document::Change;
 
 pub fn change_words(change: &Change) -> String {
@@ -31,6 +31,7 @@ pub fn change_words(change: &Change) -> String {
         Change::DistanceEdited { from, to } => text::change_distance_edited(from, to),
         Change::DistanceAdded { from, to } => text::change_distance_added(from, to),
         Change::DistanceRemoved { from, to } => text::change_distance_removed(from, to),
+        Change::DistancesTaken(n) => lists::change_distances(n),
         Change::DatumChosen => text::change_datum().to_owned(),
         Change::AxesExchanged => text::change_axes().to_owned(),
         Change::ParametersChosen(camera) => text::change_parameters(camera),
@@ -39,6 +40,7 @@ pub fn change_words(change: &Change) -> String {
         Change::DotsNamed(n) => grids::change_dots(n),
         Change::OptionsChosen => text::change_options().to_owned(),
         Change::Adjusted => text::change_adjusted().to_owned(),
+        Change::AxesSet => lists::change_shown_axes().to_owned(),
         Change::UnitSet => text::change_unit().to_owned(),
         Change::UnitConverted => text::change_unit_converted().to_owned(),
         Change::PhotosAttached(n) => text::change_photos_attached(n),

@@ -1,6 +1,7 @@
 //! Step 4: control points, measured distances, unit and datum.
 
 use leptos::prelude::*;
+use sightline::axes::{ShownAxes, UserAxes};
 use sightline::project::{DatumKind, Point, Role};
 
 use super::equipment::BarsOffer;
@@ -12,7 +13,7 @@ use super::shell::TitleBar;
 use crate::browser::{event, file};
 use crate::edit::control::{DistanceFault, Unit};
 use crate::format;
-use crate::i18n::{Text, text, text::role_word};
+use crate::i18n::{Text, lists, text, text::role_word};
 use crate::store::control::distance_fault;
 use crate::store::texts::Reading as TextReading;
 use crate::store::{Desk, Step};
@@ -62,7 +63,7 @@ fn PasteBox() -> impl IntoView {
         <section class="panel">
             <h2 class="section-head"><span><label for="paste">{text::control_points}</label></span><UnitChoice/></h2>
             <div class="fields">
-                <textarea id="paste" rows="2" placeholder=text::paste_control on:input=move |e| {
+                <textarea id="paste" rows="2" placeholder=move || text::paste_control(desk.axes().list(), desk.axes().names().map(|axis| format!("s{axis}")).join(", ")) on:input=move |e| {
                     let typed = event::value(&e);
                     if typed.trim().is_empty() {
                         desk.pasted.set(None);
@@ -75,6 +76,10 @@ fn PasteBox() -> impl IntoView {
     }
 }
 
+/// How coordinates can be shown, by the values of menus.
+pub(super) const AXES_CHOICES: [(&str, Option<UserAxes>); 3] =
+    [("", None), ("enh", Some(UserAxes::Enh)), ("neh", Some(UserAxes::Neh))];
+
 /// The project's unit of length: what every coordinate and length on this page is in.
 #[component]
 fn UnitChoice() -> impl IntoView {
@@ -84,6 +89,17 @@ fn UnitChoice() -> impl IntoView {
         <label class="unit-field"><span>{text::unit_of_length}</span>
             <Field value=unit commit=move |typed: String| desk.set_unit(&typed) attr:class="short" attr:name="unit" attr:list="units"/>
         </label>
+        <label class="unit-field"><span>{lists::shown_axes}</span>
+            <select name="axes" on:change=move |e| {
+                let value = event::value(&e);
+                desk.set_axes(AXES_CHOICES.iter().find(|known| known.0 == value).and_then(|known| known.1));
+            }>
+                {move || AXES_CHOICES.map(|(value, axes)| {
+                    let chosen = desk.document.with(|d| d.project.axes) == axes;
+                    view! { <option value=value selected=chosen>{ShownAxes::of(axes).list()}</option> }
+                }).collect_view()}
+            </select>
+        </label>
         <datalist id="units">{Unit::ALL.map(|unit| view! { <option value=unit.symbol()></option> }).collect_view()}</datalist>
         <Show when=move || unit.with(|unit| Unit::named(unit).is_none())>
             <span class="aside warn" data-unit="unknown" role="alert">{move || text::unit_unknown(unit.get())}</span>
@@ -91,15 +107,15 @@ fn UnitChoice() -> impl IntoView {
     }
 }
 
-pub(super) fn xyz_cells(point: &Point, decimals: usize) -> impl IntoView + use<> {
+pub(super) fn xyz_cells(axes: ShownAxes, point: &Point, decimals: usize) -> impl IntoView + use<> {
     let xyz = point.xyz;
-    (0..3).map(|k| view! { <td>{format::maybe(xyz.map(|x| x[k]), decimals)}</td> }).collect_view()
+    axes.order().map(|k| view! { <td>{format::maybe(xyz.map(|x| x[k]), decimals)}</td> }).collect_view()
 }
 
-pub(super) fn sigma_cells(point: &Point) -> impl IntoView + use<> {
+pub(super) fn sigma_cells(axes: ShownAxes, point: &Point) -> impl IntoView + use<> {
     let sigma = point.sigma.unwrap_or_default();
     let role = point.role;
-    (0..3)
+    axes.order()
         .map(|k| {
             let shown = match sigma[k] {
                 Some(s) if s > 0.0 => format::fixed(s, format::decimals_for(s)),
@@ -112,17 +128,21 @@ pub(super) fn sigma_cells(point: &Point) -> impl IntoView + use<> {
 }
 
 #[component]
-pub(super) fn CoordinateHead(#[prop(optional)] unit: Option<String>) -> impl IntoView {
+pub(super) fn CoordinateHead(
+    #[prop(optional)] unit: Option<String>,
+    #[prop(optional)] axes: Option<ShownAxes>,
+) -> impl IntoView {
     let desk = expect_context::<Desk>();
     // The project's, or that of a list before it is taken.
     let unit = Memo::new(move |_| unit.clone().unwrap_or_else(|| desk.document.with(|d| d.project.unit.clone())));
+    let axes = Memo::new(move |_| axes.unwrap_or_else(|| desk.axes()));
     let coordinate = move |name: &'static str| view! { <th>{name} " " <u>{unit}</u></th> };
     let sigma = move |name: &'static str| view! { <th>"σ"<sub>{name}</sub> " " <u>{unit}</u></th> };
     view! {
         <th class="left">{text::id}</th>
         <th class="left">{text::role}</th>
-        {coordinate("X")}{coordinate("Y")}{coordinate("Z")}
-        {sigma("X")}{sigma("Y")}{sigma("Z")}
+        {move || axes.get().names().map(coordinate).collect_view()}
+        {move || axes.get().names().map(sigma).collect_view()}
         <td class="left wide"></td>
     }
 }
@@ -140,7 +160,10 @@ fn Known() -> impl IntoView {
                 <div class="scroll preview">
                     <table class="table">
                         <thead><tr><CoordinateHead/></tr></thead>
-                        <tbody>{move || points.get().into_iter().map(|point| view! { <KnownRow point/> }).collect_view()}</tbody>
+                        <tbody>{move || {
+                            let axes = desk.axes();
+                            points.get().into_iter().map(|point| view! { <KnownRow point axes/> }).collect_view()
+                        }}</tbody>
                     </table>
                 </div>
             </section>
@@ -149,7 +172,7 @@ fn Known() -> impl IntoView {
 }
 
 #[component]
-fn KnownRow(point: Point) -> impl IntoView {
+fn KnownRow(point: Point, axes: ShownAxes) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let id = StoredValue::new(point.id.clone());
     let role = point.role;
@@ -176,13 +199,13 @@ fn KnownRow(point: Point) -> impl IntoView {
                     }).collect_view()}
                 </select>
             </td>
-            {(0..3).map(|axis| view! { <td>
+            {axes.order().map(|axis| view! { <td>
                 <Field value=coordinate(axis) commit=move |typed: String| desk.set_coordinate(&id.get_value(), axis, &typed)
-                    attr:class="value" attr:inputmode="decimal" attr:aria-label=format!("{} {}", id.get_value(), AXES[axis])/>
+                    attr:class="value" attr:inputmode="decimal" attr:aria-label=format!("{} {}", id.get_value(), axes.letter(axis))/>
             </td> }).collect_view()}
-            {(0..3).map(|axis| view! { <td>
+            {axes.order().map(|axis| view! { <td>
                 <Field value=sigma(axis) commit=move |typed: String| desk.set_control_sigma(&id.get_value(), axis, &typed)
-                    attr:class="value sigma" attr:inputmode="decimal" attr:placeholder=text::fixed attr:aria-label=format!("{} σ {}", id.get_value(), AXES[axis])/>
+                    attr:class="value sigma" attr:inputmode="decimal" attr:placeholder=text::fixed attr:aria-label=format!("{} σ {}", id.get_value(), axes.letter(axis))/>
             </td> }).collect_view()}
             <td class="left wide warn">{move || if seen() { "" } else { text::not_measured() }}</td>
         </tr>
@@ -196,8 +219,6 @@ fn rounded(value: f64, point: &Point) -> f64 {
     let power = 10f64.powi(decimals as i32);
     if value.abs() < 1e8 { (value * power).round() / power } else { value }
 }
-
-const AXES: [&str; 3] = ["X", "Y", "Z"];
 
 /// Projection centres that are observed, as from GNSS or a calibrated rig.
 #[component]
@@ -218,6 +239,7 @@ fn Centres() -> impl IntoView {
         })
     };
     let photo = RwSignal::new(String::new());
+    let shown = Memo::new(move |_| desk.axes());
     let fields: [RwSignal<String>; 6] = std::array::from_fn(|_| RwSignal::new(String::new()));
     let add = move || {
         let typed = fields.map(|field| field.get_untracked());
@@ -225,7 +247,11 @@ fn Centres() -> impl IntoView {
         let chosen =
             Some(photo.get_untracked()).filter(|p| !p.is_empty()).or_else(|| untrack(others).into_iter().next());
         if let Some(chosen) = chosen
-            && desk.observe_position(&chosen, &[x, y, z], &[sx, sy, sz])
+            && desk.observe_position(
+                &chosen,
+                &shown.get_untracked().stored([x, y, z]),
+                &shown.get_untracked().stored([sx, sy, sz]),
+            )
         {
             photo.set(String::new());
             fields.iter().for_each(|field| field.set(String::new()));
@@ -237,7 +263,12 @@ fn Centres() -> impl IntoView {
         let [position, sigma] = numbers;
         desk.observe_position(id, &position, &sigma);
     };
-    let name = |place: usize| if place < 3 { AXES[place].to_owned() } else { format!("σ {}", AXES[place - 3]) };
+    // By their places in the order of the user.
+    let name = move |place: usize| {
+        let letter = shown.get().names()[place % 3];
+        if place < 3 { letter.to_owned() } else { format!("σ {letter}") }
+    };
+    let inside = move |place: usize| shown.get_untracked().order()[place % 3] + place / 3 * 3;
     view! {
         <section class="panel">
             <h2 class="section-head"><span>{text::observed_centres}</span><span class="aside">{text::observed_centres_hint}</span></h2>
@@ -245,7 +276,7 @@ fn Centres() -> impl IntoView {
                 <table class="table centres">
                     <thead><tr>
                         <th class="left">{text::photo}</th>
-                        {(0..6).map(|k| view! { <th>{name(k)} " " <u>{unit}</u></th> }).collect_view()}
+                        {(0..6).map(|k| view! { <th>{move || name(k)} " " <u>{unit}</u></th> }).collect_view()}
                         <td class="wide"></td>
                     </tr></thead>
                     <tbody>
@@ -254,12 +285,13 @@ fn Centres() -> impl IntoView {
                             view! {
                                 <tr>
                                     <td class="left id">{id.get_value()}</td>
-                                    {(0..6).map(|k| {
+                                    {(0..6).map(|place| {
+                                        let k = inside(place);
                                         let value = if k < 3 { Some(position[k]) } else { sigma[k - 3] };
                                         view! { <td>
                                             <Field value=Signal::stored(value.map(format::editable).unwrap_or_default())
                                                 commit=move |typed: String| set(&id.get_value(), position, sigma, k, typed)
-                                                attr:class="value" attr:inputmode="decimal" attr:aria-label=format!("{} {}", id.get_value(), name(k))/>
+                                                attr:class="value" attr:inputmode="decimal" attr:aria-label=format!("{} {}", id.get_value(), name(place))/>
                                         </td> }
                                     }).collect_view()}
                                     <td class="left wide"><button class="icon-button small" aria-label=text::forget_centre
@@ -276,7 +308,7 @@ fn Centres() -> impl IntoView {
                         {move || others().into_iter().map(|id| view! { <option value=id.clone()>{id.clone()}</option> }).collect_view()}
                     </select>
                     {fields.into_iter().enumerate().map(|(k, field)| view! {
-                        <input type="text" autocomplete="off" inputmode="decimal" name=format!("centre-{k}") aria-label=name(k) placeholder=name(k)
+                        <input type="text" autocomplete="off" inputmode="decimal" name=format!("centre-{k}") aria-label=move || name(k) placeholder=move || name(k)
                             prop:value=field on:input=move |e| field.set(event::value(&e))/>
                     }).collect_view()}
                     <button class="button small" type="submit">{text::observe}</button>

@@ -212,18 +212,19 @@ fn PointsTable() -> impl IntoView {
     let sorting = RwSignal::new(None::<Sorting>);
     let columns = Signal::derive(move || {
         let unit = desk.document.with(|d| d.project.unit.clone());
+        let [a, b, c] = desk.axes().names();
         vec![
             Column::words(text::id),
             Column::number(text::rays),
             Column::words(text::role),
-            Column::number(|| "X").unit(unit.clone()),
-            Column::number(|| "Y").unit(unit.clone()),
-            Column::number(|| "Z").unit(unit),
+            Column::axis(|| "", a).unit(unit.clone()),
+            Column::axis(|| "", b).unit(unit.clone()),
+            Column::axis(|| "", c).unit(unit),
             Column::words(text::doubt),
         ]
     });
     let rows = Memo::new(move |_| {
-        let doubts = doubt_words(desk);
+        let (doubts, axes) = (doubt_words(desk), desk.axes());
         let mut rows: Vec<Row> = desk.document.with(|d| {
             let mut rays = HashMap::<&str, (usize, usize)>::new();
             for o in &d.project.observations {
@@ -245,7 +246,7 @@ fn PointsTable() -> impl IntoView {
                     None => String::new(),
                 };
                 let mut cells = vec![Cell::id(&p.id), Cell::count(n), Cell::words(role_word(p.role))];
-                cells.extend((0..3).map(|k| Cell::number(xyz.map(|x| x[k]), 3)));
+                cells.extend(axes.order().map(|k| Cell::number(xyz.map(|x| x[k]), 3)));
                 cells.push(Cell::words(doubt).class("left wide warn"));
                 Row { key: p.id.clone(), cells, off: all > 0 && n == 0 }
             };

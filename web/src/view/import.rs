@@ -1,17 +1,22 @@
 //! A list of points before it is taken: how it was understood, what is asked, which lines are rejected, and what will be in the project. On step
 //! 4 it stands among the other tables, on every other step over what is there.
 
+mod words;
+
 use std::collections::{BTreeMap, HashSet};
 
 use leptos::prelude::*;
+use sightline::axes::ShownAxes;
 use sightline::exchange::control_csv::{
-    Assumption, Axes, Basis, Beside, ControlTable, Decimal, Field as ControlField, ListFormat, Separator,
+    Assumption, Axes, Basis, ControlTable, Decimal, Field as ControlField, Separator,
 };
 use sightline::exchange::encoding::Encoding;
 use sightline::project::{Point, Role};
 use sightline::units::Unit;
 
-use super::control::{CoordinateHead, sigma_cells, xyz_cells};
+use words::{assumption_words, field_word};
+
+use super::control::{AXES_CHOICES, CoordinateHead, sigma_cells, xyz_cells};
 use super::field::Field;
 use super::icon::{Glyph, Icon};
 use crate::browser::{event, page};
@@ -94,7 +99,7 @@ fn Sheet(pasted: Pasted) -> impl IntoView {
                     <h3 class="section-head"><span>{lists::how_read}</span><span class="aside">{lists::how_read_hint}</span></h3>
                     <Ways pasted=pasted.clone() typed_sigma/>
                     {sigma_fault.map(|error| view! { <p class="note bad" role="alert">{move || errors::sentence(&error)}</p> })}
-                    <Reading table=pasted.table.clone()/>
+                    <Reading table=pasted.table.clone() axes=pasted.shown_axes()/>
                     <Columns pasted=pasted.clone()/>
                 </div>
                 <div class="import-part">
@@ -201,6 +206,17 @@ fn Ways(pasted: Pasted, typed_sigma: String) -> impl IntoView {
         };
         view! { <Way name="list-axes" label=lists::axes options choose=Callback::new(choose)/> }
     });
+    let shown = pasted.shown();
+    let options = AXES_CHOICES.map(|(value, axes)| option(value, ShownAxes::of(axes).list(), axes == shown)).to_vec();
+    let choose = move |value: String| {
+        let axes = AXES_CHOICES.iter().find(|known| known.0 == value).and_then(|known| known.1);
+        desk.pasted.update(|pasted| {
+            if let Some(pasted) = pasted {
+                pasted.chosen_axes = Some(axes);
+            }
+        });
+    };
+    let shown = view! { <Way name="list-shown-axes" label=lists::project_axes options choose=Callback::new(choose)/> };
     let sign = table.assumptions.iter().find_map(|a| match a {
         Assumption::DecimalSign { sign, by, .. } if *by == Basis::Content => Some(*sign),
         _ => None,
@@ -318,7 +334,7 @@ fn Ways(pasted: Pasted, typed_sigma: String) -> impl IntoView {
     });
     view! {
         <div class="ways">
-            {role}{axes}{decimal}{separator}{encoding}{sigma_unit}{first_line}
+            {role}{axes}{shown}{decimal}{separator}{encoding}{sigma_unit}{first_line}
             <label class="way"><span>{lists::sigma_of_all}</span>
                 <Field value=Signal::stored(typed_sigma) commit=move |typed: String| desk.set_list_sigma(&typed)
                     attr:name="list-sigma" attr:placeholder="2 mm + 2 ppm"/>
@@ -329,7 +345,7 @@ fn Ways(pasted: Pasted, typed_sigma: String) -> impl IntoView {
 
 /// How a list was read, and what has to be answered before it is taken.
 #[component]
-fn Reading(table: ControlTable) -> impl IntoView {
+fn Reading(table: ControlTable, axes: ShownAxes) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let lines: Vec<usize> = table.rows.iter().flatten().map(|row| row.line).collect();
     let assumptions = table.assumptions;
@@ -340,7 +356,10 @@ fn Reading(table: ControlTable) -> impl IntoView {
                 (Some(first), Some(last)) => lists::understood_points(format::count(lines.len()), first, last),
                 _ => lists::understood_none().to_owned(),
             };
-            std::iter::once(points).chain(assumptions.iter().filter_map(assumption_words)).collect::<Vec<_>>().join(" ")
+            std::iter::once(points)
+                .chain(assumptions.iter().filter_map(|assumption| assumption_words(axes, assumption)))
+                .collect::<Vec<_>>()
+                .join(" ")
         }
     };
     let questions = assumptions
@@ -408,23 +427,6 @@ const FIELDS: [ControlField; 12] = [
     ControlField::Role,
 ];
 
-fn field_word(field: ControlField) -> &'static str {
-    match field {
-        ControlField::Id => lists::column_id(),
-        ControlField::Label => lists::column_label(),
-        ControlField::X => lists::column_x(),
-        ControlField::Y => lists::column_y(),
-        ControlField::Z => lists::column_z(),
-        ControlField::Sx => "σ X",
-        ControlField::Sy => "σ Y",
-        ControlField::Sz => "σ Z",
-        ControlField::Sxy => lists::column_sigma_xy(),
-        ControlField::Sigma => lists::column_sigma(),
-        ControlField::Role => lists::column_role(),
-        ControlField::Diameter => lists::column_diameter(),
-    }
-}
-
 /// The columns as the text has them, each with a menu of what it holds.
 #[component]
 fn Columns(pasted: Pasted) -> impl IntoView {
@@ -434,6 +436,7 @@ fn Columns(pasted: Pasted) -> impl IntoView {
         return ().into_any();
     }
     let heading = pasted.table.heading.clone();
+    let axes = pasted.shown_axes();
     let menu = move |(place, holds): (usize, Option<ControlField>)| {
         let name = heading.get(place).cloned().unwrap_or_default();
         let label = move || lists::column_number(place + 1);
@@ -445,7 +448,7 @@ fn Columns(pasted: Pasted) -> impl IntoView {
                 }>
                     <option value="" selected=holds.is_none()>{lists::column_ignored}</option>
                     {FIELDS.map(|field| view! {
-                        <option value=field.name() selected=holds == Some(field)>{move || field_word(field)}</option>
+                        <option value=field.name() selected=holds == Some(field)>{move || field_word(axes, field)}</option>
                     }).collect_view()}
                 </select>
             </th>
@@ -472,7 +475,7 @@ fn Rows(pasted: Pasted) -> impl IntoView {
     let desk = expect_context::<Desk>();
     let measured: HashSet<String> =
         desk.document.with(|d| d.project.observations.iter().map(|o| o.point.clone()).collect());
-    let (by_column, chosen) = (pasted.has_roles(), pasted.role);
+    let (by_column, chosen, axes) = (pasted.has_roles(), pasted.role, pasted.shown_axes());
     let rows = pasted.table.rows.into_iter().map(|row| match row {
         Ok(row) => {
             let role = match (by_column, row.point.role) {
@@ -487,8 +490,8 @@ fn Rows(pasted: Pasted) -> impl IntoView {
                 <tr class="new">
                     <td class="left id">{point.id.clone()} <span class="quiet">{label}</span></td>
                     <td class="left">{move || role_word(role)}</td>
-                    {xyz_cells(&point, 4)}
-                    {sigma_cells(&point)}
+                    {xyz_cells(axes, &point, 4)}
+                    {sigma_cells(axes, &point)}
                     <td class="left wide" class:warn=!seen>{move || if seen { text::measured() } else { text::not_measured() }}</td>
                 </tr>
             }.into_any()
@@ -500,80 +503,7 @@ fn Rows(pasted: Pasted) -> impl IntoView {
     let unit = pasted.unit.unwrap_or_else(|| "?".to_owned());
     view! {
         <div class="scroll preview" tabindex="0" role="region" aria-label=lists::resulting_points>
-            <table class="table"><thead><tr><CoordinateHead unit/></tr></thead><tbody>{rows}</tbody></table>
+            <table class="table"><thead><tr><CoordinateHead unit axes/></tr></thead><tbody>{rows}</tbody></table>
         </div>
     }
-}
-
-fn format_word(format: ListFormat) -> &'static str {
-    match format {
-        ListFormat::Table => "",
-        ListFormat::LeicaGsi => "Leica GSI",
-        ListFormat::SokkiaSdr => "Sokkia SDR",
-        ListFormat::JobXml => "Trimble JobXML",
-        ListFormat::LandXml => "LandXML",
-        ListFormat::OdmGcp => lists::odm(),
-    }
-}
-
-fn encoding_word(encoding: Encoding) -> &'static str {
-    match encoding {
-        Encoding::Utf8 => "UTF-8",
-        Encoding::Utf16 => "UTF-16",
-        Encoding::Cp949 => "CP949",
-        Encoding::Windows1252 => "Windows-1252",
-    }
-}
-
-/// An assumption as a sentence, where there is something to say.
-fn assumption_words(assumption: &Assumption) -> Option<String> {
-    Some(match assumption {
-        Assumption::Format { format, .. } => lists::read_format(format_word(*format)),
-        Assumption::Encoding { by: Basis::Given, .. } => return None,
-        Assumption::Encoding { encoding, by: Basis::Convention } => {
-            lists::read_encoding_assumed(encoding_word(*encoding))
-        }
-        Assumption::Encoding { encoding, .. } => lists::read_encoding(encoding_word(*encoding)),
-        Assumption::FirstRow { line, .. } => lists::read_from_line(line),
-        Assumption::NamesMade { count } => lists::names_made(format::count(*count)),
-        Assumption::Beside { what, count } => {
-            let count = format::count(*count);
-            match what {
-                Beside::LinesBefore => lists::left_lines(count),
-                Beside::Measurements => lists::left_measurements(count),
-                Beside::ImageMeasurements => lists::left_image_measurements(count),
-                Beside::Deleted => lists::left_deleted(count),
-                Beside::References => lists::left_references(count),
-                Beside::Geographic => lists::left_geographic(count),
-            }
-        }
-        Assumption::Separator { separator, .. } => text::read_separator(match separator {
-            Separator::Comma => text::separator_comma(),
-            Separator::Semicolon => text::separator_semicolon(),
-            Separator::Tab => text::separator_tab(),
-            Separator::Blanks => text::separator_blanks(),
-        }),
-        Assumption::DecimalSign { by: Basis::Undecided | Basis::Convention, .. } => return None,
-        Assumption::DecimalSign { sign: Decimal::Point, .. } => text::read_point().to_owned(),
-        Assumption::DecimalSign { sign: Decimal::Comma, .. } => text::read_comma().to_owned(),
-        Assumption::Columns { columns, by } => {
-            let names =
-                columns.iter().map(|column| column.map_or("–", ControlField::name)).collect::<Vec<_>>().join(", ");
-            match by {
-                Basis::Heading => text::read_columns(names),
-                // The menus say it.
-                Basis::Given => return None,
-                _ => text::read_columns_assumed(names),
-            }
-        }
-        Assumption::AxisOrder { by: Basis::Undecided, .. } => return None,
-        Assumption::AxisOrder { order: Axes::Xy, .. } => lists::read_east_first().to_owned(),
-        Assumption::AxisOrder { order: Axes::Yx, .. } => lists::read_north_first().to_owned(),
-        Assumption::Unit { unit: Some(unit), .. } => lists::in_unit(unit.symbol()),
-        Assumption::CommonSigma { by: Basis::Undecided, .. } => lists::sigma_needs_unit().to_owned(),
-        Assumption::CommonSigma { points, .. } => lists::sigma_given(format::count(*points)),
-        Assumption::Ignored { columns } => text::read_ignored(columns.join(", ")),
-        Assumption::Remarks { headings } => text::read_remarks(headings.join(", ")),
-        Assumption::SigmaColumns { .. } | Assumption::Unit { .. } => return None,
-    })
 }

@@ -206,10 +206,10 @@ fn Hero(explain: Callback<Statistic>) -> impl IntoView {
                 }}</small>
             </div>
             <div><span><Explained explain of=Statistic::RmsResidual name=text::rms_residual/> " " <u>"px"</u></span><b data-result="rms-px">{move || format::maybe(rms(), 3)}</b><small>{text::all_image_coordinates}</small></div>
-            <div><span><Explained explain of=Statistic::RmsSigma name=text::rms_sigma/> " X, Y, Z " <u>{unit}</u></span>
+            <div><span><Explained explain of=Statistic::RmsSigma name=text::rms_sigma/> " " {move || desk.axes().list()} " " <u>{unit}</u></span>
                 <b>{move || precision().map(|p| {
                     let decimals = p.rms_sigma.iter().copied().fold(f64::INFINITY, f64::min);
-                    p.rms_sigma.map(|s| format::fixed(s, format::decimals_for(decimals))).join("\u{2003}")
+                    desk.axes().shown(p.rms_sigma).map(|s| format::fixed(s, format::decimals_for(decimals))).join("\u{2003}")
                 })}</b>
                 <small>{move || text::points_one_sigma(format::count(points()))}</small>
             </div>

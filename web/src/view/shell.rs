@@ -423,9 +423,11 @@ pub fn export_tables(desk: Desk) {
 
 /// Opens the chooser for a project file, or the text files of plates.
 pub fn choose_project(desk: Desk) {
-    file::choose(".sightline,.zip,.json,.csv,.txt,.xml,.yml,.yaml,.sfm,.out,.bin,.cameramodel", true, move |files| {
-        desk.take_dropped(files)
-    });
+    file::choose(
+        ".sightline,.zip,.json,.csv,.txt,.xml,.yml,.yaml,.sfm,.out,.bin,.cameramodel,.nvm,.psz",
+        true,
+        move |files| desk.take_dropped(files),
+    );
 }
 
 /// Opens the chooser for photos.

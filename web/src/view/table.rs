@@ -12,6 +12,8 @@ use sightline::exchange::quoted;
 
 use super::icon::{Glyph, Icon};
 use super::keys;
+use sightline::axes::ShownAxes;
+
 use crate::browser::{event, page};
 use crate::edit::natural;
 use crate::format;
@@ -22,6 +24,8 @@ use crate::store::{Desk, Kind, Marking};
 #[derive(Clone)]
 pub struct Column {
     pub name: fn() -> &'static str,
+    /// The letter of an axis behind the name, as in ΔX.
+    pub axis: &'static str,
     /// The letter set low after the name, as in σ with X.
     pub low: &'static str,
     pub unit: String,
@@ -30,11 +34,22 @@ pub struct Column {
 
 impl Column {
     pub fn number(name: fn() -> &'static str) -> Self {
-        Self { name, low: "", unit: String::new(), left: false }
+        Self { name, axis: "", low: "", unit: String::new(), left: false }
     }
 
     pub fn words(name: fn() -> &'static str) -> Self {
         Self { left: true, ..Self::number(name) }
+    }
+
+    /// A coordinate, or with a sign before its letter what is of one.
+    pub fn axis(sign: fn() -> &'static str, axis: &'static str) -> Self {
+        Self { axis, ..Self::number(sign) }
+    }
+
+    /// Three coordinates and their standard errors in the order of the user.
+    pub fn coordinates(axes: ShownAxes, unit: &str) -> impl Iterator<Item = Self> + use<'_> {
+        let plain = axes.names().map(|axis| Self::axis(|| "", axis).unit(unit));
+        plain.into_iter().chain(axes.names().map(|axis| Self::number(|| "σ").low(axis).unit(unit)))
     }
 
     pub fn low(self, low: &'static str) -> Self {
@@ -332,7 +347,7 @@ pub fn NumberTable(
                                     scope="col"
                                 >
                                     <button on:click=move |_| sort_by(i)>
-                                        {column.name}<sub>{column.low}</sub>" "<u>{column.unit.clone()}</u>
+                                        {column.name}{column.axis}<sub>{column.low}</sub>" "<u>{column.unit.clone()}</u>
                                         {move || by().map(|s| view! {
                                             <i class="direction" aria-hidden="true">{if s.descending { "▼" } else { "▲" }}</i>
                                         })}
@@ -417,7 +432,7 @@ fn TableRow(
 pub fn to_tsv(columns: &[Column], rows: &[Row]) -> String {
     let heading = columns.iter().map(|c| {
         let unit = if c.unit.is_empty() { String::new() } else { format!(" [{}]", c.unit) };
-        format!("{}{}{unit}", (c.name)(), c.low)
+        format!("{}{}{}{unit}", (c.name)(), c.axis, c.low)
     });
     let cells = |row: &Row| row.cells.iter().map(|c| quoted(&c.plain(), '\t').into_owned()).collect::<Vec<_>>();
     let mut lines = vec![heading.collect::<Vec<_>>().join("\t")];

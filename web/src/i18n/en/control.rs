@@ -10,7 +10,7 @@ declare! { control {
         "{control} {control:control point|control points}, {check} check {check:point|points}, {distances} {distances:distance|distances}.";
     open_control: "Open control points…";
     control_points: "Control points";
-    paste_control: "Paste rows here: id, X, Y, Z, sX, sY, sZ";
+    paste_control(axes, sigmas): "Paste rows here: id, {axes}, {sigmas}";
     pasted: "Control points, pasted";
     rows_read(all, bad): "{all} rows read, {bad} not understood";
     take_points(n): "Import {n} {n:point|points}";

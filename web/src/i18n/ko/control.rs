@@ -9,7 +9,7 @@ translate! { Korean control {
     control_sentence(control, check, distances): "기준점 {control}개, 검사점 {check}개, 거리 {distances}개.";
     open_control: "기준점 파일 열기…";
     control_points: "기준점";
-    paste_control: "행을 붙여 넣으십시오: 점번호, X, Y, Z, sX, sY, sZ";
+    paste_control(axes, sigmas): "행을 붙여 넣으십시오: 점번호, {axes}, {sigmas}";
     pasted: "기준점, 붙여넣기";
     rows_read(all, bad): "{all}행 중 {bad}행 해석 불가";
     take_points(n): "{n}점 적용";

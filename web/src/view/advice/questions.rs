@@ -7,19 +7,21 @@ use sightline::adjustment::{
 use super::{Item, Step, Target, listed};
 use crate::format;
 use crate::i18n::text;
+use crate::store::axes_here;
 
 fn item(title: String, body: String, evidence: String, target: Target) -> Item {
     Item { warning: true, title, body, evidence, target }
 }
 
 pub fn exchange_name(exchange: Exchange) -> String {
+    let [x, y, z] = [0, 1, 2].map(|axis| axes_here().letter(axis));
     match exchange {
-        Exchange::Xy => text::exchanging("X", "Y"),
-        Exchange::Xz => text::exchanging("X", "Z"),
-        Exchange::Yz => text::exchanging("Y", "Z"),
-        Exchange::X => text::negating("X"),
-        Exchange::Y => text::negating("Y"),
-        Exchange::Z => text::negating("Z"),
+        Exchange::Xy => text::exchanging(x, y),
+        Exchange::Xz => text::exchanging(x, z),
+        Exchange::Yz => text::exchanging(y, z),
+        Exchange::X => text::negating(x),
+        Exchange::Y => text::negating(y),
+        Exchange::Z => text::negating(z),
     }
 }
 

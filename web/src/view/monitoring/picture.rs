@@ -1,6 +1,7 @@
 //! Displacements as a picture: from above, from the front or from the side, at a stated exaggeration.
 
 use leptos::prelude::*;
+use sightline::axes::ShownAxes;
 use sightline::depiction::round;
 use sightline::monitoring::{Displacement, Pair, PointRole};
 
@@ -178,8 +179,11 @@ fn drawn(desk: Desk) -> Option<impl IntoView> {
     let bar = round(0.16 * WIDTH / scale);
     let small = bar / factor;
     // The axes of the system, as far as they are seen.
-    let axes = [("X", [1.0, 0.0, 0.0]), ("Y", [0.0, 1.0, 0.0]), ("Z", [0.0, 0.0, 1.0])].into_iter().filter_map(
-        |(name, axis)| {
+    let letters = ShownAxes::of(ran.found.axes);
+    let axes = [(0, [1.0, 0.0, 0.0]), (1, [0.0, 1.0, 0.0]), (2, [0.0, 0.0, 1.0])]
+        .map(|(k, axis)| (letters.letter(k), axis))
+        .into_iter()
+        .filter_map(|(name, axis)| {
             let [x, y] = flat(axis).map(|d| 34.0 * d);
             let (from_x, from_y) = (40.0, HEIGHT - 26.0);
             (x.hypot(y) > 5.0).then(|| {
@@ -188,8 +192,7 @@ fn drawn(desk: Desk) -> Option<impl IntoView> {
                     <text class="axis" x=from_x + 1.3 * x y=from_y - 1.3 * y + 4.0 text-anchor="middle">{name}</text>
                 }
             })
-        },
-    );
+        });
     let axes = axes.collect_view();
     let rule = |y: f64, length: f64, words: String| {
         let end = WIDTH - 14.0;

@@ -1,6 +1,7 @@
 //! Displacements as tables: object points, reference points, groups, and what took no part.
 
 use leptos::prelude::*;
+use sightline::axes::ShownAxes;
 use sightline::monitoring::{Displacement, GroupModel, Pair, PointRole, Tested};
 use sightline::report::epochs::decimals;
 
@@ -11,13 +12,15 @@ use crate::i18n::{monitoring as words, text};
 use crate::store::Desk;
 use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 
-fn columns(unit: &str) -> Vec<Column> {
+fn columns(unit: &str, axes: ShownAxes) -> Vec<Column> {
+    let difference = |axis| Column::axis(|| "d", axis).unit(unit.to_owned());
+    let [a, b, c] = axes.names();
     let length = |name: fn() -> &'static str| Column::number(name).unit(unit.to_owned());
     vec![
         Column::words(text::id),
-        length(|| "dX"),
-        length(|| "dY"),
-        length(|| "dZ"),
+        difference(a),
+        difference(b),
+        difference(c),
         length(words::length),
         length(|| "σ"),
         Column::number(|| "T"),
@@ -27,12 +30,12 @@ fn columns(unit: &str) -> Vec<Column> {
     ]
 }
 
-fn row(point: &Displacement, decimals: usize, judgement: &'static str, class: &'static str) -> Row {
+fn row(axes: ShownAxes, point: &Displacement, decimals: usize, judgement: &'static str, class: &'static str) -> Row {
     let mut cells = vec![Cell::id(&point.id)];
     if let Some(later) = &point.later_id {
         cells[0] = Cell::words(format!("{} ({})", point.id, words::later_name(later))).class("left id");
     }
-    cells.extend(point.difference.map(|d| Cell::number(Some(d), decimals)));
+    cells.extend(axes.shown(point.difference).map(|d| Cell::number(Some(d), decimals)));
     cells.push(Cell::number(Some(point.length), decimals).class("strong"));
     cells.push(Cell::number(point.length_sigma, decimals));
     cells.push(Cell::number(point.test.map(|t| t.statistic), 1));
@@ -45,7 +48,7 @@ fn row(point: &Displacement, decimals: usize, judgement: &'static str, class: &'
 }
 
 /// Rows of the points of a kind.
-fn rows_of(pair: &Pair, reference: bool) -> Vec<Row> {
+fn rows_of(axes: ShownAxes, pair: &Pair, reference: bool) -> Vec<Row> {
     let decimals = decimals(pair);
     let of_kind = |p: &&Displacement| {
         let was_reference =
@@ -60,7 +63,7 @@ fn rows_of(pair: &Pair, reference: bool) -> Vec<Row> {
             (PointRole::Object, false) if p.moved => (words::moved(), "left warn"),
             (PointRole::Object, false) => (words::stable(), "left"),
         };
-        row(p, decimals, judgement, class)
+        row(axes, p, decimals, judgement, class)
     };
     pair.points.iter().filter(of_kind).map(one).collect()
 }
@@ -72,9 +75,11 @@ fn Displaced(reference: bool, title: fn() -> &'static str) -> impl IntoView {
     let sorting = RwSignal::new((!reference).then_some(Sorting { column: 6, descending: true }));
     // The unit stands once in the heading; what is copied has it in every column.
     let unit = Signal::derive(move || monitored.current().map(|ran| unit(&ran)).unwrap_or_default());
-    let bare = Signal::derive(|| columns(""));
-    let columns = Signal::derive(move || columns(&unit.get()));
-    let rows = Memo::new(move |_| monitored.pair().map(|(_, pair)| rows_of(&pair, reference)).unwrap_or_default());
+    let axes = move || ShownAxes::of(monitored.current().and_then(|ran| ran.found.axes));
+    let bare = Signal::derive(move || columns("", axes()));
+    let columns = Signal::derive(move || columns(&unit.get(), axes()));
+    let rows =
+        Memo::new(move |_| monitored.pair().map(|(_, pair)| rows_of(axes(), &pair, reference)).unwrap_or_default());
     let chosen = Signal::derive(move || monitored.point.get());
     let on_choose = Callback::new(move |id: String| monitored.point.set(Some(id)));
     let any = Memo::new(move |_| rows.with(|rows| !rows.is_empty()));

@@ -1,6 +1,7 @@
 //! One point through all epochs: components over time with their error bars, velocity, thresholds.
 
 use leptos::prelude::*;
+use sightline::axes::ShownAxes;
 use sightline::monitoring::{Limits, Monitoring, Series, SeriesValue, State, days};
 use sightline::report::epochs::{MONTH, speed};
 
@@ -20,7 +21,6 @@ const TOP: f64 = 14.0;
 const BOTTOM: f64 = 42.0;
 /// Small charts beside the one of the chosen point.
 const OTHERS: usize = 6;
-const AXES: [&str; 3] = ["dX", "dY", "dZ"];
 const CLASSES: [&str; 3] = ["x", "y", "z"];
 
 fn length(d: [f64; 3]) -> f64 {
@@ -236,8 +236,8 @@ fn chart(desk: Desk, found: &Monitoring, series: &Series, [low, high]: [f64; 2],
     }
 }
 
-fn legend() -> impl IntoView {
-    (0..3).map(|axis| view! { <li><svg width="14" height="12" viewBox="0 0 14 12" aria-hidden="true"><g class=CLASSES[axis]>{symbol(axis, 7.0, 6.0, 3.5)}</g></svg><span>{AXES[axis]}</span></li> }).collect_view()
+fn legend(axes: ShownAxes) -> impl IntoView {
+    axes.order().into_iter().map(move |axis| view! { <li><svg width="14" height="12" viewBox="0 0 14 12" aria-hidden="true"><g class=CLASSES[axis]>{symbol(axis, 7.0, 6.0, 3.5)}</g></svg><span>"d" {axes.letter(axis)}</span></li> }).collect_view()
 }
 
 fn chart_of_chosen(desk: Desk) -> Option<impl IntoView> {
@@ -250,7 +250,7 @@ fn chart_of_chosen(desk: Desk) -> Option<impl IntoView> {
         .any(|e| e.date.is_none())
         .then(|| view! { <p class="hint warn">{words::velocity_none}</p> });
     Some(view! {
-        <h2 class="section-head"><span>{words::components(&series.id)}</span><ul class="picture-legend time-legend">{legend()}<li>{words::bars}</li></ul></h2>
+        <h2 class="section-head"><span>{words::components(&series.id)}</span><ul class="picture-legend time-legend">{legend(ShownAxes::of(ran.found.axes))}<li>{words::bars}</li></ul></h2>
         {chart(desk, &ran.found, &series, range, false)}{undated}
     })
 }
@@ -281,8 +281,9 @@ fn velocity(desk: Desk) -> Option<impl IntoView> {
     let unit = unit(&ran);
     let smallest = s.iter().copied().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
     let places = if smallest.is_finite() { format::decimals_for(MONTH * smallest) } else { 3 };
-    let rows = (0..3).map(|axis| view! {
-        <tr><td class="left">{["X", "Y", "Z"][axis]}</td><td><b>{format::fixed(MONTH * v[axis], places)}</b></td><td>{format::fixed(MONTH * s[axis], places)}</td>
+    let axes = ShownAxes::of(ran.found.axes);
+    let rows = axes.order().into_iter().map(|axis| view! {
+        <tr><td class="left">{axes.letter(axis)}</td><td><b>{format::fixed(MONTH * v[axis], places)}</b></td><td>{format::fixed(MONTH * s[axis], places)}</td>
             <td>{if s[axis] > 0.0 { format::fixed(v[axis].abs() / s[axis], 1) } else { "–".to_owned() }}</td></tr>
     });
     let rows = rows.collect_view();
@@ -308,6 +309,7 @@ fn since_first(desk: Desk) -> Option<impl IntoView> {
     let unit = unit(&ran);
     let places = decimals(&ran.found);
     let limits = limits(desk, &series.id);
+    let axes = ShownAxes::of(ran.found.axes);
     let rows = ran.found.epochs.iter().enumerate().map(|(k, epoch)| {
         let date = epoch.date.clone().unwrap_or_else(|| words::without_date().to_owned());
         let date = date.chars().take(16).collect::<String>();
@@ -324,7 +326,7 @@ fn since_first(desk: Desk) -> Option<impl IntoView> {
             _ => ().into_any(),
         });
         view! {
-            <tr data-epoch=k.to_string()><td><b>{k}</b></td><td class="left">{date}</td>{value.difference.map(|d| view! { <td>{format::fixed(d, places)}</td> }).collect_view()}
+            <tr data-epoch=k.to_string()><td><b>{k}</b></td><td class="left">{date}</td>{axes.shown(value.difference).map(|d| view! { <td>{format::fixed(d, places)}</td> }).collect_view()}
                 <td><b>{format::fixed(l, places)}</b></td><td>{format::maybe(sigma_along(value), places)}</td><td class="left">{state}</td></tr>
         }.into_any()
     });
@@ -332,7 +334,7 @@ fn since_first(desk: Desk) -> Option<impl IntoView> {
     Some(view! {
         <h2 class="section-head"><span>{words::since_first} " " <span class="id">{unit}</span></span></h2>
         <table class="table" data-found="since-first">
-            <thead><tr><th>{words::number}</th><th class="left">{words::date}</th><th>"dX"</th><th>"dY"</th><th>"dZ"</th><th>{words::length}</th><th>"σ"</th><td class="left"></td></tr></thead>
+            <thead><tr><th>{words::number}</th><th class="left">{words::date}</th>{axes.names().map(|axis| view! { <th>"d" {axis}</th> }).collect_view()}<th>{words::length}</th><th>"σ"</th><td class="left"></td></tr></thead>
             <tbody>{rows}</tbody>
         </table>
         {limits.is_some().then(|| view! { <p class="hint">{words::compared_length}</p> })}

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use leptos::prelude::*;
+use sightline::axes::ShownAxes;
 use sightline::plan::Prediction;
 use sightline::project::{DatumKind, Plan, Role};
 
@@ -26,9 +27,11 @@ const BEGIN: [f64; 2] = [-0.6, 0.45];
 
 #[component]
 pub fn Views() -> impl IntoView {
+    let desk = expect_context::<Desk>();
     let upper = RwSignal::new(Look::Top);
     let lower = RwSignal::new(Look::Front);
-    let tab = move |look: Look, label: fn() -> &'static str| {
+    let tab = move |look: Look| {
+        let label = move || look_words(desk.axes(), look);
         let chosen = move || lower.with(|l| l.name() == look.name());
         view! {
             <button class="link" class:chosen=chosen aria-pressed=move || chosen().to_string() data-look=look.name()
@@ -36,15 +39,26 @@ pub fn Views() -> impl IntoView {
         }
     };
     view! {
-        <h2 class="section-head"><span>{words::top_view}</span><span class="aside">{words::drag_hint}</span></h2>
+        <h2 class="section-head"><span>{move || look_words(desk.axes(), Look::Top)}</span><span class="aside">{words::drag_hint}</span></h2>
         <Drawing look=upper/>
         <div class="section-head">
             <span class="looks">
-                {tab(Look::Front, words::front_view)}{tab(Look::Side, words::side_view)}{tab(Look::Space(BEGIN), words::space_view)}
+                {tab(Look::Front)}{tab(Look::Side)}{tab(Look::Space(BEGIN))}
             </span>
             <Legend/>
         </div>
         <Drawing look=lower/>
+    }
+}
+
+/// What a view of the plan shows, by the letters of the axes to the right and upwards.
+fn look_words(axes: ShownAxes, look: Look) -> String {
+    let [x, y, z] = [0, 1, 2].map(|axis| axes.letter(axis));
+    match look {
+        Look::Top => words::top_view(x, y),
+        Look::Front => words::elevation(x, z),
+        Look::Side => words::elevation(y, z),
+        Look::Space(_) => words::space_view().to_owned(),
     }
 }
 
@@ -193,12 +207,7 @@ fn Drawing(look: RwSignal<Look>) -> impl IntoView {
     let fencing = move || planning.fencing.get() && !matches!(look.get(), Look::Space(_));
     view! {
         <svg class="plan-view" class:fencing=fencing data-view=move || look.with(|l| l.name()) viewBox=format!("0 0 {WIDTH} {HEIGHT}") role="img"
-            aria-label=move || match look.get() {
-                Look::Top => words::top_view(),
-                Look::Front => words::front_view(),
-                Look::Side => words::side_view(),
-                Look::Space(_) => words::space_view(),
-            }
+            aria-label=move || look_words(desk.axes(), look.get())
             on:pointerdown=on_down on:pointermove=on_move on:pointerup=on_up on:pointercancel=on_up>
             {object}{points}{hints}{stations}{fenced}{rule}
         </svg>

@@ -109,13 +109,20 @@ fn Number(
 /// A number of the form.
 #[component]
 fn FormNumber(
-    label: Text,
+    #[prop(optional)] label: Option<Text>,
+    /// Along which axis it is measured, in place of a label.
+    #[prop(optional)]
+    along: Option<usize>,
     name: &'static str,
     #[prop(optional)] counts: bool,
     read: fn(&Form) -> Option<f64>,
     write: fn(&mut Form, f64),
 ) -> impl IntoView {
     let desk = expect_context::<Desk>();
+    let words = move || match (along, label) {
+        (Some(axis), _) => words::length_along(desk.axes().letter(axis)),
+        (None, label) => label.map_or(String::new(), |label| label().to_owned()),
+    };
     let form = move || desk.document.with(|d| d.project.plan.as_ref().and_then(|plan| plan.form));
     let value = Signal::derive(move || form().and_then(|f| read(&f)).map_or(String::new(), format::editable));
     let commit = move |typed: String| {
@@ -136,7 +143,7 @@ fn FormNumber(
         }
     };
     view! {
-        <label class="field"><span>{label}</span><Field value commit attr:name=name attr:inputmode="decimal"/></label>
+        <label class="field"><span>{words}</span><Field value commit attr:name=name attr:inputmode="decimal"/></label>
     }
 }
 
@@ -216,9 +223,9 @@ pub fn Inputs() -> impl IntoView {
         }
         .into_any(),
         "box" => view! {
-            <FormNumber label=words::length_x name="size-x" read=|f| size_of(f, 0) write=|f, v| set_size(f, 0, v)/>
-            <FormNumber label=words::length_y name="size-y" read=|f| size_of(f, 1) write=|f, v| set_size(f, 1, v)/>
-            <FormNumber label=words::length_z name="size-z" read=|f| size_of(f, 2) write=|f, v| set_size(f, 2, v)/>
+            <FormNumber along=0 name="size-x" read=|f| size_of(f, 0) write=|f, v| set_size(f, 0, v)/>
+            <FormNumber along=1 name="size-y" read=|f| size_of(f, 1) write=|f, v| set_size(f, 1, v)/>
+            <FormNumber along=2 name="size-z" read=|f| size_of(f, 2) write=|f, v| set_size(f, 2, v)/>
         }
         .into_any(),
         "cylinder" => view! {
@@ -349,19 +356,20 @@ fn set_size_px(plan: &mut Plan, value: Option<f64>, side: fn(&mut Camera) -> &mu
 fn Regions() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let rows = move || {
+        let axes = desk.axes();
         let regions = desk.document.with(|d| d.project.plan.as_ref().map_or(Vec::new(), |p| p.forbidden.clone()));
         let row = |region: sightline::project::Region| {
-            let corner = |c: [f64; 3]| c.map(format::compact).join(", ");
+            let corner = |c: [f64; 3]| axes.shown(c).map(format::compact).join(", ");
             // Drawn in one view, it reaches from end to end of the others.
-            let bounded: Vec<usize> =
-                (0..3).filter(|k| region.high[*k] < ENDLESS || region.low[*k] > -ENDLESS).collect();
+            let within = |k: &usize| region.high[*k] < ENDLESS || region.low[*k] > -ENDLESS;
+            let bounded: Vec<usize> = axes.order().into_iter().filter(within).collect();
             let told = if bounded.len() == 3 {
                 format!("{} … {}", corner(region.low), corner(region.high))
             } else {
                 let side = |k: &usize| {
                     format!(
                         "{} {} … {}",
-                        ["X", "Y", "Z"][*k],
+                        axes.letter(*k),
                         format::compact(region.low[*k]),
                         format::compact(region.high[*k])
                     )

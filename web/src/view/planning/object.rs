@@ -41,13 +41,14 @@ pub fn Points() -> impl IntoView {
     let shown = Signal::derive(move || {
         desk.document.with(|d| {
             let plan = d.project.plan.as_deref();
-            plan.filter(|plan| plan.form.is_none() && plan.points.len() <= SHOWN).map_or(String::new(), plan::listed)
+            plan.filter(|plan| plan.form.is_none() && plan.points.len() <= SHOWN)
+                .map_or(String::new(), |plan| plan::listed(plan, d.project.shown_axes()))
         })
     });
     view! {
         <label class="points-text">
             <span>{words::points_list}</span>
-            <textarea name="plan-points" rows="5" spellcheck="false" placeholder=words::points_hint prop:value=shown
+            <textarea name="plan-points" rows="5" spellcheck="false" placeholder=move || words::points_hint(desk.axes().list()) prop:value=shown
                 on:change=move |e| {
                     let typed = event::value(&e);
                     if !typed.trim().is_empty() {
@@ -75,12 +76,14 @@ pub fn Targets() -> impl IntoView {
         desk.edit_plan(Change::PlanEdited, |p| plan::set_diameter(p, value));
     };
     let facing = Memo::new(move |_| desk.document.with(|d| d.project.plan.as_deref().and_then(plan::facing)));
-    let choices = [
-        (Facing::Every, "every", words::facing_every as fn() -> &'static str),
-        (Facing::Front, "front", words::facing_front),
-        (Facing::Up, "up", words::facing_up),
-        (Facing::Outward, "outward", words::facing_outward),
-    ];
+    let choices =
+        [(Facing::Every, "every"), (Facing::Front, "front"), (Facing::Up, "up"), (Facing::Outward, "outward")];
+    let label = move |way: Facing| match way {
+        Facing::Every => words::facing_every().to_owned(),
+        Facing::Front => words::facing_front(desk.axes().letter(1)),
+        Facing::Up => words::facing_up(desk.axes().letter(2)),
+        Facing::Outward => words::facing_outward().to_owned(),
+    };
     view! {
         <label class="field">
             <span>{words::diameter}</span>
@@ -90,13 +93,13 @@ pub fn Targets() -> impl IntoView {
             <span>{words::facing}</span>
             <select name="facing" on:change=move |e| {
                 let name = event::value(&e);
-                if let Some((way, ..)) = choices.iter().find(|(_, n, _)| *n == name) {
+                if let Some((way, _)) = choices.iter().find(|(_, n)| *n == name) {
                     let way = *way;
                     desk.edit_plan(Change::PlanEdited, |p| plan::set_facing(p, way));
                 }
             }>
-                {choices.map(|(way, name, label)| view! {
-                    <option value=name selected=move || facing.get() == Some(way)>{label}</option>
+                {choices.map(|(way, name)| view! {
+                    <option value=name selected=move || facing.get() == Some(way)>{move || label(way)}</option>
                 })}
                 <Show when=move || facing.get().is_none()>
                     <option value="own" selected=true>{words::facing_own}</option>

@@ -43,7 +43,7 @@ pub fn ShootingPlan() -> impl IntoView {
         let prediction = settled.get();
         let row = |(k, station): (usize, sightline::project::PlanStation)| {
             let sight = prediction.as_ref().and_then(|p| p.stations.get(k));
-            let told = |place: [f64; 3]| place.map(|x| format::compact(rounded(x)));
+            let told = |place: [f64; 3]| desk.axes().shown(place).map(|x| format::compact(rounded(x)));
             let place = told(station.position);
             let aim = station.look_at.map_or(String::new(), |aim| told(aim).join(", "));
             let distance = sight.and_then(|s| s.distance).map_or(String::new(), format::compact);
@@ -63,23 +63,18 @@ pub fn ShootingPlan() -> impl IntoView {
         [|w| w.check_focus(), |w| w.check_light(), |w| w.check_targets(), |w| w.check_scale(), |w| w.check_photos()];
     let name = move || desk.document.with(|d| d.project.name.clone());
     let unit = move || desk.document.with(|d| d.project.unit.clone());
-    let heads: [fn(&dyn Words) -> &'static str; 9] = [
-        |w| w.taken(),
-        |w| w.number(),
-        |w| w.x(),
-        |w| w.y(),
-        |w| w.z(),
-        |w| w.look_at(),
-        |w| w.roll(),
-        |w| w.distance(),
-        |w| w.sees(),
-    ];
+    let heads: [fn(&dyn Words) -> &'static str; 6] =
+        [|w| w.taken(), |w| w.number(), |w| w.look_at(), |w| w.roll(), |w| w.distance(), |w| w.sees()];
     view! {
         <section class="shooting-plan">
             <h1>{in_all(|w| w.shooting_plan())} " " {name}</h1>
             <p>{in_all(|w| w.stations())} ", " {unit}</p>
             <table>
-                <thead><tr>{heads.map(|head| view! { <th>{in_all(head)}</th> }).collect_view()}</tr></thead>
+                <thead><tr>
+                    {heads[..2].iter().map(|head| view! { <th>{in_all(*head)}</th> }).collect_view()}
+                    {move || desk.axes().names().map(|axis| view! { <th>{axis}</th> }).collect_view()}
+                    {heads[2..].iter().map(|head| view! { <th>{in_all(*head)}</th> }).collect_view()}
+                </tr></thead>
                 <tbody>{rows}</tbody>
             </table>
             <h2>{in_all(|w| w.checklist())}</h2>

@@ -37,7 +37,7 @@ pub fn Stations() -> impl IntoView {
                         plan::move_station(plan, &id.get_value(), axis, number);
                     });
                 };
-                let name = ["X", "Y", "Z"][axis];
+                let name = desk.axes().letter(axis);
                 view! { <td><Field value commit attr:class="short" attr:aria-label=move || format!("{name} {}", id.get_value())/></td> }
             };
             let sight = move |read: fn(&sightline::plan::StationSight) -> String| {
@@ -55,7 +55,7 @@ pub fn Stations() -> impl IntoView {
                             desk.edit_plan(Change::PlanEdited, |plan| if let Some(s) = plan.stations.get_mut(k) { s.taken = on });
                         }/>
                     </td>
-                    {coordinate(0)}{coordinate(1)}{coordinate(2)}
+                    {desk.axes().order().map(coordinate).into_iter().collect_view()}
                     <td>
                         <button class="link" aria-label=move || words::turn_station(id.get_value()) on:click=move |_| {
                             desk.edit_plan(Change::StationMoved(id.get_value()), |plan| {
@@ -90,7 +90,7 @@ pub fn Stations() -> impl IntoView {
         <div class="scroll-x">
             <table class="table stations">
                 <thead><tr>
-                    <th class="left">{words::number}</th><th>{words::taken}</th><th>{words::x}</th><th>{words::y}</th><th>{words::z}</th>
+                    <th class="left">{words::number}</th><th>{words::taken}</th>{move || desk.axes().names().map(|axis| view! { <th>{axis}</th> }).collect_view()}
                     <th>{words::roll}</th><th>{words::distance}</th><th>{words::sees}</th><td></td>
                 </tr></thead>
                 <tbody>{rows}</tbody>
@@ -125,13 +125,13 @@ fn Aim() -> impl IntoView {
                 }
                 None => desk.warn_here(move || errors::refusal(&typed, text::not_a_number)),
             };
-            let name = ["X", "Y", "Z"][axis];
+            let name = desk.axes().letter(axis);
             view! { <Field value commit attr:class="short" attr:name=format!("aim-{}", name.to_lowercase()) attr:aria-label=move || format!("{} {name}", words::look_at())/> }
         };
         Some(view! {
             <p class="aim">
                 <span>{move || words::station_aim(named.clone())}</span>
-                {coordinate(0)}{coordinate(1)}{coordinate(2)}
+                {desk.axes().order().map(coordinate).into_iter().collect_view()}
             </p>
         })
     };

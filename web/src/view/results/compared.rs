@@ -118,25 +118,27 @@ fn Movements(
     let columns = Signal::derive(move || {
         let unit = desk.document.with(length_unit);
         let length = |name: fn() -> &'static str| Column::number(name).unit(unit.clone());
+        let difference = |axis| Column::axis(|| "Δ", axis).unit(unit.clone());
+        let [a, b, c] = desk.axes().names();
         vec![
             Column::words(if matches!(kind, Kind::Photos) { text::photo } else { text::id }),
-            length(|| "ΔX"),
-            length(|| "ΔY"),
-            length(|| "ΔZ"),
+            difference(a),
+            difference(b),
+            difference(c),
             length(|| "|Δ|"),
             length(words::largest_sigma),
             Column::number(words::times_sigma),
         ]
     });
     let rows = Memo::new(move |_| {
-        let limit = limit.get();
+        let (limit, axes) = (limit.get(), desk.axes());
         moved.with(|all| {
             let smallest =
                 all.iter().filter_map(|m| m.sigma).flatten().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
             let decimals = format::decimals_for(smallest);
             let row = |m: &Moved| {
                 let mut cells = vec![Cell::id(&m.id)];
-                cells.extend(m.difference.map(|d| Cell::number(Some(d), decimals)));
+                cells.extend(axes.shown(m.difference).map(|d| Cell::number(Some(d), decimals)));
                 cells.push(Cell::number(Some(m.length()), decimals));
                 cells.push(Cell::number(m.sigma.map(|s| s.into_iter().fold(0.0, f64::max)), decimals));
                 let over = m.ratio.is_some_and(|ratio| ratio > limit);

@@ -7,13 +7,14 @@ use super::read;
 use super::units::{length_unit, unit_of};
 use crate::format;
 use crate::i18n::text;
-use crate::store::Desk;
+use crate::store::{Desk, axes_here};
 use crate::view::adjust::{parameter_name, parameter_unit};
 use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 
 /// What was observed, by name: a point or photo with its axis, the ends of a distance, a parameter of a camera.
 pub fn given_name(what: &Given) -> String {
-    let axis = |axis: usize| ["X", "Y", "Z"].get(axis).copied().unwrap_or_default();
+    let axes = axes_here();
+    let axis = |axis: usize| axes.letter(axis);
     match what {
         Given::Control { point: id, axis: a } | Given::Position { photo: id, axis: a } => format!("{id} {}", axis(*a)),
         Given::Distance { from, to } => format!("{from} – {to}"),

@@ -21,15 +21,16 @@ use crate::view::table::{Cell, Column, CopyButton, NumberTable, Row, Sorting};
 pub(super) fn CheckPoints() -> impl IntoView {
     let desk = expect_context::<Desk>();
     let all = Memo::new(move |_| read(desk, |a, _| a.check_points.clone()));
+    let axes = Memo::new(move |_| desk.axes());
     let unit = Memo::new(move |_| desk.document.with(length_unit));
     view! {
         <Show when=move || all.with(|a| !a.is_empty())>
             <h2 class="section-head"><span>{text::check_points}</span><span class="aside">{text::adjusted_minus_given}</span></h2>
             <table class="table">
-                <thead><tr><th class="left">{text::id}</th>{["X", "Y", "Z"].map(|n| view! { <th>"Δ" {n} " " <u>{unit}</u></th> }).collect_view()}</tr></thead>
+                <thead><tr><th class="left">{text::id}</th>{move || axes.get().names().map(|n| view! { <th>"Δ" {n} " " <u>{unit}</u></th> }).collect_view()}</tr></thead>
                 <tbody>
                     {move || all.get().into_iter().map(|c| view! {
-                        <tr><td class="left id">{c.id}</td>{(0..3).map(|k| view! { <td>{format::maybe(c.difference.map(|d| d[k]), 4)}</td> }).collect_view()}</tr>
+                        <tr><td class="left id">{c.id}</td>{axes.get().order().map(|k| view! { <td>{format::maybe(c.difference.map(|d| d[k]), 4)}</td> }).collect_view()}</tr>
                     }).collect_view()}
                 </tbody>
             </table>
@@ -44,20 +45,17 @@ pub(super) fn PhotosTable() -> impl IntoView {
     let columns = Signal::derive(move || {
         let length = desk.document.with(length_unit);
         let unit = read(desk, |a, _| common_unit(a).1.to_owned());
-        vec![
+        let mut columns = vec![
             Column::words(text::photo),
             Column::number(text::points_column),
             Column::number(text::rms_x).unit(unit.clone()),
             Column::number(text::rms_y).unit(unit),
-            Column::number(|| "X").unit(length.clone()),
-            Column::number(|| "Y").unit(length.clone()),
-            Column::number(|| "Z").unit(length.clone()),
-            Column::number(|| "σ").low("X").unit(length.clone()),
-            Column::number(|| "σ").low("Y").unit(length.clone()),
-            Column::number(|| "σ").low("Z").unit(length),
-        ]
+        ];
+        columns.extend(Column::coordinates(desk.axes(), &length));
+        columns
     });
     let rows = Memo::new(move |_| {
+        let axes = desk.axes();
         read(desk, |a, _| {
             let factors = factors(a);
             // As the best of them is known: a column has one number of decimals.
@@ -69,8 +67,8 @@ pub(super) fn PhotosTable() -> impl IntoView {
                 let mut cells = vec![Cell::id(&p.id), Cell::count(p.points)];
                 cells.push(Cell::number(Some(p.rms_x * fx), 2 + usize::from(fx < 100.0)));
                 cells.push(Cell::number(Some(p.rms_y * fy), 2 + usize::from(fy < 100.0)));
-                cells.extend(p.position.map(|x| Cell::number(Some(x), decimals)));
-                cells.extend((0..3).map(|k| Cell::number(sigma.map(|s| s[k]), decimals)));
+                cells.extend(axes.shown(p.position).map(|x| Cell::number(Some(x), decimals)));
+                cells.extend(axes.order().map(|k| Cell::number(sigma.map(|s| s[k]), decimals)));
                 Row { key: p.id.clone(), cells, off: false }
             };
             a.photos.iter().map(row).collect::<Vec<_>>()
@@ -92,19 +90,12 @@ pub(super) fn PointsTable() -> impl IntoView {
     let sorting = RwSignal::new(Some(Sorting { column: 7, descending: true }));
     let columns = Signal::derive(move || {
         let unit = desk.document.with(length_unit);
-        let number = |name: fn() -> &'static str, low| Column::number(name).low(low).unit(unit.clone());
-        vec![
-            Column::words(text::id),
-            Column::number(text::rays),
-            number(|| "X", ""),
-            number(|| "Y", ""),
-            number(|| "Z", ""),
-            number(|| "σ", "X"),
-            number(|| "σ", "Y"),
-            number(|| "σ", "Z"),
-        ]
+        let mut columns = vec![Column::words(text::id), Column::number(text::rays)];
+        columns.extend(Column::coordinates(desk.axes(), &unit));
+        columns
     });
     let rows = Memo::new(move |_| {
+        let axes = desk.axes();
         read(desk, |a, _| {
             let largest = a.points.iter().filter_map(|p| p.sigma).map(|s| s[2]).fold(0.0_f64, f64::max);
             let typical = a.precision.as_ref().map_or(0.001, |p| p.rms_sigma.into_iter().fold(f64::INFINITY, f64::min));
@@ -112,8 +103,8 @@ pub(super) fn PointsTable() -> impl IntoView {
             let row = |p: &sightline::adjustment::AdjustedPoint| {
                 let rays = Cell::count(p.rays).class(if p.rays < 3 { "warn" } else { "" });
                 let mut cells = vec![Cell::id(&p.id), rays];
-                cells.extend(p.xyz.map(|x| Cell::number(Some(x), decimals)));
-                cells.extend((0..3).map(|k| Cell::number(p.sigma.map(|s| s[k]), decimals)));
+                cells.extend(axes.shown(p.xyz).map(|x| Cell::number(Some(x), decimals)));
+                cells.extend(axes.order().map(|k| Cell::number(p.sigma.map(|s| s[k]), decimals)));
                 if let (Some(s), Some(last)) = (p.sigma, cells.last_mut()) {
                     last.bar = (largest > 0.0).then(|| s[2] / largest);
                 }

@@ -21,7 +21,7 @@ pub fn Actions(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView 
     let naming = RwSignal::new(false);
     let switches = move || !matches!(table.get(), Table::Cameras | Table::Distances | Table::Identities);
     let points = move || matches!(table.get(), Table::Points | Table::Control);
-    let col = move || table.get().columns().get(desk.tables.col.get()).copied();
+    let col = move || sheet.with(|s| s.0.columns().get(desk.tables.col.get()).copied());
     let merges = move || points() && marked.get() > 1;
     let joins = move || table.get() == Table::Cameras && marked.get() > 1;
     let fills = move || marked.get() > 1 && col().is_some_and(|col| table.get().editable(col));

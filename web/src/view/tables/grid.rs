@@ -24,7 +24,7 @@ type Typing = Option<(u32, Col, Option<String>)>;
 /// Rows as a spreadsheet takes them: the marked ones, or all that are shown.
 pub fn copied(desk: Desk, sheet: &Sheet, rows: &[u32]) -> String {
     let marked = untrack(|| desk.marked(sheet.table.kind()));
-    let columns = sheet.table.columns();
+    let columns = sheet.columns();
     let cell = |row: &u32, col: &Col| quoted(&sheet.value(*row as usize, *col).plain(), '\t').into_owned();
     let line = |row: &u32| columns.iter().map(|c| cell(row, c)).collect::<Vec<_>>().join("\t");
     let mut lines = vec![columns.iter().map(|c| plain_heading(desk, sheet.table, *c)).collect::<Vec<_>>().join("\t")];
@@ -42,7 +42,7 @@ pub fn Grid(sheet: Memo<Shared>, rows: Memo<Arc<Vec<u32>>>) -> impl IntoView {
     let at = RwSignal::new(0_usize);
     let typing = RwSignal::new(None as Typing);
     let kind = move || sheet.with(|s| s.0.table.kind());
-    let columns = move || sheet.with(|s| s.0.table.columns());
+    let columns = move || sheet.with(|s| s.0.columns());
     let table = move || sheet.with(|s| s.0.table);
     Effect::new(move |_| {
         desk.tables.table.track();
@@ -284,7 +284,7 @@ fn Line(
     let (table, key) = (sheet.table, StoredValue::new(sheet.key(row as usize)));
     let marked = Memo::new(move |_| desk.selection.with(|s| key.with_value(|key| s.is_marked(table.kind(), key))));
     let focused = Memo::new(move |_| at.get() == k);
-    let cells = table.columns().iter().enumerate().map(|(c, &col)| {
+    let cells = sheet.columns().into_iter().enumerate().map(|(c, col)| {
         let value = sheet.value(row as usize, col);
         let words = shown(&value);
         let plain = StoredValue::new(value.plain());

@@ -37,6 +37,7 @@ pub fn table_words(table: Table) -> &'static str {
 /// A column's heading, and its unit where it has one.
 pub fn heading(desk: Desk, table: Table, col: Col) -> (String, String) {
     let unit = || desk.document.with_untracked(length_unit);
+    let axes = desk.document.with_untracked(|d| d.project.shown_axes());
     let (words, unit): (&str, String) = match col {
         Col::Id => (text::id(), String::new()),
         Col::File => (text::file(), String::new()),
@@ -51,12 +52,12 @@ pub fn heading(desk: Desk, table: Table, col: Col) -> (String, String) {
         Col::Model => (text::model(), String::new()),
         Col::Rays => (text::rays(), String::new()),
         Col::Role => (text::role(), String::new()),
-        Col::X => ("X", unit()),
-        Col::Y => ("Y", unit()),
-        Col::Z => ("Z", unit()),
-        Col::SigmaX => ("σX", unit()),
-        Col::SigmaY => ("σY", unit()),
-        Col::SigmaZ => ("σZ", unit()),
+        Col::X => (axes.letter(0), unit()),
+        Col::Y => (axes.letter(1), unit()),
+        Col::Z => (axes.letter(2), unit()),
+        Col::SigmaX => return (format!("σ{}", axes.letter(0)), unit()),
+        Col::SigmaY => return (format!("σ{}", axes.letter(1)), unit()),
+        Col::SigmaZ => return (format!("σ{}", axes.letter(2)), unit()),
         Col::Diameter => (text::diameter(), unit()),
         Col::Photo => (text::photo(), String::new()),
         Col::Point => (text::point_column(), String::new()),
