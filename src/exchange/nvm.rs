@@ -166,7 +166,7 @@ mod tests {
         for (from, to, line) in [
             ("1000 1 0 0 0", "-1 1 0 0 0", 4),
             ("2 0 7", "2 9 7", 8),
-            ("1 3 -320.5 200.25", "1 3 -320.5", 10),
+            ("1 3 -320.5", "1 x -320.5", 8),
             ("NVM_V3 ", "NVM_V3 FixedK 900 320 910 240", 1),
         ] {
             let error = read(&FILE.replace(from, to)).unwrap_err();

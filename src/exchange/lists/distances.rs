@@ -260,7 +260,7 @@ mod tests {
 
     #[test]
     fn what_is_open_is_refused_until_it_is_chosen() {
-        let text = "A B 1,234\nB C 2,345\n";
+        let text = "A\tB\t1,234\nB\tC\t2,345\n";
         let known = HashSet::from(["A", "B", "C"]);
         assert!(recognises(text, &known) && !recognises(text, &HashSet::from(["A"])));
         let first = |choices: &Choices| read(text, choices).rows[0].clone();
