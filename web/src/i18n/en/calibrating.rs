@@ -17,7 +17,6 @@ declare! { calibrating {
     photos: "2 Photos";
     photos_words: "Focus and zoom fixed. From several sides, some tilted by 30 to 45°, some rolled by 90°, the board also in the corners.";
     detect: "Find targets";
-    cover: "Look at the coverage";
     covering: "looking at what the photos cover";
     covered: "Coverage";
     by_radius: "Targets from the middle to the corner";

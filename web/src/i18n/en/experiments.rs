@@ -227,10 +227,9 @@ declare! { experiments {
     a_overall_means:
         "\"About 15, 35 and up to 50 %\" is taken over the distances of the paper's figures 4-6 to 4-9, 1.4 to 4.0 m: means for 3 and 4 photos, maximum decrease for 5. At 7.0 m more photos improve more.";
     a_pairwise:
-        "The paper's models formed pair by pair had random errors that did not follow the distance. With random image errors alone ours grow with the distance like the bundle's: the method by itself is not irregular. It becomes so where the second orientation of a shallow object is taken for the first.";
-    a_film_draws(n): "Figures of a reduction are root mean squares over {n} draws of the readings; which reduction is better in a single draw is partly chance.";
         "In the paper, the errors of models formed pair by pair were irregular with distance. With random image errors alone, ours grow with distance as those of the bundle do: the method itself is not irregular. It becomes irregular if the second solution of the relative orientation of a shallow object is chosen.";
     a_sigma0_draws(n): "S₀ is the root mean square of {n} simulated sets of noise for each network, with its σ; the paper has one set of readings.";
+    a_film_draws(n): "Figures of each correction method are root mean squares over {n} simulated sets of readings; with a single set, chance decides which method looks better.";
     a_gain_misprint(ours, paper): "The paper's table 5 prints {paper} % for Z in network I; its tables 3 and 4 give {ours} %. This is treated as a misprint and compared with {ours} %.";
     a_readings: "The readings are simulated: plates of the usual kind, read with the σ above. The paper prints none.";
     a_distortion: "The distortion table is simulated with the usual size: the paper shows it only as a drawing.";

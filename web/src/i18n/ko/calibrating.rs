@@ -17,7 +17,6 @@ translate! { Korean calibrating {
     photos: "2 사진";
     photos_words: "초점과 줌을 고정하고 여러 방향에서 찍습니다. 일부는 30~45° 기울이고 일부는 90° 돌려 찍으며, 판이 사진 모서리에도 오게 합니다.";
     detect: "표적 찾기";
-    cover: "분포 보기";
     covering: "사진의 분포를 살피는 중";
     covered: "분포";
     by_radius: "중심에서 모서리까지의 표적 수";
