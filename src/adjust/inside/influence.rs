@@ -19,6 +19,10 @@ use super::linear_system::{Columns, Equation, of_session};
 use super::sparse::SparseMatrix;
 use super::stepping::with_session;
 
+/// Cofactors of coordinates below this part of the largest are those of coordinates that a minimal datum holds, but for rounding: without
+/// the limit their ratio to the stated variances, rounding over rounding, would refuse every adjustment with a minimal datum.
+const HELD: f64 = 1e-9;
+
 /// An adjusted quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Quantity {
@@ -110,10 +114,12 @@ pub(crate) fn influences(project: &Project, adjustment: &Adjustment, quantities:
         let (solved, cofactors) = solved(&session, quantities, system.unknowns.len())?;
         let stated: HashMap<&str, [f64; 6]> =
             adjustment.points.iter().filter_map(|p| Some((p.id.as_str(), p.covariance?))).collect();
-        let factors = quantities.iter().zip(&cofactors).filter_map(|(quantity, cofactor)| {
+        let points = || quantities.iter().zip(&cofactors).filter(|(q, _)| matches!(q, Quantity::Point(..)));
+        let least = HELD * points().map(|(_, cofactor)| *cofactor).fold(0.0, f64::max);
+        let factors = points().filter_map(|(quantity, cofactor)| {
             let Quantity::Point(id, axis) = quantity else { return None };
             let variance = stated.get(id.as_str())?[[0, 3, 5][*axis]];
-            (*cofactor > 0.0).then(|| variance / cofactor)
+            (*cofactor > least).then(|| variance / cofactor)
         });
         let factors: Vec<f64> = factors.collect();
         let variance_factor = *factors.first().ok_or_else(another)?;
