@@ -1,6 +1,7 @@
 //! Tests with control tables of many programs.
 
 use super::*;
+use crate::axes::UserAxes;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -93,6 +94,8 @@ fn what_is_written_is_read_again() {
         "id,x,y,z,sx,sy,sz,role\n1,0.1,1e-3,-7.25,0.01,,0,control\n\"a,b\",1,2,3,,,,check\n\"two\nlines\",1,2,3\n\"#1\",1,2,3",
     );
     all.push(Point { id: "without coordinates".into(), ..Point::default() });
-    let again = points(&write(&all));
-    assert_eq!(again, all[..4]);
+    for axes in [None, Some(UserAxes::Enh), Some(UserAxes::Neh)] {
+        let again = points(&write(&all, ShownAxes::of(axes)));
+        assert_eq!(again, all[..4], "{axes:?}");
+    }
 }
