@@ -42,7 +42,7 @@ pub fn detectable(network: &PlannedNetwork<'_>, options: &Options) -> Vec<Option
     let defect = if network.scaled { 6 } else { 7 };
     let carriers: Vec<(usize, f64)> = network.reference.iter().map(|k| (*k, 1.0)).collect();
     let Some(datum) = Datum::new(network.places, &carriers, defect) else { return vec![None; n] };
-    let f = (network.redundancy > 0).then(|| 2.0 * network.redundancy as f64);
+    let f = (network.redundancy > 0).then_some(2.0 * network.redundancy as f64);
     let objects = n - network.reference.len();
     let own_level = |tested: usize| {
         levels(&vec![0.0; tested], options.correction, options.significance)
