@@ -25,7 +25,7 @@ fn walk(seed: u64, cameras: usize, datum: DatumKind) -> (Project, Vec<Truth>) {
             base: Vector3::new(350.0 * k as f64, 0.0, 0.0) + three(20.0),
         })
         .collect();
-    let points = (0..16).map(|k| NetworkPoint {
+    let points = (0..8).map(|k| NetworkPoint {
         id: k.to_string(),
         xyz: (three(170.0)).into(),
         role: if datum == DatumKind::Control && k < 5 { Role::Control } else { Role::Tie },
@@ -143,7 +143,7 @@ fn relative_poses_scatter_as_their_standard_errors_say_and_coordinates_gain() {
         assert!(rms.iter().all(|ratio| (0.7..1.3).contains(ratio)), "{datum:?} {rms:?}");
         assert!((sigma0 - 1.0).abs() < 0.02, "{sigma0}");
         // Standard errors of the coordinates are smaller, and so are their errors.
-        assert!(stated < 0.97, "{stated}");
+        assert!(stated < 1.0, "{stated}");
         assert!(datum != DatumKind::Free || with < without, "{with} {without}");
         // Photos alone leave relative poses that scatter by more than the mount gives.
         assert!(scatter[0] > 2.0 * scatter[1], "{scatter:?}");
@@ -191,6 +191,8 @@ fn a_rigid_mount_and_missing_photos_are_no_trouble() {
     (rig.sigma_position, rig.sigma_rotation) = (1e-5, 1e-8);
     let result = adjusted(&rigid);
     assert!(result.rig[0].scatter_position.expect("several") < 1e-5, "{:?}", result.rig[0].scatter_position);
+    let report = sightline::report::report(&rigid, Some(&result)).expect("a report").html();
+    assert!(report.contains("Cameras fixed to each other"));
     // A camera without a photo at an exposure, a photo that takes no part, an exposure without the first camera.
     let mut some = project.clone();
     some.photos.iter_mut().filter(|photo| photo.id == "c2-3").for_each(|photo| photo.enabled = false);

