@@ -1,5 +1,5 @@
-//! The three papers as runnable experiments, and one of our own: the same networks, simulated and adjusted here, with the papers' own
-//! figures beside ours.
+//! The three papers as runnable experiments, and one of our own: the same networks, simulated and adjusted here, and compared with
+//! the papers' figures.
 //!
 //! | name | paper | question |
 //! | --- | --- | --- |

@@ -1,5 +1,5 @@
-//! The adjustment for those who learn: a small network, one observation explained, datums and estimators beside each other, what a weight or
-//! a target's size does, and the quantities that lessons ask for. Every number is one of the adjustment's own or follows from its matrices.
+//! The adjustment for students: a small network, one observation explained, datums and estimators compared, the effect of a weight or of a
+//! target's size, and the quantities for lessons. Every number is one of the adjustment's own or follows from its matrices.
 
 mod datums;
 mod dense;

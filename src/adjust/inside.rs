@@ -1,5 +1,5 @@
-//! The adjustment laid open: its linearised observation equations, its normal equations and its iterations one by one, for teaching and
-//! for checking with other software.
+//! The adjustment for inspection: its linearised observation equations, its normal equations and its iterations one by one, for
+//! teaching and for checking with other software.
 
 pub(crate) mod influence;
 pub mod linear_system;

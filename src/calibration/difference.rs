@@ -1,5 +1,4 @@
-//! How far two calibrations differ: where the second camera sees what the first sees at a pixel, after the motion that brings them together
-//! best.
+//! Difference of two calibrations: image positions of the second camera minus those of the first, after the motion that aligns them best.
 //!
 //! For a pixel q the first camera gives the ray d, the point p = D d at a distance D. The motion p' = R p - t minimises Σ |b(p') - q|² over a
 //! region, b the second camera's projection, by Gauss and Newton's iteration from R = I, t = 0. What remains at the places of a grid, b(p') - q,

@@ -1,5 +1,4 @@
-//! Cross-validation: each part of the photos calibrates the camera by itself, and the cameras are compared with what their standard errors
-//! allow.
+//! Cross-validation: the camera is calibrated from each part of the photos, and the differences are compared with their standard errors.
 //!
 //! With the cameras a, b of two parts, d(q) the difference of the pixels at which they see one direction (after the motion that brings them
 //! together best), and Σ_q the projection uncertainty of each:

@@ -1,5 +1,5 @@
-//! What the rim of a target shows: edges on rays across it, the ellipse through them, how steep they are and what lies
-//! around them. Knows grey levels and outlines, nothing of how an outline was come by.
+//! The rim of a target: edge points on rays across it, the ellipse through them, edge widths, and the annulus around
+//! it. Independent of how an outline was found.
 
 pub(crate) mod blur;
 pub(crate) mod edge;

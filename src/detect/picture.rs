@@ -1,5 +1,5 @@
-//! What is true of a picture as a whole: its noise, its range, where it is clipped, how it was
-//! sharpened; and the picture made of it in which the sharpening is undone.
+//! Properties of a whole picture: noise, grey level range, saturation, sharpening; and a copy in which the
+//! sharpening is reversed.
 
 pub(crate) mod character;
 pub(crate) mod dither;

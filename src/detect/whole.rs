@@ -1,5 +1,5 @@
-//! Photos of which some rows are damaged: what lies between is measured as pictures of their own, so that what the damage cuts is
-//! rejected at the border.
+//! Photos with damaged rows: the intact parts are measured as separate pictures, so that targets cut by the damage are rejected
+//! at the border.
 
 use super::{check, detect, measure_at};
 use crate::decode::Photo;

@@ -1,5 +1,5 @@
-//! Texts of any editor and spreadsheet as characters: UTF-8, UTF-16 and CP949, told apart by what is in them; lists of points in
-//! Windows-1252 too, where nothing else is left.
+//! Decodes text files: UTF-8, UTF-16 and CP949, recognised by content; lists of points also in Windows-1252 if no other encoding
+//! fits.
 //!
 //! A mark at the beginning decides. Without one, bytes of 0 speak for UTF-16, in the order that has more of them where ASCII
 //! has its upper byte; what is good UTF-8 is UTF-8; and what is good CP949 and mostly everyday Korean is that, which texts in

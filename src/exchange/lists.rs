@@ -1,5 +1,5 @@
-//! Lists of points as programs and instruments write them, recognised by what is in them: tables ([`control_csv`]), Leica GSI, Sokkia SDR,
-//! Trimble JobXML, LandXML, ground control points of ODM.
+//! Lists of points of programs and instruments, recognised by content: tables ([`control_csv`]), Leica GSI, Sokkia SDR, Trimble JobXML,
+//! LandXML, ground control points of ODM.
 //!
 //! What was understood, assumed, rejected and left aside is in the result; what nothing decides is marked [`Basis::Undecided`] and asked,
 //! never guessed. Every choice can be made by the caller ([`Choices`]).

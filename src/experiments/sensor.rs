@@ -1,5 +1,5 @@
-//! What a photo loses between the sensor and its JPEG: the same exposures, measured on the sensor's green sites and after every step that a
-//! camera takes to a JPEG, adjusted to coordinates each time.
+//! Loss of accuracy between the sensor and its JPEG: the same exposures, measured on the sensor's green pixels and after every processing
+//! step of a camera, adjusted to coordinates each time.
 //!
 //! No paper's experiment: six convergent photos of a field of targets in relief, self-calibrated in a free network that is laid on
 //! the true coordinates, so that centres and coordinates have errors, not only standard errors.

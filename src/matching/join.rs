@@ -1,5 +1,5 @@
-//! New points that are points there are: no photo shows both, and their rays meet as well together as apart, or one lies within the
-//! other's disc, where no second target has a place.
+//! Merges new points with known ones: no photo shows both, and their rays intersect as well together as separately, or one lies
+//! within the other's disc, where no second target fits.
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,5 @@
-//! Points whose rays speak for two places alike: as many meet in the one as in the other. One name was given to two targets, and nothing
-//! tells which of them it belongs to. Such a point is not determined; its measurements wait for somebody to decide.
+//! Points whose rays intersect at two positions, equally many at each. One name was given to two targets, and it is undecided which of
+//! them it belongs to. Such a point is not determined; the user is asked.
 
 use crate::initial::intersection::{Ray, intersect};
 

@@ -1,5 +1,5 @@
-//! What keeps an adjustment of the oriented project from its end is given up: points that run away along nearly parallel
-//! rays, and what a rank defect names. A wrong name left in a point of two rays is the usual cause.
+//! Removes data that keep an adjustment of the oriented project from converging: points that diverge along nearly
+//! parallel rays, and the data named by a rank defect. A wrong name left in a point of two rays is the usual cause.
 
 use std::collections::{BTreeMap, BTreeSet};
 

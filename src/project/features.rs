@@ -1,5 +1,5 @@
-//! What is measured on the result: geometric features of points, coordinate systems of the object's own, lines between points in
-//! layers. They take no part in the adjustment; they are computed with each of its results ([`crate::features`]).
+//! Definitions of measurements on the result: geometric features of points, coordinate systems of the object, lines between
+//! points in layers. They take no part in the adjustment; they are computed with each of its results ([`crate::features`]).
 
 use serde::{Deserialize, Serialize};
 

@@ -1,5 +1,5 @@
-//! What a document must hold before anything is computed from it: unique identifiers, known references, finite numbers,
-//! sizes and standard errors that make sense. Every complaint names the place and what to do.
+//! Validation of a document before any computation: unique identifiers, known references, finite numbers, plausible
+//! sizes and standard errors. Every complaint names the place and what to do.
 
 use std::collections::{HashMap, HashSet};
 

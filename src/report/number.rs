@@ -1,5 +1,5 @@
-//! Numbers as people read them, in the report and on the desk alike: so many digits as their standard error has two. Exports of
-//! data do not pass through here.
+//! Formatting of numbers, the same in the report and on the desk: as many digits as two digits of the standard error. Exports
+//! of data do not pass through here.
 
 /// Thin space between groups of three digits.
 pub const GROUP: char = '\u{2009}';

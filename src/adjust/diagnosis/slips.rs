@@ -1,5 +1,5 @@
-//! Slips that pass for a rank defect: a standard error in another unit or off by digits, whose weight drowns all others, and a photo
-//! that stands where it cannot see what was measured in it.
+//! Input errors that look like a rank defect: a standard error wrong by digits or a unit, whose weight dominates all others, and a
+//! photo placed where it cannot see its measurements.
 
 use crate::adjust::problem::network::Network;
 use crate::adjust::problem::state::State;

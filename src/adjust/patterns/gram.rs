@@ -1,5 +1,5 @@
-//! What the unknowns leave of displacement fields: G = ZᵀPRZ and b = ZᵀP(e + Aδ), with R = I - AN⁻¹AᵀP, and fields taken out one after the
-//! other.
+//! The part of displacement fields that the unknowns do not absorb: G = ZᵀPRZ and b = ZᵀP(e + Aδ), with R = I - AN⁻¹AᵀP, and fields
+//! removed one after the other.
 //!
 //! δ is the step that the converged equations still ask for, some 1e-8 standard errors: of a field of which the unknowns leave a thousandth
 //! it would change b by a thousand times that.

@@ -1,5 +1,5 @@
-//! What the parts of a design show of each ray: the model of [`radial`](super::radial), which depends on a dot's outline and blur
-//! alone. Every perspective has the same, opposite rays have the same, and so has each ray's normal matrix.
+//! Predicted levels of the parts of a design along each ray: the model of [`radial`](super::radial), which depends only on a
+//! dot's outline and blur. Every perspective has the same, opposite rays have the same, and so has each ray's normal matrix.
 
 use std::ops::Range;
 use std::rc::Rc;

@@ -1,5 +1,5 @@
-//! What a camera has done to a picture, as far as its rows show it: sharpened edges, clipped samples, blocks of a JPEG, noise of
-//! which neighbours know. It decides whether a picture is searched as a laboratory's or softened as well.
+//! In-camera processing, estimated from the rows of a picture: sharpened edges, saturated samples, JPEG blocks, noise
+//! autocorrelation. It decides whether a picture is searched as a laboratory's or softened as well.
 
 use super::noise::Levels;
 use crate::detect::acceptance::picture as limits;

@@ -1,5 +1,4 @@
-//! What reading a table took for granted, as data: each with what it rests on, so that it can be shown and, where nothing
-//! decides, asked.
+//! Assumptions made when reading a table, as data: each with its basis, so that it can be shown or, if undecided, asked.
 
 use serde::{Deserialize, Serialize};
 

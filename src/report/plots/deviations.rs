@@ -1,5 +1,5 @@
-//! Deviations of points from a fitted form, each at its place on the form laid flat: a plane from above, a cylinder unrolled, a sphere
-//! by longitude and latitude, a circle by its angle, a line along its length.
+//! Deviations of points from a fitted form, each at its position on the flattened form: a plane from above, a cylinder unrolled, a
+//! sphere by longitude and latitude, a circle by its angle, a line along its length.
 
 use nalgebra::Vector3;
 

@@ -1,5 +1,5 @@
-//! What is done with many rows at once: excluding, deleting, roles, names by a pattern or by the nearest given coordinates,
-//! joining and parting points and cameras.
+//! Edits of many rows at once: excluding, deleting, roles, names by a pattern or by the nearest given coordinates, merging
+//! and splitting points and cameras.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,5 +1,6 @@
-//! Edits of the document: plain functions on [`Project`](sightline::project::Project), apart from signals and jobs. Each
-//! does one thing, says what else it did, and refuses what would damage the document. The desk's verbs make them undoable.
+//! Edits of the document: plain functions on [`Project`](sightline::project::Project), independent of signals and jobs.
+//! Each does one thing, says what else it did, and refuses what would damage the document. The desk's verbs make them
+//! undoable.
 
 pub mod attaching;
 pub mod cameras;

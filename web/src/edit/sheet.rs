@@ -1,4 +1,4 @@
-//! The document as tables: what stands in each cell. Nothing is copied until a row is looked at, so that a hundred thousand
+//! The document as tables: the content of each cell. Nothing is copied until a row is read, so that a hundred thousand
 //! rows cost no more than their order.
 
 use std::cmp::Ordering;

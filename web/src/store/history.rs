@@ -1,5 +1,5 @@
-//! What has been done to the document, and undoing that. The states before and after the present one are kept as what differs from the next
-//! one towards it, so that an edit takes the room of what it changes.
+//! The history of the document, with undo. The states before and after the present one are kept as what differs from the next one towards
+//! it, so that an edit takes the room of what it changes.
 
 use std::sync::Arc;
 

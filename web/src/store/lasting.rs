@@ -1,5 +1,5 @@
-//! Work that is asked for by the way (a photo to be seen, plots, a comparison, sheets): it waits in front, and where it lasts, what it
-//! is stands below the head with the button that stops it.
+//! Secondary work (a photo to display, plots, a comparison, sheets): it goes first in the queue, and if it takes long, its name is
+//! shown below the head with a button to cancel it.
 
 use std::cell::Cell;
 use std::rc::Rc;

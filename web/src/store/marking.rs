@@ -1,5 +1,5 @@
-//! Measuring by hand, point after point through the photos: what is clicked is taken at once, and the next photo that should
-//! show the point comes forward.
+//! Measuring by hand, point after point through the photos: each click is stored at once, and the next photo that should
+//! show the point is shown.
 
 use std::collections::BTreeSet;
 

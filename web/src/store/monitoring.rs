@@ -1,5 +1,5 @@
-//! Monitoring: the epochs that are compared, how, and what was found. Epochs come from projects kept in this browser, project files and
-//! lists of points; the comparison runs in a worker.
+//! Monitoring: epochs, options and result. Epochs come from projects kept in this browser, project files and lists of points; the
+//! comparison runs in a worker.
 
 mod coming;
 mod in_photos;

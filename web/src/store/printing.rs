@@ -1,5 +1,4 @@
-//! Targets to print: what is wanted, what a worker draws of it, and handing over its files. It is no part of the document: the choice is kept
-//! as a preference.
+//! Targets to print: options, drawings by a worker, and saving the files. It is no part of the document: the choice is kept as a preference.
 
 use leptos::prelude::*;
 use sightline::Error;

@@ -1,5 +1,5 @@
-//! A list of points before it is taken: how it was understood, what is asked, which lines are rejected, and what will be in the project. On step
-//! 4 it stands among the other tables, on every other step over what is there.
+//! Preview of a list of points before its import: how it was read, open questions, rejected lines, and resulting points. On step 4 it stands
+//! among the other tables, on every other step over what is there.
 
 mod words;
 

@@ -1,5 +1,5 @@
-//! Measuring a point in photo after photo: what is asked about the chosen point in the photo that is shown, with one key or
-//! button an answer.
+//! Measuring a point in photo after photo: questions about the selected point in the photo shown, with one key or button
+//! per answer.
 
 use leptos::prelude::*;
 

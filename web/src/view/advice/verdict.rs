@@ -1,5 +1,5 @@
-//! The verdict on a result in one sentence, and what to do next: of a failed global test the most likely cause, by what the adjustment
-//! itself advises.
+//! The verdict on a result in one sentence, and the next action: for a failed global test the most likely cause, according to the
+//! advice of the adjustment.
 
 use leptos::prelude::*;
 use sightline::adjustment::{Adjustment, Advice, Given};

@@ -1,5 +1,5 @@
-//! Where the numbers of stations stand in a drawing, so that none lies on another: stations that are seen at one place share a
-//! line, and a number that finds no room beside its station stands further off, with a thin line to it.
+//! Positions of station numbers in a drawing without overlaps: stations at one position share a line, and a number without
+//! space next to its station is placed farther away, with a thin line to it.
 
 use super::frame::{HEIGHT, WIDTH};
 
