@@ -1,6 +1,6 @@
 //! Reasons of invalid input, as data: a name and the values of its sentence.
 //!
-//! Each reason has its English sentence beside it; the desk has one for each in every other language.
+//! Each reason has its English sentence; the desk translates it into every other language.
 
 use std::fmt;
 
@@ -272,7 +272,7 @@ reasons! {
     Unreadable { name: String, message: String } => "{name}: {message}";
 }
 
-/// A number that a sentence quotes. What is no finite number travels as null.
+/// A number in a sentence. A number that is not finite is null in JSON.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number(pub f64);
 
@@ -300,7 +300,7 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-/// Names, told with commas between them.
+/// Names, separated by commas.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Names(pub Vec<String>);
 
@@ -373,7 +373,7 @@ words! {
 }
 
 words! {
-    /// What there is none of.
+    /// What is missing.
     Lack {
         Photos = "photos" => "photos";
         Points = "points" => "points";
@@ -403,7 +403,7 @@ words! {
 }
 
 words! {
-    /// What an argument has to be.
+    /// The expected kind of an argument.
     Expected {
         Object = "object" => "an object";
         Objects = "objects" => "a list of objects";
@@ -421,11 +421,11 @@ words! {
         Role = "role" => "tie, control or check";
         NumberOrNull = "number_or_null" => "a number or null";
         ThreeOrNull = "three_or_null" => "three finite numbers or null";
-        Plain = "plain" => "plain data: objects, lists, texts, numbers, true, false and null are taken";
-        Tree = "tree" => "a tree: it holds itself";
-        Shallower = "shallower" => "nested as little as an argument has to be, 32 deep";
-        Smaller = "smaller" => "as small as an argument has to be";
-        Attached = "attached" => "there any more: its buffer was handed over";
+        Plain = "plain" => "plain data: objects, lists, texts, numbers, true, false and null are allowed";
+        Tree = "tree" => "a tree: it contains itself";
+        Shallower = "shallower" => "nested at most 32 levels deep";
+        Smaller = "smaller" => "small enough for an argument";
+        Attached = "attached" => "available any more: its buffer was transferred";
         SigmasOrNull = "sigmas_or_null" => "three values, numbers or null, or null";
     }
 }
