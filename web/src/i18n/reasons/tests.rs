@@ -1,6 +1,6 @@
 //! Tests of the words of reasons.
 
-use sightline::error::PictureKind;
+use sightline::error::{Lack, PictureKind, Thing};
 
 use super::*;
 
