@@ -39,7 +39,7 @@ fn walk(seed: u64, cameras: usize, datum: DatumKind) -> (Project, Vec<Truth>) {
         let place = [1400.0 * turn.cos(), 1400.0 * turn.sin(), 500.0 + 150.0 * f64::from(e % 3)];
         let first = Station::aimed(format!("c0-{e}"), "c0", place, three(40.0).into(), turn * 2.0);
         let pose = first.pose().expect("an aim");
-        let m: Matrix3<f64> = pose.object_to_camera.into();
+        let m: Matrix3<f64> = pose.object_to_camera;
         let mut together = vec![Some(first.id.clone())];
         stations.push(first);
         for (k, truth) in truths.iter().enumerate() {
