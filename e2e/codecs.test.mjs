@@ -65,7 +65,7 @@ test('HEIC and RAW are opened and measured, and without one no decoder is fetche
     const found = count(await page.textContent('[data-step=targets] .figure'));
     assert.ok(found > 80, `${found} targets`);
     await page.locator('.strip [data-photo]').nth(1).click();
-    await page.waitForFunction(() => /green sites \(RGGB\)/.test(document.querySelector('[data-result=picture]')?.textContent ?? ''));
+    await page.waitForFunction(() => /green pixels \(RGGB\)/.test(document.querySelector('[data-result=picture]')?.textContent ?? ''));
     // What was asked for once is there without a network from then on.
     const kept = () => page.evaluate(async () => {
       const all = await Promise.all((await caches.keys()).map(async (key) => (await (await caches.open(key)).keys()).map(({ url }) => url)));

@@ -174,3 +174,36 @@ test('files for spreadsheets, CAD and surveyors are offered', longer, async () =
     await close();
   }
 });
+
+test('a project that names the north first shows, takes and writes N, E, H', longer, async () => {
+  const { page, errors, close } = await open({ width: 1366, height: 768 });
+  try {
+    await opened(page);
+    await go(page, 'photos');
+    await drop(page, [scratch('north.csv', '점명,X(N) [m],Y(E) [m],Z(H) [m]\nP1,5000.25,3000.5,31.125\nP2,5001.25,3002.5,31.5\n')]);
+    await sheet(page);
+    // The list says its axes, and the sheet how the project will be shown.
+    assert.equal(await page.inputValue('[name=list-shown-axes]'), 'neh');
+    assert.deepEqual(await page.$$eval('.import .preview th', (all) => all.map((th) => th.textContent.trim()).slice(2, 5)), ['N m', 'E m', 'H m']);
+    await take(page).click();
+    await page.waitForFunction(() => location.hash === '#control');
+    assert.equal(await page.inputValue('[name=axes]'), 'neh');
+    assert.equal(await page.getAttribute('#paste', 'placeholder'), 'Paste rows here: id, N, E, H, sN, sE, sH');
+    // The first field of a row is the northing: typed, it is the second coordinate inside.
+    await page.fill('[aria-label="P1 N"]', '5000.75');
+    await page.press('[aria-label="P1 N"]', 'Enter');
+    await page.fill('[aria-label="P1 σ N"]', '0.002');
+    await page.press('[aria-label="P1 σ N"]', 'Enter');
+    const first = await saved(page);
+    const point = first.points.find(({ id }) => id === 'P1');
+    assert.deepEqual([first.axes, point.xyz, point.sigma], ['neh', [3000.5, 5000.75, 31.125], [null, 0.002, null]]);
+    // A list of distances, dropped: one end is not there.
+    await drop(page, [scratch('bars.csv', 'from,to,length [mm],sigma [mm]\nP1,P2,2272,0.5\nP1,Q,100,0.5\n')]);
+    await page.waitForFunction(() => /1 distance taken/.test(document.body.textContent));
+    const { distances } = await saved(page);
+    assert.ok(Math.abs(distances[0].length - 2.272) < 1e-12 && distances.length === 1);
+    assert.deepEqual(errors, []);
+  } finally {
+    await close();
+  }
+});

@@ -130,7 +130,7 @@ fn Figures(figures: Vec<Figure>) -> impl IntoView {
         .collect_view();
     view! {
         <TableHead id="figures" title=Signal::derive(|| words::figures().to_owned()) aside=Signal::derive(String::new)/>
-        <div class="framed scroll">
+        <div class="framed scroll" tabindex="0">
             <table class="table">
                 <thead><tr>
                     <th class="left">{words::figure}</th>
@@ -223,7 +223,7 @@ fn Numbers(table: Table) -> impl IntoView {
     let aside = Signal::derive(move || words::rows(format::count(count)));
     view! {
         <TableHead id=id.clone() title aside/>
-        <div class="framed scroll" data-table=id>
+        <div class="framed scroll" data-table=id tabindex="0">
             <table class="table"><thead><tr>{heads}</tr></thead><tbody>{body}</tbody></table>
         </div>
     }

@@ -88,7 +88,7 @@ fn Fits(reduced: Reduced) -> impl IntoView {
             .collect_view();
         view! {
             <h2 class="section-head"><span>{words::t_distortion}</span></h2>
-            <div class="framed scroll"><table class="table">
+            <div class="framed scroll" tabindex="0"><table class="table">
                 <thead><tr>
                     <th>{words::radius} " " <u>"mm"</u></th>
                     <th>{words::table} " " <u>"µm"</u></th>
@@ -109,7 +109,7 @@ fn Fits(reduced: Reduced) -> impl IntoView {
             <span>{words::t_fiducials}</span>
             <span class="aside">{move || kind.map(names::name)}</span>
         </h2>
-        <div class="framed scroll" data-table="own-fiducials"><table class="table">
+        <div class="framed scroll" data-table="own-fiducials" tabindex="0"><table class="table">
             <thead><tr>
                 <th class="left">{words::photo}</th>
                 <th class="left">{words::mark}</th>
