@@ -16,7 +16,7 @@ declare! { equipment {
     no_bars: "No scale bar is stored yet. Enter the values of its certificate. If both ends are coded and seen in two photos, its distance is used without further input.";
     of_this_result: "From the current result";
     keep_calibration: "Keep this calibration";
-    calibration_kept(camera): "The calibration of {camera} is kept on this computer.";
+    calibration_kept(camera): "The calibration of {camera} is stored on this computer.";
     calibrated_on(date): "calibrated on {date}";
     remove_camera(camera): "Remove the camera {camera}";
     remove_calibration(date): "Remove the calibration of {date}";
