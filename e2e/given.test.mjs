@@ -139,7 +139,7 @@ test('measured photos whose contents are not recorded are asked about once', lon
     await opened(page, project([]));
     await drop(page, [scratch('DSC_0001.JPG', measured), scratch('DSC_0002.JPG', third)]);
     await asked(page);
-    assert.match(await page.textContent('.asking'), /2 files with the name and size of measured photos: DSC_0001\.JPG, DSC_0002\.JPG/);
+    assert.match(await page.textContent('.asking'), /2 files have the name and size of measured photos: DSC_0001\.JPG, DSC_0002\.JPG/);
     await pictures(page, 'photos-unrecorded');
     await answer(page, 'The same photos');
     await idle(page);
