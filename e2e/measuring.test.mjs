@@ -31,7 +31,7 @@ test('a target that has a name shows it at every step, and renaming says what it
     assert.match(await page.textContent('.panel.point .hint'), /Renames only the observation in photo sample-1/);
     await page.fill('[name=point-name]', '9500');
     await page.press('[name=point-name]', 'Enter');
-    assert.match(await notice(page), /was point 11 in photo sample-1; it is 9500 now/);
+    assert.match(await notice(page), /in photo sample-1 was point 11 and is now 9500/);
     assert.deepEqual(Object.keys(await places(page)), ['sample-1']);
     await page.locator('canvas.photo').focus();
     await page.keyboard.press('Control+z');
