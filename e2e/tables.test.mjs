@@ -29,8 +29,8 @@ test('rows are marked, typed into, excluded, renamed, filled and pasted, and eve
     await cell(page, first, 'Id').click();
     await cell(page, third, 'Id').click({ modifiers: ['Shift'] });
     await cell(page, fourth, 'Id').click({ modifiers: ['Control'] });
-    assert.match(await page.textContent('.sheet-actions .count'), /^4 marked/);
-    assert.match(await page.textContent('.foot .chosen'), /4 marked/);
+    assert.match(await page.textContent('.sheet-actions .count'), /^4 selected/);
+    assert.match(await page.textContent('.foot .chosen'), /4 selected/);
 
     // Excluded, found by that, restored by undoing; the step has its name.
     await page.click('[data-action=exclude]');
