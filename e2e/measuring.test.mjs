@@ -41,7 +41,7 @@ test('a target that has a name shows it at every step, and renaming says what it
 
     await page.fill('[name=point-name]', '9500');
     await page.press('[name=point-name]', 'Enter');
-    assert.match(await notice(page), new RegExp(`Point 11 is now 9500, in ${photos} photos`));
+    assert.match(await notice(page), new RegExp(`Point 11 renamed to 9500 in ${photos} photos`));
     assert.equal(Object.keys(await places(page)).length, photos);
     // A name that cannot be taken says why and leaves the field.
     await page.fill('[name=point-name]', '12');

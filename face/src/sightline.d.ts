@@ -2314,7 +2314,7 @@ export interface EpochsExport {
 /** What `displacementsInPhotos` gives for a photo, pixels. */
 export interface PhotoDisplacements {
   photo: string;
-  /** From the point to where it would be, displaced by the factor; length in the unit of the epochs. */
+  /** From the point to its place displaced by the factor; length in the unit of the epochs. Ends behind the camera are left out. */
   vectors: { point: string; from: [number, number]; to: [number, number]; length: number; moved: boolean }[];
 }
 

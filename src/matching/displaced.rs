@@ -37,7 +37,7 @@ pub struct PhotoVector {
 pub struct PhotoVectors {
     /// Identifier of the photo.
     pub photo: String,
-    /// Of the points that are measured in it.
+    /// Of the points that are measured in it; a displacement that ends behind the camera at this factor is left out.
     pub vectors: Vec<PhotoVector>,
 }
 

@@ -164,7 +164,7 @@ test('every field that the engine returns is declared, and every declared field 
   assert.match(exported('report', { settings: { language: 'ko' } }), /lang="ko".*변위/s);
   assert.equal(thrown(() => sightline.exportEpochs(monitoring, 'obj')).code, 'unknown');
   assert.equal(thrown(() => sightline.exportEpochs(monitoring, 'dxf', { pair: 99 })).code, 'unknown');
-  const shown = sightline.displacementsInPhotos(project, adjustments[0], monitoring.pairs[1], 1000);
+  const shown = sightline.displacementsInPhotos(project, adjustments[0], monitoring.pairs[1], 10);
   assert.equal(shown.length, project.photos.length);
   const arrow = shown[0].vectors.find(({ point }) => point === 'p4');
   assert.ok(arrow.moved && Math.hypot(arrow.to[0] - arrow.from[0], arrow.to[1] - arrow.from[1]) > 1, JSON.stringify(arrow));
